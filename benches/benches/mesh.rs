@@ -1,7 +1,8 @@
 //! Both stages, and the scan where there is one: the mesh from control points.
 //!
-//! `mesh` is into the caller's own slices, used again and again; `mesh-cold` the same with nothing of it in the caches;
-//! `mesh-fresh` into memory that is new each time, plan, session and upload included.
+//! `mesh` is into the caller's own slices, used again and again; `mesh-cold` the same with nothing
+//! of it in the caches; `mesh-fresh` into memory that is new each time, plan, session and upload
+//! included.
 #![allow(
     missing_docs,
     clippy::unwrap_used,

@@ -44,7 +44,8 @@ fn case(
             criterion,
             &Bench { stage: "trajectory", fabric, size, backend, elements, bytes },
             || {
-                // An upload makes the session forget its rings, and rolls where there are some; one point costs next to nothing.
+                // An upload makes the session forget its rings, and rolls where there are some; one
+                // point costs next to nothing.
                 session.upload(0, &yarns.points()[..1]).unwrap();
                 session.scan().unwrap();
                 timed(|| session.trajectory(&chunks[0]).unwrap())

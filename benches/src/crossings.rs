@@ -1,4 +1,5 @@
-//! Crossings on devices: what a pass costs beside a plain fill of the bytes that it moves, and how long cloth takes to rest.
+//! Crossings on devices: what a pass costs beside a plain fill of the bytes that it moves, and how
+//! long cloth takes to rest.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -19,7 +20,8 @@ const FILL: u64 = 1 << 30;
 /// Passes at once.
 const PASSES: usize = 10;
 
-/// A Jacquard of ends x picks that nowhere repeats: satin of 8 with a figure in plain weave, at a pitch of 1.75 diameters.
+/// A Jacquard of ends x picks that nowhere repeats: satin of 8 with a figure in plain weave, at a
+/// pitch of 1.75 diameters.
 fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
     let thread = CrossingThread { pitch: 0.35, diameter: 0.2, stiffness: 1.0, level: 0 };
     let figure = |end: usize, pick: usize| {
@@ -33,8 +35,9 @@ fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
     Crossings::new(ups, vec![thread; ends], vec![thread; picks]).repeats(false, false).passes(passes)
 }
 
-/// Prints a row for each device and size: the median of `rounds` of ten passes at once, and of one alone, by the host's clock, the wait for
-/// what passes have seen in it; and one whole course of `passes` at most.
+/// Prints a row for each device and size: the median of `rounds` of ten passes at once, and of one
+/// alone, by the host's clock, the wait for what passes have seen in it; and one whole course of
+/// `passes` at most.
 ///
 /// # Errors
 ///

@@ -24,7 +24,8 @@ struct Took {
     bytes: u64,
 }
 
-/// Prints for each device: one yarn of the cloth `yarns` and one lift of the cloth `lifts`, each the median of `rounds`, beside the whole mesh.
+/// Prints for each device: one yarn of the cloth `yarns` and one lift of the cloth `lifts`, each
+/// the median of `rounds`, beside the whole mesh.
 ///
 /// # Errors
 ///
@@ -97,7 +98,8 @@ fn a_yarn(
     Ok([whole, edit])
 }
 
-/// The whole mesh of a cloth of round threads, and a lift in its middle that is changed back and forth, from the drawdown on.
+/// The whole mesh of a cloth of round threads, and a lift in its middle that is changed back and
+/// forth, from the drawdown on.
 fn a_lift(
     device: &Arc<dyn Backend>,
     (ends, picks): (usize, usize),

@@ -14,12 +14,14 @@ use crate::stages::stages;
 const CLOTHS: [(&str, f64); 3] = [("figure-7a", 254.47), ("figure-7b", 331.71), ("figure-7c", 381.71)];
 const PAPER_S: f64 = 10.0;
 
-/// Width and height of the pictures, pixels, and the width of the close-up as a share of the cloth's.
+/// Width and height of the pictures, pixels, and the width of the close-up as a share of the
+/// cloth's.
 const SIZE: [u32; 2] = [1600, 1200];
 const CLOSE: f32 = 0.02;
 
-/// Takes the three designs in the folder `designs` to their meshes on `device`, such as `wgpu:0`, each a second time when the device is warm,
-/// draws each at full size and close up to PNG files in the folder `output`, and prints a table beside the paper's.
+/// Takes the three designs in the folder `designs` to their meshes on `device`, such as `wgpu:0`,
+/// each a second time when the device is warm, draws each at full size and close up to PNG files in
+/// the folder `output`, and prints a table beside the paper's.
 ///
 /// # Errors
 ///

@@ -1,5 +1,6 @@
-//! A device against its floor, side by side: the mesh stage, also with packed vertices, beside a plain fill of the same bytes, reading and uploading
-//! beside plain copies from and to pinned memory.
+//! A device against its floor, side by side: the mesh stage, also with packed vertices, beside a
+//! plain fill of the same bytes, reading and uploading beside plain copies from and to pinned
+//! memory.
 
 use std::error::Error;
 use std::time::Duration;
@@ -63,8 +64,9 @@ const CASES: [Case; 11] = [
 /// Bytes that one buffer of the fill has at most.
 const BUFFER: u64 = 1 << 30;
 
-/// Prints two tables: a row for each device, size (ends, picks) and case, medians of `rounds` warm runs by the device's
-/// clock; and a row for each device and size with what goes over the bus, by the host's.
+/// Prints two tables: a row for each device, size (ends, picks) and case, medians of `rounds` warm
+/// runs by the device's clock; and a row for each device and size with what goes over the bus, by
+/// the host's.
 ///
 /// # Errors
 ///

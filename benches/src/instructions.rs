@@ -1,8 +1,9 @@
 //! Makes a cloth or its mesh several times, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND is a mesh, `upright`, `flattened` the same of flattened yarns, `minimizing` with its scan, `bare` without indices, or
-//! `streamed`, upright and too large for any cache; or control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points,
-//! there are.
+//! KIND is a mesh, `upright`, `flattened` the same of flattened yarns, `minimizing` with its scan,
+//! `bare` without indices, or `streamed`, upright and too large for any cache; or control points,
+//! `crossing` with one a crossing, or `round`. It prints how many rings, or control points, there
+//! are.
 
 use std::error::Error;
 

@@ -1,4 +1,5 @@
-//! What the benchmarks of all stages share: the paper's benchmark cloth, and sessions that are ready to run.
+//! What the benchmarks of all stages share: the paper's benchmark cloth, and sessions that are
+//! ready to run.
 
 #[cfg(feature = "gpu")]
 pub mod crossings;
@@ -33,11 +34,12 @@ use texere::yarn::{Material, Section, YarnError};
 use texere::{Backend, FabricError, Settings, Yarn, Yarns};
 use texere_core::backend::{Chunk, Session, SessionError};
 
-/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and its largest.
+/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and
+/// its largest.
 pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];
 
-/// Those of [`SIZES`] that this run takes: all of them under `cargo bench`, and under `cargo test`, which only sees whether the
-/// benches run, the smallest.
+/// Those of [`SIZES`] that this run takes: all of them under `cargo bench`, and under `cargo test`,
+/// which only sees whether the benches run, the smallest.
 pub fn sizes() -> impl Iterator<Item = (usize, usize)> {
     let measured = std::env::args().any(|argument| argument == "--bench");
     SIZES.into_iter().take(if measured { SIZES.len() } else { 1 })
@@ -70,7 +72,8 @@ pub fn one_yarn(yarns: &Yarns) -> Result<Yarns, YarnError> {
     one.build()
 }
 
-/// The same yarns with `twist` turns per mm, `flatness` times as wide as high and with the section's area kept.
+/// The same yarns with `twist` turns per mm, `flatness` times as wide as high and with the
+/// section's area kept.
 ///
 /// **Errors**: [`YarnError`] for a size or a twist that no yarn may have.
 pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnError> {
@@ -87,7 +90,8 @@ pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnErr
     shaped.build()
 }
 
-/// The plan for `yarns`, and its chunks for a device without limits: a single one, up to the paper's largest cloth.
+/// The plan for `yarns`, and its chunks for a device without limits: a single one, up to the
+/// paper's largest cloth.
 ///
 /// **Errors**: [`PlanError`] for yarns that no plan fits.
 pub fn plan(yarns: &Yarns, settings: Settings) -> Result<(Arc<Plan>, Vec<Chunk>), PlanError> {

@@ -19,9 +19,11 @@ enum Args {
         #[command(flatten)]
         work: Work,
     },
-    /// Settling: passes beside a plain fill of the bytes that they move, lists, and cloth until it rests
+    /// Settling: passes beside a plain fill of the bytes that they move, lists, and cloth until it
+    /// rests
     Settling {
-        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: the CPU and all GPUs that `texere devices` lists]
+        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: the CPU and all GPUs that
+        /// `texere devices` lists]
         devices: Vec<String>,
         /// Wales and courses of knits with stitches missed at random
         #[arg(long, value_delimiter = ',', default_value = "60")]
@@ -33,7 +35,8 @@ enum Args {
         #[arg(long, default_value_t = 5)]
         rounds: usize,
     },
-    /// Crossings of Jacquards: passes beside a plain fill of the bytes that they move, and cloth until it rests
+    /// Crossings of Jacquards: passes beside a plain fill of the bytes that they move, and cloth
+    /// until it rests
     Crossings {
         /// Devices, such as cpu, opencl:0 or wgpu:0 [default: all GPUs that `texere devices` lists]
         devices: Vec<String>,
@@ -49,7 +52,8 @@ enum Args {
     },
     /// Edits of cloth whose mesh stays on its device, beside the whole mesh
     Edits {
-        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: the CPU and all GPUs that `texere devices` lists]
+        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: the CPU and all GPUs that
+        /// `texere devices` lists]
         devices: Vec<String>,
         /// Ends x picks of the cloth of which a yarn is edited
         #[arg(long, default_value = "489x450")]
@@ -90,8 +94,8 @@ enum Args {
     },
     /// The paper's tables and figures, with ours beside them
     Tables {
-        /// Devices; the first is compared with [default: the CPU and all GPUs that `texere devices` lists, or what imitates
-        /// one where there is none]
+        /// Devices; the first is compared with [default: the CPU and all GPUs that `texere devices`
+        /// lists, or what imitates one where there is none]
         #[arg(long = "device")]
         devices: Vec<String>,
         #[command(flatten)]
@@ -103,7 +107,8 @@ enum Args {
         #[arg(short, long, default_value = "target/tables")]
         output: PathBuf,
     },
-    /// The paper's figure 5 of any designs: geometry, buffers and drawing, each alone, as a table and a plot
+    /// The paper's figure 5 of any designs: geometry, buffers and drawing, each alone, as a table
+    /// and a plot
     #[command(name = "figure-5")]
     Figure5 {
         /// .wif drafts or .toml designs
@@ -119,7 +124,8 @@ enum Args {
         #[arg(short, long, default_value = "target/figure-5.svg")]
         output: PathBuf,
     },
-    /// The paper's figure 7: its three cloths at full size, from the design to the picture, with its own time beside ours
+    /// The paper's figure 7: its three cloths at full size, from the design to the picture, with
+    /// its own time beside ours
     #[command(name = "figure-7")]
     Figure7 {
         /// The device that settles, meshes and draws, such as wgpu:1
@@ -226,7 +232,8 @@ fn gpus() -> impl Iterator<Item = String> {
     texere::devices().found.into_iter().filter(move |device| is_gpu(device.kind)).map(|device| device.name)
 }
 
-/// The serial reference first, then all others, with either schedule; where there is a GPU, no software device.
+/// The serial reference first, then all others, with either schedule; where there is a GPU, no
+/// software device.
 fn all_devices() -> Vec<String> {
     let mut others: Vec<_> = gpus().collect();
     if others.is_empty() {

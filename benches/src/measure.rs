@@ -71,8 +71,8 @@ impl Bench {
         self.run(|session, chunk| session.packed(chunk))
     }
 
-    /// Scan, then stage 1 and stage 2 one after the other for each chunk. Times of this run alone; a device that always
-    /// fuses does stage 1 twice.
+    /// Scan, then stage 1 and stage 2 one after the other for each chunk. Times of this run alone;
+    /// a device that always fuses does stage 1 twice.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn staged(&mut self) -> Result<StageTimings, SessionError> {
@@ -103,8 +103,8 @@ impl Bench {
         })
     }
 
-    /// Sends all control points again, and gives back the time that takes by the host's clock until they are there, which
-    /// the session's timings wait for.
+    /// Sends all control points again, and gives back the time that takes by the host's clock until
+    /// they are there, which the session's timings wait for.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn send(&mut self) -> Result<Duration, SessionError> {
@@ -114,8 +114,8 @@ impl Bench {
         Ok(start.elapsed())
     }
 
-    /// Reads the whole mesh, piece by piece, and gives back the time that takes by the host's clock: the bytes are lent
-    /// where the driver puts them, and not looked at.
+    /// Reads the whole mesh, piece by piece, and gives back the time that takes by the host's
+    /// clock: the bytes are lent where the driver puts them, and not looked at.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn read(&mut self) -> Result<Duration, SessionError> {
@@ -140,8 +140,8 @@ impl Bench {
     }
 }
 
-/// Bytes that two chunks in flight may take. Without this limit, on a device whose memory is the host's, the cloths of the
-/// tables would leave no room for the rest.
+/// Bytes that two chunks in flight may take. Without this limit, on a device whose memory is the
+/// host's, the cloths of the tables would leave no room for the rest.
 const HOST_SHARE: u64 = 12 << 30;
 
 /// The middle one of some times.

@@ -21,7 +21,8 @@ use crate::fill::Gpu;
 /// Time of each phase, one after the other, by the host's clock.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Phases {
-    /// Splines and meshes on one core of the CPU: the paper's algorithms 1 and 3, into the host's memory.
+    /// Splines and meshes on one core of the CPU: the paper's algorithms 1 and 3, into the host's
+    /// memory.
     pub serial_geometry: Duration,
     /// That mesh, vertices and indices, to the device that draws.
     pub serial_buffers: Duration,
@@ -74,7 +75,8 @@ impl PhaseTimer {
         self.gpu.info()
     }
 
-    /// Times the phases for one fabric and a picture of its face of `size` pixels, each on a device that is warm.
+    /// Times the phases for one fabric and a picture of its face of `size` pixels, each on a device
+    /// that is warm.
     ///
     /// # Errors
     ///
@@ -121,7 +123,8 @@ impl PhaseTimer {
         mesh()
     }
 
-    /// Times geometry and buffers of the serial backend, chunk by chunk, so that any fabric fits the host.
+    /// Times geometry and buffers of the serial backend, chunk by chunk, so that any fabric fits
+    /// the host.
     fn serial(&self, yarns: &Yarns, settings: &Settings) -> Result<(Duration, Duration), Box<dyn Error>> {
         // With caps, since the parallel one has them, too.
         let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };

@@ -9,8 +9,8 @@ use texere::picture::{Camera, Extent, PictureTimings, Pose, Quality, RenderError
 
 use crate::measure::median_time;
 
-/// Draws each design `rounds` times from straight above and from aside, with four and with sixteen samples a pixel, all of it and so many times
-/// `nearer`, and prints the medians.
+/// Draws each design `rounds` times from straight above and from aside, with four and with sixteen
+/// samples a pixel, all of it and so many times `nearer`, and prints the medians.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Settling on devices: what a pass costs beside a plain fill of the bytes that it moves, and how long cloth takes to rest.
+//! Settling on devices: what a pass costs beside a plain fill of the bytes that it moves, and how
+//! long cloth takes to rest.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -24,8 +25,8 @@ pub struct Cloths {
     pub lace: Vec<usize>,
 }
 
-/// Prints a row for each device and cloth: medians of `rounds` warm passes and lists, by the host's clock, the wait for what a
-/// pass has seen in it; and one whole settling from the start.
+/// Prints a row for each device and cloth: medians of `rounds` warm passes and lists, by the host's
+/// clock, the wait for what a pass has seen in it; and one whole settling from the start.
 ///
 /// # Errors
 ///
@@ -100,7 +101,8 @@ fn print_row(
     Ok(())
 }
 
-/// The median time of `rounds` runs by the host's clock, after a warm one, and what the last gave back.
+/// The median time of `rounds` runs by the host's clock, after a warm one, and what the last gave
+/// back.
 fn median_of<T, E>(rounds: usize, mut run: impl FnMut() -> Result<T, E>) -> Result<(Duration, T), E> {
     let mut last = run()?;
     let mut times = Vec::new();

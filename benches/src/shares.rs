@@ -1,10 +1,12 @@
-//! The CPU's mesh stage, also with packed vertices, beside a plain fill of as many bytes, in turn and in one process.
+//! The CPU's mesh stage, also with packed vertices, beside a plain fill of as many bytes, in turn
+//! and in one process.
 //!
 //! `cargo run --release -p texere-bench --bin shares -- [ENDS PICKS [ROUNDS]]`
 //!
-//! For each kind of mesh on one thread and on two it prints the medians of the rounds: triangles per second into buffers
-//! that are used again, the share of the fill's bandwidth (the median of the rounds' own ratios, and the best), and the same
-//! for a first mesh in memory of its own, set-up and allocation included.
+//! For each kind of mesh on one thread and on two it prints the medians of the rounds: triangles
+//! per second into buffers that are used again, the share of the fill's bandwidth (the median of
+//! the rounds' own ratios, and the best), and the same for a first mesh in memory of its own,
+//! set-up and allocation included.
 
 use std::error::Error;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
-//! From a design to its mesh on a device, stage by stage: what the paper's figure 7 takes about ten seconds for.
+//! From a design to its mesh on a device, stage by stage: what the paper's figure 7 takes about ten
+//! seconds for.
 
 use std::error::Error;
 use std::path::Path;
@@ -27,7 +28,8 @@ pub struct Stages {
     pub triangles: u64,
     /// The file is read, and the structure is made of it.
     pub read: Duration,
-    /// The structure places its yarns, and these come to rest where the design asks for it: [`texere::Design::rest`].
+    /// The structure places its yarns, and these come to rest where the design asks for it:
+    /// [`texere::Design::rest`].
     pub rest: Duration,
     /// How they rest then.
     pub rests: Option<Rests>,
@@ -73,7 +75,8 @@ impl Stages {
     }
 }
 
-/// Takes the design in `path` to a mesh in the memory of `device`, and gives its yarns as they lie there, too.
+/// Takes the design in `path` to a mesh in the memory of `device`, and gives its yarns as they lie
+/// there, too.
 ///
 /// # Errors
 ///
@@ -149,8 +152,8 @@ pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn E
     Ok(())
 }
 
-/// Prints what a triangle of each design's mesh takes on a device that is warm, and what it takes where all its control points lie in
-/// one yarn, as in a knit of one carrier.
+/// Prints what a triangle of each design's mesh takes on a device that is warm, and what it takes
+/// where all its control points lie in one yarn, as in a knit of one carrier.
 ///
 /// # Errors
 ///

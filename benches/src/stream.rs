@@ -1,11 +1,13 @@
-//! A plain fill of the host's memory, the yardstick of the CPU's mesh stage: writing is all the work that has to be done.
+//! A plain fill of the host's memory, the yardstick of the CPU's mesh stage: writing is all the
+//! work that has to be done.
 
 use rayon::prelude::*;
 
 /// Floats that one task fills: a megabyte.
 const TASK: usize = 1 << 18;
 
-/// Fills `out` past the caches, on all threads of the present rayon pool, with the widest stores that the processor has.
+/// Fills `out` past the caches, on all threads of the present rayon pool, with the widest stores
+/// that the processor has.
 ///
 /// No mesh of as many bytes can be written faster, so that benchmarks state a mesh's share of this.
 ///

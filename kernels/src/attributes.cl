@@ -1,13 +1,13 @@
 // How long yarns are at each block's start, and the attributes of vertices. After common.cl.
 //
-// The twin of attributes.wgsl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm (Rust: ArcLength), so the
-// order of the sums does not matter.
+// The twin of attributes.wgsl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32
+// mm (Rust: ArcLength), so the order of the sums does not matter.
 
 #define ATTRIBUTES_GROUP 64
 #define YARN_LENGTHS_GROUP 256
 
-// An attribute (Rust: Attribute) is three uint2: the yarn and the bits of the angle, of the length and the tangent's x, and of its y
-// and z.
+// An attribute (Rust: Attribute) is three uint2: the yarn and the bits of the angle, of the length
+// and the tangent's x, and of its y and z.
 
 // A length in mm as whole steps.
 ulong length_from_mm(float mm) {
@@ -73,7 +73,8 @@ float segment_length(const Segment *segment, float from, float to) {
     return sum;
 }
 
-// The length from ring `k` of the block, which is not the yarn's last, to the next ring. `points` start at the window.
+// The length from ring `k` of the block, which is not the yarn's last, to the next ring. `points`
+// start at the window.
 ulong step_length(__global const uint4 *points, const Params *params, const Block *block, uint k) {
     uint per_interval = params->subdivisions + 1u;
     uint place = block->first_ring % per_interval + k;
@@ -85,7 +86,8 @@ ulong step_length(__global const uint4 *points, const Params *params, const Bloc
     return length_from_mm(segment_length(&segment, (float)part * params->step, end));
 }
 
-// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `sums` until the next barrier. Every lane must come here.
+// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `sums` until the
+// next barrier. Every lane must come here.
 inline ulong running_length(__local ulong *sums, uint lane, uint lanes, ulong length) {
     sums[lane] = length;
     for (uint reach = 1u; reach < lanes; reach *= 2u) {
@@ -103,7 +105,8 @@ inline ulong lane_length(__global const uint4 *points, const Params *params, con
     return lane < block->quads ? step_length(points, params, block, lane) : 0ul;
 }
 
-// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first ring to the next block's.
+// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first
+// ring to the next block's.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void block_lengths(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global ulong *lengths) {
@@ -117,7 +120,8 @@ void block_lengths(const Params params, const ulong window, __global const uint4
     }
 }
 
-// A workgroup of YARN_LENGTHS_GROUP a yarn: the lengths of its blocks become those of all blocks before each, tile by tile.
+// A workgroup of YARN_LENGTHS_GROUP a yarn: the lengths of its blocks become those of all blocks
+// before each, tile by tile.
 __kernel __attribute__((reqd_work_group_size(YARN_LENGTHS_GROUP, 1, 1)))
 void yarn_lengths(__global const YarnRow *yarns, __global ulong *lengths) {
     __local ulong sums[YARN_LENGTHS_GROUP];

@@ -4,8 +4,8 @@
 
 #define CAPS_GROUP 64
 
-// A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's sides - 2
-// triangles, one a lane.
+// A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's
+// sides - 2 triangles, one a lane.
 __kernel __attribute__((reqd_work_group_size(CAPS_GROUP, 1, 1)))
 void caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
           __global const uint *cap_pattern, __global float *vertices, __global uint *indices) {

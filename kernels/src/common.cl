@@ -1,9 +1,9 @@
 // What every stage reads: the tables, the turn, the spline, the frame and the vertex.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
-// frame.rs, ring.rs), and common.wgsl is the twin of this file. OpenCL C 1.2, no extension.
-// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file, and FLATTENED: false where all yarns
-// are round, as wide as high everywhere.
+// The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
+// spline.rs, sampling.rs, frame.rs, ring.rs), and common.wgsl is the twin of this file. OpenCL C
+// 1.2, no extension. Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before
+// this file, and FLATTENED: false where all yarns are round, as wide as high everywhere.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -57,11 +57,10 @@ typedef struct {
     float quanta_per_mm;
 } Params;
 
-// A control point (Rust: ControlPoint) is a uint4: the bits of x, y, z, and two half floats, half width and half height.
-// A section point (Rust: SectionPoint) is a float4 of x, y, normal x, normal y.
-// A ring (Rust: Ring) is three uint4: the bits of centre and half width, of the tangent and the roll, of half height and both
-// growths.
-// A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
+// A control point (Rust: ControlPoint) is a uint4: the bits of x, y, z, and two half floats, half
+// width and half height. A section point (Rust: SectionPoint) is a float4 of x, y, normal x, normal
+// y. A ring (Rust: Ring) is three uint4: the bits of centre and half width, of the tangent and the
+// roll, of half height and both growths. A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
 
 float dot3(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -197,7 +196,8 @@ Segment segment_new(__global const uint4 *points, float s) {
     return segment;
 }
 
-// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's speed.
+// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's
+// speed.
 float2 size_sample(float start, float3 terms, float least, float t, float inverse) {
     float size = start + (terms.x + (terms.y + terms.z * t) * t) * t;
     float growth = (terms.x + (terms.y * 2.0f + terms.z * (3.0f * t)) * t) * inverse;
@@ -248,7 +248,8 @@ Sample segment_sample(const Segment *segment, float t) {
     return sample;
 }
 
-// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an integer division.
+// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an
+// integer division.
 uint quotient(uint part, uint whole) {
     return (uint)(((float)part + 0.5f) * (1.0f / (float)whole));
 }
@@ -263,7 +264,8 @@ typedef struct {
     bool ends_interval;
 } RingSample;
 
-// Ring `k` from the block's first on; also the one after the block's last. `points` start at the window.
+// Ring `k` from the block's first on; also the one after the block's last. `points` start at the
+// window.
 RingSample ring_sample(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                        uint k) {
     uint per_interval = params->subdivisions + 1u;
@@ -325,7 +327,8 @@ Basis basis_upright(float3 tangent) {
     return basis;
 }
 
-// The side of a section that stands with `roll`: the upright one turned about the tangent, towards up.
+// The side of a section that stands with `roll`: the upright one turned about the tangent, towards
+// up.
 float3 side_standing(float3 tangent, uint roll) {
     Basis upright = basis_upright(tangent);
     if (roll == 0u) {
@@ -340,8 +343,8 @@ float3 mirrored(float3 v, float3 mirror, float mirror_squared) {
     return v - mirror * (2.0f * dot3(v, mirror) / mirror_squared);
 }
 
-// The angle, in turns, from the next ring's upright side to this ring's upright side carried there by double
-// reflection (Wang, Juettler, Zheng and Liu 2008, table I).
+// The angle, in turns, from the next ring's upright side to this ring's upright side carried there
+// by double reflection (Wang, Juettler, Zheng and Liu 2008, table I).
 float transport_turns(float3 tangent, float3 next_tangent, float3 chord) {
     float3 side = basis_upright(tangent).side;
     float length_squared = dot3(chord, chord);
@@ -367,8 +370,8 @@ uint frame_step(uint frame, float3 tangent, float3 next_tangent, float3 chord, f
     return turn_from_turns(turns + twist * sqrt(dot3(chord, chord)));
 }
 
-// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of its whole turn, so
-// that its last ring meets its first.
+// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of
+// its whole turn, so that its last ring meets its first.
 uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
     uint steps = yarn->rings - 1u;
     if (yarn->closed == 0u) {
@@ -394,19 +397,21 @@ typedef struct {
     bool round;
 } Stance;
 
-// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth. Round rings are worked out
-// alike whether other yarns are FLATTENED or not, so that no vertex hangs on yarns elsewhere.
+// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth.
+// Round rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex
+// hangs on yarns elsewhere.
 bool is_round(float2 width, float2 height) {
     return !FLATTENED || (width.x == height.x && width.y == height.y);
 }
 
-// The side that a section stands with. A round one turns with the roll. The outline of a flattened one leans, and the section
-// turns inside.
+// The side that a section stands with. A round one turns with the roll. The outline of a flattened
+// one leans, and the section turns inside.
 float3 side_of(float3 tangent, uint roll, uint lean, bool round) {
     return side_standing(tangent, round ? roll : lean);
 }
 
-// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.
+// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the
+// roll's.
 Stance stance_new(float4 centre, float4 tangent, float3 side, float2 height, float2 sin_cos) {
     Stance stance;
     stance.centre = centre;

@@ -1,7 +1,8 @@
 // What the kernels of crossings share: tables, sites, and what is gathered at one of them.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core (crossings/), and crossings.wgsl is the
-// twin of this file. OpenCL C 1.2, no extension. Constants are the core's; texere-gpu writes them before this file.
+// The formulas, the thresholds and the order of operations are those of texere-core (crossings/),
+// and crossings.wgsl is the twin of this file. OpenCL C 1.2, no extension. Constants are the
+// core's; texere-gpu writes them before this file.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -32,7 +33,8 @@ typedef struct {
     int after;
 } ThreadRow;
 
-// A lie (Rust: Lie) is a float4: shift, height, half width, half height. A crossing is two of them, its end's and its pick's.
+// A lie (Rust: Lie) is a float4: shift, height, half width, half height. A crossing is two of them,
+// its end's and its pick's.
 
 // What every lane reads.
 typedef struct {
@@ -105,8 +107,9 @@ float side_of(const Cloth *cloth, uint2 site, uint of_set) {
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
-// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of `own_own` has the unknowns of its own with
-// its unknown k, row k of `own_crossed` those of the other set with it. Rows count up to the diagonal.
+// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of
+// `own_own` has the unknowns of its own with its unknown k, row k of `own_crossed` those of the
+// other set with it. Rows count up to the diagonal.
 typedef struct {
     float4 own;
     float4 crossed;
@@ -159,7 +162,8 @@ void add_own(CrossingBlock *block, float weight, float share, float residual, fl
     block->own_own[3] += weighted.w * slopes;
 }
 
-// Adds one with these slopes in its own height and half height, and in what is unknown of the other set.
+// Adds one with these slopes in its own height and half height, and in what is unknown of the other
+// set.
 void add_between(CrossingBlock *block, float weight, float share, float residual, float2 slopes, float4 crossed) {
     float height = slopes.x;
     float thickness = slopes.y;

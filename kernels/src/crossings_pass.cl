@@ -1,6 +1,7 @@
 // A pass: the step of every crossing, and what all of them have seen. After crossings_terms.cl.
 //
-// The twin of crossings_pass.wgsl; CrossingBlock::step and CrossingsPlan in texere-core (crossings/) are the definitions.
+// The twin of crossings_pass.wgsl; CrossingBlock::step and CrossingsPlan in texere-core
+// (crossings/) are the definitions.
 
 // ---- Eight equations by Cholesky's method, in two halves of four ----
 

@@ -2,7 +2,8 @@
 //
 // The twin of crossings_passage.wgsl, and of StraightPassage in texere-core (crossings/passage.rs).
 
-// A straight passage over the first of two crossed threads and under the second one, at the slope that leaves most room.
+// A straight passage over the first of two crossed threads and under the second one, at the slope
+// that leaves most room.
 typedef struct {
     // Cosine and sine of the slope.
     float2 slope;
@@ -32,7 +33,8 @@ StraightPassage passage_of(float across, float rise, float4 halves, float thread
     const float2 upright = (float2)(0.0f, 1.0f);
     float distance = sqrt(across * across + rise * rise);
     float2 excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // The best slope of round threads, level or upright: wide ellipses leave most room at one of these.
+    // The best slope of round threads, level or upright: wide ellipses leave most room at one of
+    // these.
     float2 slope = rise > 0.0f ? (float2)(rise, across) / distance : upright;
     float most = left_by(across, rise, halves, slope);
     float left = left_by(across, rise, halves, level);

@@ -1,4 +1,5 @@
-// The energy: what threads want, and what keeps them apart. After crossings.cl and crossings_passage.cl.
+// The energy: what threads want, and what keeps them apart. After crossings.cl and
+// crossings_passage.cl.
 //
 // The twin of crossings_terms.wgsl, and of texere-core (crossings/terms.rs).
 
@@ -46,7 +47,8 @@ void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before
     add_alone(block, weights, share, before->lie - 2.0f * middle->lie + after->lie, slope);
 }
 
-// First differences along the thread to a crossing `gap` away: tension, and sections that change little.
+// First differences along the thread to a crossing `gap` away: tension, and sections that change
+// little.
 void add_difference(CrossingBlock *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
     if (other->there) {
         float taut = tension / gap;
@@ -55,16 +57,19 @@ void add_difference(CrossingBlock *block, float4 lie, const Along *other, float 
     }
 }
 
-// What a thread does to what it crosses between two crossings, the `second` of which is this one or else the first.
+// What a thread does to what it crosses between two crossings, the `second` of which is this one or
+// else the first.
 typedef struct {
     float room;
-    // Slopes in its own height and half height, and in what is unknown of the thread that it crosses here.
+    // Slopes in its own height and half height, and in what is unknown of the thread that it
+    // crosses here.
     float2 slopes;
     float4 crossed;
     float clearance;
 } Meeting;
 
-// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its upper end.
+// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its
+// upper end.
 Meeting shoulder(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
     bool rises = side * (last->lie.y - first->lie.y) > 0.0f;
     float4 upper = rises ? last->lie : first->lie;
@@ -130,7 +135,8 @@ void add_meeting(const Cloth *cloth, CrossingBlock *block, uint of_set, const Al
     }
 }
 
-// What the thread has to clear between this crossing and the one so many further along it, past threads of other levels.
+// What the thread has to clear between this crossing and the one so many further along it, past
+// threads of other levels.
 void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *here, int steps) {
     Along other = along_of(cloth, here->site, of_set, steps);
     if (!other.there) {
@@ -174,8 +180,8 @@ void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 
     keep_clear(cloth, block, apart, rise, wide, thick, sign, 0.5f);
 }
 
-// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of two lie side by side or one above the
-// other, as ellipses. All are clear of one another beside it.
+// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of
+// two lie side by side or one above the other, as ellipses. All are clear of one another beside it.
 void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                    const Along *after, int across, bool of_level) {
     uint2 site = beside(cloth, here->site, of_set, 0, across);
@@ -200,7 +206,8 @@ void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const 
     add_half_way(cloth, block, of_set, here->lie, after, other, across, gap);
 }
 
-// The neighbours of a thread to one side: `steps` is how many threads away the next one of its level lies.
+// The neighbours of a thread to one side: `steps` is how many threads away the next one of its
+// level lies.
 void add_neighbours(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                     const Along *after, int sign, int steps) {
     if (steps != 0) {
@@ -226,7 +233,8 @@ void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);
     float side = side_of(cloth, site, WARP);
-    // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+    // Threads of two layers slope where they cross: along the slope of the other one an ellipse
+    // reaches further.
     float2 slope = (float2)(0.0f, 0.0f);
     bool layered = (cloth->params->flags & LAYERED) != 0u;
     if (layered && thread_of(cloth, site, WARP).level != thread_of(cloth, site, WEFT).level) {

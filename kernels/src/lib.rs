@@ -1,7 +1,9 @@
-//! The OpenCL C sources of texere, as text, with their entry points and workgroup sizes. No GPU interface is used here.
+//! The OpenCL C sources of texere, as text, with their entry points and workgroup sizes. No GPU
+//! interface is used here.
 //!
-//! Each stage is a file, and the WGSL stages of texere-shaders are its twins: the same names, the same order of
-//! operations. A [`KernelProgram`] is the list of files that are compiled together, shared ones first.
+//! Each stage is a file, and the WGSL stages of texere-shaders are its twins: the same names, the
+//! same order of operations. A [`KernelProgram`] is the list of files that are compiled together,
+//! shared ones first.
 //!
 //! ```
 //! use texere_kernels::{MESH, PER_RING};
@@ -14,7 +16,8 @@
 pub struct EntryPoint {
     /// The kernel function.
     pub name: &'static str,
-    /// Lanes in a workgroup. The source requires exactly this many, except for `mesh` and `mesh_odd`, which also run with 64.
+    /// Lanes in a workgroup. The source requires exactly this many, except for `mesh` and
+    /// `mesh_odd`, which also run with 64.
     pub group: usize,
 }
 
@@ -27,20 +30,22 @@ pub const YARN_ROLLS: EntryPoint = EntryPoint { name: "yarn_rolls", group: 256 }
 /// Stage 1: a workgroup a row of the chunk's block table.
 pub const TRAJECTORY: EntryPoint = EntryPoint { name: "trajectory", group: 64 };
 
-/// Stage 2 with stage 1 in it, for an even number of sides: a workgroup a row of the chunk's block table. It runs with any
-/// workgroup of 64 lanes, a ring each, or more; see [`UNINDEXED_GROUP`].
+/// Stage 2 with stage 1 in it, for an even number of sides: a workgroup a row of the chunk's block
+/// table. It runs with any workgroup of 64 lanes, a ring each, or more; see [`UNINDEXED_GROUP`].
 pub const MESH: EntryPoint = EntryPoint { name: "mesh", group: 128 };
 
 /// The same for an odd number of sides.
 pub const MESH_ODD: EntryPoint = EntryPoint { name: "mesh_odd", ..MESH };
 
-/// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes without a ring cost more.
+/// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes
+/// without a ring cost more.
 pub const UNINDEXED_GROUP: usize = 64;
 
 /// The chunk's caps, after [`MESH`]: a lane a cap vertex.
 pub const CAPS: EntryPoint = EntryPoint { name: "caps", group: 64 };
 
-/// The length of all blocks: a workgroup a row of the chunk's block table. The first half of measuring.
+/// The length of all blocks: a workgroup a row of the chunk's block table. The first half of
+/// measuring.
 pub const BLOCK_LENGTHS: EntryPoint = EntryPoint { name: "block_lengths", group: 64 };
 
 /// How long yarns are at each block's start, in place: a workgroup a yarn. The second half.
@@ -52,7 +57,8 @@ pub const ATTRIBUTES_OF_TUBES: EntryPoint = EntryPoint { name: "attributes", gro
 /// Those of its caps, after [`ATTRIBUTES_OF_TUBES`]: a lane a cap vertex.
 pub const ATTRIBUTES_OF_CAPS: EntryPoint = EntryPoint { name: "cap_attributes", group: 64 };
 
-/// Packed vertices of a chunk's tubes, for an even number of sides: a workgroup a row of its block table.
+/// Packed vertices of a chunk's tubes, for an even number of sides: a workgroup a row of its block
+/// table.
 pub const PACKED: EntryPoint = EntryPoint { name: "packed", group: 64 };
 
 /// The same for an odd number of sides.
@@ -100,7 +106,8 @@ pub const SETTLING_PULL_WEIGHTED: EntryPoint = EntryPoint { name: "settling_pull
 /// The same in the block form.
 pub const SETTLING_PULL_BLOCK: EntryPoint = EntryPoint { name: "settling_pull_block", group: 64 };
 
-/// The step of each point, in the weighted form: a lane a place, the groups of [`SETTLING_PULL_WEIGHTED`].
+/// The step of each point, in the weighted form: a lane a place, the groups of
+/// [`SETTLING_PULL_WEIGHTED`].
 pub const SETTLING_STEP_WEIGHTED: EntryPoint = EntryPoint { name: "settling_step_weighted", group: 64 };
 
 /// The same in the block form.
@@ -115,7 +122,8 @@ pub const SETTLING_SEEN: EntryPoint = EntryPoint { name: "settling_seen", group:
 /// Control points from places, where yarns have come to rest: a lane a place.
 pub const SETTLING_POINTS: EntryPoint = EntryPoint { name: "settling_points", group: 64 };
 
-/// How far control points reach: any number of workgroups, each of which takes every so many places.
+/// How far control points reach: any number of workgroups, each of which takes every so many
+/// places.
 pub const SETTLING_BOUNDS: EntryPoint = EntryPoint { name: "settling_bounds", group: 256 };
 
 /// The step of each crossing, and a row of what was seen for each workgroup: a lane a crossing.
@@ -208,7 +216,8 @@ pub const SETTLING: KernelProgram = KernelProgram {
     ],
 };
 
-/// Crossings at rest. It is compiled apart from the others, where a settler of crossings is first wanted.
+/// Crossings at rest. It is compiled apart from the others, where a settler of crossings is first
+/// wanted.
 pub const CROSSINGS: KernelProgram = KernelProgram {
     name: "crossings",
     sources: &[

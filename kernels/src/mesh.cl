@@ -1,10 +1,12 @@
-// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl, rings.cl and share.cl.
+// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl,
+// rings.cl and share.cl.
 //
-// The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
-// at a time (8 where sides are odd in number), contiguous across the workgroup.
+// The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so
+// lanes store 16 bytes at a time (8 where sides are odd in number), contiguous across the
+// workgroup.
 
-// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an even number: so they hold
-// floats of at most one normal and one position.
+// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
+// even number: so they hold floats of at most one normal and one position.
 float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float4 normal_point, float4 position_point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, normal_point);
@@ -26,8 +28,8 @@ float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4
     return first == 2u ? (float2)(position.z, normal.x) : normal.yz;
 }
 
-// A workgroup, of BLOCK_RINGS lanes or more, a row of the chunk's block table. For an even number of sides, so that
-// every block starts at a multiple of 16 bytes.
+// A workgroup, of BLOCK_RINGS lanes or more, a row of the chunk's block table. For an even number
+// of sides, so that every block starts at a multiple of 16 bytes.
 __kernel void mesh(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                    __global const uint *whole, __global const float4 *outlines, __global const uint4 *pattern,

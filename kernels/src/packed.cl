@@ -1,13 +1,14 @@
 // Stage 2 with stage 1 in it, as packed vertices. After common.cl, rings.cl and share.cl.
 //
-// The twin of packed.wgsl and of texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is three words: x in bits 0 to 20 of
-// the first two, y in bits 21 to 41, z in bits 42 to 62; then the steps of the octahedral normal, 16 bits each. Lanes store two words
-// at a time (one where sides are odd in number), contiguous across the workgroup.
+// The twin of packed.wgsl and of texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is
+// three words: x in bits 0 to 20 of the first two, y in bits 21 to 41, z in bits 42 to 62; then the
+// steps of the octahedral normal, 16 bits each. Lanes store two words at a time (one where sides
+// are odd in number), contiguous across the workgroup.
 
 #define PACKED_GROUP 64
 
-// The lowest bits of the whole quanta that are nearest to a coordinate. Products are by powers of two, so nothing but the last step
-// rounds.
+// The lowest bits of the whole quanta that are nearest to a coordinate. Products are by powers of
+// two, so nothing but the last step rounds.
 uint packed_coordinate(float mm, float per_mm) {
     float quanta = mm * per_mm;
     float rest = quanta - rint(quanta * (1.0f / QUANTA_WRAP)) * QUANTA_WRAP;
@@ -33,8 +34,9 @@ uint packed_normal(float3 normal) {
     return (as_uint(steps.x) & 0xffffu) | (as_uint(steps.y) << 16);
 }
 
-// Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at `point`, the second of the vertex at
-// `next`, which is another one only where the first is the word of a normal.
+// Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at
+// `point`, the second of the vertex at `next`, which is another one only where the first is the
+// word of a normal.
 uint2 two_words(__local const BlockRings *rings, uint ring, uint first, float4 point, float4 next, float per_mm) {
     Stance stance = stance_of(rings, ring);
     uint2 position = packed_position(position_at(&stance, next), per_mm);
@@ -55,8 +57,8 @@ uint one_word(__local const BlockRings *rings, uint ring, uint first, float4 poi
     return first == 0u ? position.x : position.y;
 }
 
-// A workgroup of PACKED_GROUP a row of the chunk's block table. For an even number of sides, so that every block starts at a multiple
-// of 8 bytes.
+// A workgroup of PACKED_GROUP a row of the chunk's block table. For an even number of sides, so
+// that every block starts at a multiple of 8 bytes.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed(const Params params, const ulong window, __global const uint4 *points, __global const YarnRow *yarns,
             __global const Block *blocks, __global const uint *rolls, __global const uint *whole,

@@ -1,9 +1,10 @@
-// A block's rings in local memory: what the stages of the schedule per-ring begin with. After common.cl.
+// A block's rings in local memory: what the stages of the schedule per-ring begin with. After
+// common.cl.
 //
 // rings.wgsl is the twin of this file.
 
-// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
-// less memory a workgroup takes, the more of them run at a time.
+// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis
+// instead of storing it: the less memory a workgroup takes, the more of them run at a time.
 typedef struct {
     // Centre, half width.
     float4 centre[BLOCK_RINGS];
@@ -19,13 +20,14 @@ typedef struct {
     uint eights[BLOCK_RINGS / 8];
 } BlockRings;
 
-// The lean of ring `ring` of a yarn: `rolls` has those of all rings behind the rolls of blocks, where any yarn leans.
+// The lean of ring `ring` of a yarn: `rolls` has those of all rings behind the rolls of blocks,
+// where any yarn leans.
 uint lean_of(const Params *params, const YarnRow *yarn, __global const uint *rolls, uint ring) {
     return params->leans == 0u ? 0u : rolls[params->leans + yarn->first_block * BLOCK_RINGS + ring];
 }
 
-// Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
-// at least BLOCK_RINGS, must come here.
+// Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the
+// workgroup, which has at least BLOCK_RINGS, must come here.
 void block_rings(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                  __global const uint *rolls, __global const uint *whole, uint lane,
                  __local BlockRings *rings) {

@@ -1,7 +1,8 @@
 // The roll at each block's start, summed over the blocks before it. After common.cl.
 //
-// The twin of scan.wgsl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a running sum over a
-// yarn's blocks then gives the roll at each block's first ring. Turns wrap, so the order of the sums does not matter.
+// The twin of scan.wgsl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps;
+// a running sum over a yarn's blocks then gives the roll at each block's first ring. Turns wrap, so
+// the order of the sums does not matter.
 
 #define TURNS_GROUP 64
 #define ROLLS_GROUP 256
@@ -25,7 +26,8 @@ void block_turns(const Params params, const ulong window, __global const float4 
         offsets[lane] = here.sample.offset;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    // The steps to the ring after each: as many as quads, so the last leads to the next block's first ring.
+    // The steps to the ring after each: as many as quads, so the last leads to the next block's
+    // first ring.
     uint turn = 0u;
     if (lane < block.quads) {
         float3 next_tangent;
@@ -58,7 +60,8 @@ void block_turns(const Params params, const ulong window, __global const float4 
     }
 }
 
-// A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the yarn's whole turn.
+// A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the
+// yarn's whole turn.
 __kernel __attribute__((reqd_work_group_size(ROLLS_GROUP, 1, 1)))
 void yarn_rolls(__global const YarnRow *yarns, __global uint *rolls, __global uint *whole) {
     __local uint sums[ROLLS_GROUP];

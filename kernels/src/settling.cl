@@ -1,8 +1,8 @@
 // What the kernels of a settling share: tables, places, intervals and chords.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core (settling/), and settling.wgsl is the
-// twin of this file. OpenCL C 1.2, no extension. Constants are the core's; texere-gpu writes them before this file, and
-// FLATTENED: false where all yarns are round.
+// The formulas, the thresholds and the order of operations are those of texere-core (settling/),
+// and settling.wgsl is the twin of this file. OpenCL C 1.2, no extension. Constants are the core's;
+// texere-gpu writes them before this file, and FLATTENED: false where all yarns are round.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -61,9 +61,9 @@ typedef struct {
     float thickest;
 } ChordRow;
 
-// A place (Rust: Place) is a uint4: x, y and z in units (i32, as bits so that sums wrap), and two half floats.
-// A chord as passes see it is two uint4: where it begins and the place of its interval; the bits of its span, mm, and of the
-// largest half of its interval.
+// A place (Rust: Place) is a uint4: x, y and z in units (i32, as bits so that sums wrap), and two
+// half floats. A chord as passes see it is two uint4: where it begins and the place of its
+// interval; the bits of its span, mm, and of the largest half of its interval.
 
 float dot3(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -190,7 +190,8 @@ uint3 chord_middle(const SettlingParams *params, const Chord *chord) {
     return chord->at + to_units(params, chord->span * 0.5f);
 }
 
-// How many repeats away the image of a chord lies that is nearest to another one, which begins `way` before it.
+// How many repeats away the image of a chord lies that is nearest to another one, which begins
+// `way` before it.
 uint2 nearest_image(const SettlingParams *params, float3 one, float3 other, uint3 way) {
     float3 apart = to_mm(params, way) + (other - one) * 0.5f;
     return (uint2)(-as_uint(convert_int_sat(floor(apart.x * params->frequency_x + 0.5f))),
@@ -202,7 +203,8 @@ uint3 to_image(const SettlingParams *params, uint3 way, uint2 image) {
     return (uint3)(way.x + image.x * (uint)params->period_x, way.y + image.y * (uint)params->period_y, way.z);
 }
 
-// Shares of two chords where they come nearest to one another; the second begins `way` from the first.
+// Shares of two chords where they come nearest to one another; the second begins `way` from the
+// first.
 float2 chords_nearest(float3 one, float3 other, float3 way) {
     float a = fmax(dot3(one, one), SHORT);
     float e = fmax(dot3(other, other), SHORT);

@@ -2,8 +2,8 @@
 //
 // The twin of settling_contact.wgsl, and of texere-core's contact.rs and the first half of pass.rs.
 
-// What an interval has seen: the least distance to another yarn, mm, the same over both reaches, the least radius of curvature in
-// diameters.
+// What an interval has seen: the least distance to another yarn, mm, the same over both reaches,
+// the least radius of curvature in diameters.
 typedef struct {
     float near;
     float clearance;
@@ -17,15 +17,17 @@ typedef struct {
     float distance;
 } Approach;
 
-// What a contact asks of the first interval's points: the step of its place, mm, the direction to the other yarn, and what each of
-// the four counts. The weights are all 0 where it asks for nothing.
+// What a contact asks of the first interval's points: the step of its place, mm, the direction to
+// the other yarn, and what each of the four counts. The weights are all 0 where it asks for
+// nothing.
 typedef struct {
     float3 back;
     float3 direction;
     float4 weights;
 } Push;
 
-// What four points count, where one of them stands beyond an open yarn's end: those that it is made of count instead.
+// What four points count, where one of them stands beyond an open yarn's end: those that it is made
+// of count instead.
 float4 folded(uint tags, float4 weights) {
     if ((tags & TAG_OPENS) != 0u) {
         weights = (float4)(0.0f, weights.y + 2.0f * weights.x, weights.z - weights.x, weights.w);
@@ -54,7 +56,8 @@ Approach contact_at(const Interval *one, const Interval *other, float3 way, floa
     return contact;
 }
 
-// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes nearer.
+// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes
+// nearer.
 Approach refined(const Interval *one, const Interval *other, float3 way, float2 at, float2 stride) {
     Approach start = contact_at(one, other, way, at);
     float3 velocity = interval_velocity(one, at.x);
@@ -148,7 +151,8 @@ bool may_touch(const SettlingParams *params, const Chord *here, __global const u
 
 #define MOST_AT_ONCE 32u
 
-// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort them out first meet those few together.
+// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort
+// them out first meet those few together.
 uint touching(const SettlingParams *params, ListedChord here, __global const uint4 *chords,
               __global const uint *starts, __global const uint *neighbours, uint begin, uint count, Sight *sight) {
     uint bits = 0u;

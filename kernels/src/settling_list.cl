@@ -1,7 +1,7 @@
 // Which chords are neighbours. After settling.cl.
 //
-// The twin of settling_list.wgsl, and of texere-core's neighbours.rs. Chords are sorted into cells in any order, but a chord's
-// neighbours end in the order of their numbers.
+// The twin of settling_list.wgsl, and of texere-core's neighbours.rs. Chords are sorted into cells
+// in any order, but a chord's neighbours end in the order of their numbers.
 
 // What a group has found of all chords (Rust: texere_gpu::ExtentRow, 32 bytes).
 typedef struct {
@@ -86,7 +86,8 @@ void settling_cell_count(const SettlingParams params, __global const uint4 *chor
 
 #define SETTLING_CELL_FILL_GROUP 64
 
-// A lane a chord: writes it into its cell. Behind each cell lies where its next chord goes: in the end, where it ends.
+// A lane a chord: writes it into its cell. Behind each cell lies where its next chord goes: in the
+// end, where it ends.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CELL_FILL_GROUP, 1, 1)))
 void settling_cell_fill(const SettlingParams params, __global const uint4 *chords, volatile __global uint *cells,
                         __global uint *sorted) {
@@ -104,7 +105,8 @@ bool between(uint end, uint start, int window) {
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of one another.
+// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of
+// one another.
 bool leads_on(const ChordRow *one, const ChordRow *other, uint2 image, int window, const StrandRow *strand) {
     uint2 shift = (uint2)((uint)strand->shift_x, (uint)strand->shift_y);
     bool here = image.x == 0u && image.y == 0u &&
@@ -138,7 +140,8 @@ bool are_neighbours(const SettlingParams *params, size_t number, const Chord *on
     return !leads_on(&row, &other_row, image, window, &strand);
 }
 
-// The first cell to visit along an axis (x) and how many (y): its own and those beside it, each once.
+// The first cell to visit along an axis (x) and how many (y): its own and those beside it, each
+// once.
 uint2 cells_beside(uint cell, int period, uint count) {
     if (count < 3u) {
         return (uint2)(0u, count);
@@ -150,8 +153,8 @@ uint2 cells_beside(uint cell, int period, uint count) {
     return (uint2)(first, min(cell + 1u, count - 1u) - first + 1u);
 }
 
-// Finds the neighbours of chord `number`, and gives back how many there are. With a `list` it puts up to `room` there, each where
-// it belongs in the order of numbers.
+// Finds the neighbours of chord `number`, and gives back how many there are. With a `list` it puts
+// up to `room` there, each where it belongs in the order of numbers.
 uint find_neighbours(const SettlingParams *params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                      __global const PlaceRow *place_rows, __global const StrandRow *strands,
                      __global const uint *cells, __global const uint *sorted, size_t number, __global uint *list,

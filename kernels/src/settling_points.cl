@@ -1,6 +1,7 @@
 // Control points from where yarns have come to rest, and how far they reach. After settling.cl.
 //
-// The formulas are those of texere-core (Scale::point, renew_virtual_ends), and settling_points.wgsl is the twin of this file.
+// The formulas are those of texere-core (Scale::point, renew_virtual_ends), and
+// settling_points.wgsl is the twin of this file.
 
 // Rust: texere_gpu::SettledParams, 32 bytes.
 typedef struct {
@@ -27,8 +28,8 @@ typedef struct {
     int4 high;
 } BoundsRow;
 
-// Where a place lies, mm: origin + units * unit, rounded once. Units are split in two parts that floats hold exactly, and what
-// the first sum loses is added to the other part.
+// Where a place lies, mm: origin + units * unit, rounded once. Units are split in two parts that
+// floats hold exactly, and what the first sum loses is added to the other part.
 float3 position(const SettledParams *settled, __global const uint4 *places, uint place) {
     int3 units = as_int3(places[place].xyz);
     float3 origin = (float3)(settled->origin[0], settled->origin[1], settled->origin[2]);

@@ -1,21 +1,26 @@
-// What pulls at the four control points of each interval. After settling.cl and settling_contact.cl.
+// What pulls at the four control points of each interval. After settling.cl and
+// settling_contact.cl.
 //
-// The twin of settling_pull.wgsl, and of Pull in texere-core's pass.rs. Sums go in the order of the lists.
+// The twin of settling_pull.wgsl, and of Pull in texere-core's pass.rs. Sums go in the order of the
+// lists.
 //
-// Lanes write planes of one number for each place, side by side. First those of the slots: in the weighted form eight for each,
-// contacts' ways (x, y, z) and their weights, and the same of bends; in the block form nine, all ways and the squares of their
-// directions (xx, xy, xz, yy, yz, zz). Then half of the length that is too much (x, y, z), the length, the least distance
-// seen, mm, and the least one over both reaches.
+// Lanes write planes of one number for each place, side by side. First those of the slots: in the
+// weighted form eight for each, contacts' ways (x, y, z) and their weights, and the same of bends;
+// in the block form nine, all ways and the squares of their directions (xx, xy, xz, yy, yz, zz).
+// Then half of the length that is too much (x, y, z), the length, the least distance seen, mm, and
+// the least one over both reaches.
 
 #define WEIGHTED_SLOT 8u
 #define BLOCK_SLOT 9u
 
-// What an interval has seen, and by which share its length is off: the least of the first two, the most of the others.
+// What an interval has seen, and by which share its length is off: the least of the first two, the
+// most of the others.
 float4 seen_by_both(float4 one, float4 other) {
     return (float4)(fmin(one.xy, other.xy), fmax(one.zw, other.zw));
 }
 
-// A bend at one place of an interval: where it would go, and how much each point counts. All 0 where it may bend so.
+// A bend at one place of an interval: where it would go, and how much each point counts. All 0
+// where it may bend so.
 typedef struct {
     float3 towards;
     float3 way;
@@ -71,7 +76,8 @@ ListedChord before_listed(__global const uint *starts, uint first) {
     return here;
 }
 
-// Writes what an interval knows of itself from plane `plane` on, and gives back what it adds to what all have seen.
+// Writes what an interval knows of itself from plane `plane` on, and gives back what it adds to
+// what all have seen.
 float4 write_own(const SettlingParams *params, __global float *pulls, uint plane, uint place, float3 length,
                  float arc, float wanted, const Sight *sight) {
     size_t step = params->places;
@@ -238,7 +244,8 @@ float4 seen_by_group(__local float4 *rows, uint lane, uint lanes, float4 seen) {
 
 #define SETTLING_PULL_WEIGHTED_GROUP 64
 
-// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each group.
+// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each
+// group.
 __kernel __attribute__((reqd_work_group_size(SETTLING_PULL_WEIGHTED_GROUP, 1, 1)))
 void settling_pull_weighted(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const uint4 *chords,

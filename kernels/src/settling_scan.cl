@@ -6,7 +6,8 @@
 // Counts of a lane.
 #define SCAN_VALUES 4
 
-// A group its SETTLING_SCAN_GROUP * SCAN_VALUES values, in place; `sums` gets the sum of each group.
+// A group its SETTLING_SCAN_GROUP * SCAN_VALUES values, in place; `sums` gets the sum of each
+// group.
 __kernel __attribute__((reqd_work_group_size(SETTLING_SCAN_GROUP, 1, 1)))
 void settling_scan(const uint count, __global uint *values, __global uint *sums) {
     __local uint lanes[SETTLING_SCAN_GROUP];

@@ -1,9 +1,10 @@
-// The step that each control point takes. After settling.cl, settling_contact.cl and settling_pull.cl.
+// The step that each control point takes. After settling.cl, settling_contact.cl and
+// settling_pull.cl.
 //
 // The twin of settling_step.wgsl, and of Gathered in texere-core's pass.rs.
 
-// The places of the intervals that pull at a point, by the slot that it has there: the one that begins a place behind it, at it,
-// one and two places before it. NOWHERE where the yarn has none.
+// The places of the intervals that pull at a point, by the slot that it has there: the one that
+// begins a place behind it, at it, one and two places before it. NOWHERE where the yarn has none.
 #define NOWHERE 0xffffffffu
 
 uint interval_place(const StrandRow *strand, int number) {
@@ -107,7 +108,8 @@ float3 step_block(const SettlingParams *params, __global const float *pulls, uin
     return within_limits(step, place, least_seen(params, pulls, intervals, 4u * BLOCK_SLOT + 4u));
 }
 
-// The length that an interval is to have after a pass in which lengths are free. `plane` has the arcs of all intervals.
+// The length that an interval is to have after a pass in which lengths are free. `plane` has the
+// arcs of all intervals.
 float freed(const SettlingParams *params, __global const float *pulls, uint plane, uint4 intervals, float length,
             float start) {
     float sum = 0.0f;

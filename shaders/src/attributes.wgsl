@@ -1,15 +1,15 @@
 // How long yarns are at each block's start, and the attributes of vertices. After common.wgsl.
 //
-// The twin of attributes.cl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm (Rust: ArcLength), the lower half
-// first, so the order of the sums does not matter.
+// The twin of attributes.cl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm
+// (Rust: ArcLength), the lower half first, so the order of the sums does not matter.
 
 const ATTRIBUTES_GROUP = 64u;
 const YARN_LENGTHS_GROUP = 256u;
 
 // How long its yarn is at each block's start.
 @group(0) @binding(42) var<storage, read_write> arc_lengths: array<vec2<u32>>;
-// An attribute (Rust: Attribute) is three of these: the yarn and the bits of the angle, of the length and the tangent's x, and of its y
-// and z.
+// An attribute (Rust: Attribute) is three of these: the yarn and the bits of the angle, of the
+// length and the tangent's x, and of its y and z.
 @group(0) @binding(43) var<storage, read_write> attribute_pieces: array<vec2<u32>>;
 @group(0) @binding(10) var<storage, read> attribute_caps: array<CapRow>;
 
@@ -97,8 +97,8 @@ fn step_length(block: Block, k: u32) -> vec2<u32> {
 
 var<workgroup> length_sums: array<vec2<u32>, YARN_LENGTHS_GROUP>;
 
-// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `length_sums` until the next barrier. Every lane must
-// come here.
+// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `length_sums` until
+// the next barrier. Every lane must come here.
 fn running_length(lane: u32, lanes: u32, length: vec2<u32>) -> vec2<u32> {
     length_sums[lane] = length;
     for (var reach = 1u; reach < lanes; reach *= 2u) {
@@ -122,7 +122,8 @@ fn lane_length(block: Block, lane: u32) -> vec2<u32> {
     return step_length(block, lane);
 }
 
-// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first ring to the next block's.
+// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first
+// ring to the next block's.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {
@@ -137,8 +138,8 @@ fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
     }
 }
 
-// A workgroup of YARN_LENGTHS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on: the lengths of its blocks become those
-// of all blocks before each, tile by tile.
+// A workgroup of YARN_LENGTHS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on:
+// the lengths of its blocks become those of all blocks before each, tile by tile.
 @compute @workgroup_size(YARN_LENGTHS_GROUP)
 fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                 @builtin(local_invocation_index) lane: u32) {

@@ -1,9 +1,9 @@
 // What every stage reads: the tables, the turn, the spline, the frame and the vertex.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
-// frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no feature required.
-// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file, and FLATTENED: false where all yarns
-// are round, as wide as high everywhere.
+// The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
+// spline.rs, sampling.rs, frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no
+// feature required. Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before
+// this file, and FLATTENED: false where all yarns are round, as wide as high everywhere.
 
 // Rust: texere_core::Block, 32 bytes.
 struct Block {
@@ -55,11 +55,11 @@ struct Params {
     quanta_per_mm: f32,
 }
 
-// A control point (Rust: ControlPoint) is a vec4<u32>: the bits of x, y, z, and two half floats, half width and half height.
-// A section point (Rust: SectionPoint) is a vec4 of x, y, normal x, normal y.
-// A ring (Rust: Ring) is three vec4<u32>: the bits of centre and half width, of the tangent and the roll, of half height and
-// both growths.
-// A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
+// A control point (Rust: ControlPoint) is a vec4<u32>: the bits of x, y, z, and two half floats,
+// half width and half height. A section point (Rust: SectionPoint) is a vec4 of x, y, normal x,
+// normal y. A ring (Rust: Ring) is three vec4<u32>: the bits of centre and half width, of the
+// tangent and the roll, of half height and both growths. A vertex (Rust: Vertex) is six floats: x y
+// z nx ny nz.
 
 // Points are bound from the start of the chunk's window.
 @group(0) @binding(0) var<uniform> params: Params;
@@ -195,7 +195,8 @@ fn segment_new(first: u32, s: f32) -> Segment {
     return segment;
 }
 
-// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's speed.
+// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's
+// speed.
 fn size_sample(start: f32, terms: vec3<f32>, least: f32, t: f32, inverse: f32) -> vec2<f32> {
     let size = start + (terms.x + (terms.y + terms.z * t) * t) * t;
     let growth = (terms.x + (terms.y * 2.0 + terms.z * (3.0 * t)) * t) * inverse;
@@ -246,7 +247,8 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     return sample;
 }
 
-// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an integer division.
+// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an
+// integer division.
 fn quotient(part: u32, whole: u32) -> u32 {
     return u32((f32(part) + 0.5) * (1.0 / f32(whole)));
 }
@@ -322,7 +324,8 @@ fn basis_upright(tangent: vec3<f32>) -> Basis {
     return basis;
 }
 
-// The side of a section that stands with `roll`: the upright one turned about the tangent, towards up.
+// The side of a section that stands with `roll`: the upright one turned about the tangent, towards
+// up.
 fn side_standing(tangent: vec3<f32>, roll: u32) -> vec3<f32> {
     let upright = basis_upright(tangent);
     if roll == 0u {
@@ -337,8 +340,8 @@ fn mirrored(v: vec3<f32>, mirror: vec3<f32>, mirror_squared: f32) -> vec3<f32> {
     return v - mirror * (2.0 * dot(v, mirror) / mirror_squared);
 }
 
-// The angle, in turns, from the next ring's upright side to this ring's upright side carried there by double
-// reflection (Wang, Juettler, Zheng and Liu 2008, table I).
+// The angle, in turns, from the next ring's upright side to this ring's upright side carried there
+// by double reflection (Wang, Juettler, Zheng and Liu 2008, table I).
 fn transport_turns(tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>) -> f32 {
     var side = basis_upright(tangent).side;
     let length_squared = dot(chord, chord);
@@ -367,8 +370,8 @@ fn frame_step(frame: u32, tangent: vec3<f32>, next_tangent: vec3<f32>, chord: ve
     return turn_from_turns(turns + twist * sqrt(dot(chord, chord)));
 }
 
-// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of its whole turn, so
-// that its last ring meets its first.
+// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of
+// its whole turn, so that its last ring meets its first.
 fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
     let steps = yarn.rings - 1u;
     if yarn.closed == 0u {
@@ -393,19 +396,21 @@ struct Stance {
     round: bool,
 }
 
-// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth. Round rings are worked out
-// alike whether other yarns are FLATTENED or not, so that no vertex hangs on yarns elsewhere.
+// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth.
+// Round rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex
+// hangs on yarns elsewhere.
 fn is_round(width: vec2<f32>, height: vec2<f32>) -> bool {
     return !FLATTENED || all(width == height);
 }
 
-// The side that a section stands with. A round one turns with the roll. The outline of a flattened one leans, and the section
-// turns inside.
+// The side that a section stands with. A round one turns with the roll. The outline of a flattened
+// one leans, and the section turns inside.
 fn side_of(tangent: vec3<f32>, roll: u32, lean: u32, round: bool) -> vec3<f32> {
     return side_standing(tangent, select(lean, roll, round));
 }
 
-// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.
+// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the
+// roll's.
 fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, height: vec2<f32>, sin_cos: vec2<f32>) -> Stance {
     var stance: Stance;
     stance.centre = centre;

@@ -1,7 +1,9 @@
-// What the shaders of crossings share: tables, sites, and what is gathered at one of them. Stands before each of them.
+// What the shaders of crossings share: tables, sites, and what is gathered at one of them. Stands
+// before each of them.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core (crossings/), and crossings.cl is the twin
-// of this file. Core WGSL, no feature required. Constants are the core's; texere-gpu writes them before this file.
+// The formulas, the thresholds and the order of operations are those of texere-core (crossings/),
+// and crossings.cl is the twin of this file. Core WGSL, no feature required. Constants are the
+// core's; texere-gpu writes them before this file.
 
 // Rust: texere_gpu::CrossingsParams, 48 bytes.
 struct CrossingsParams {
@@ -30,7 +32,8 @@ struct ThreadRow {
     after: i32,
 }
 
-// A lie (Rust: Lie) is a vec4<f32>: shift, height, half width, half height. A crossing is two of them, its end's and its pick's.
+// A lie (Rust: Lie) is a vec4<f32>: shift, height, half width, half height. A crossing is two of
+// them, its end's and its pick's.
 
 @group(0) @binding(34) var<uniform> cloth: CrossingsParams;
 @group(0) @binding(35) var<storage, read> threads: array<ThreadRow>;
@@ -104,8 +107,9 @@ fn side_of(site: vec2<u32>, of_set: u32) -> f32 {
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
-// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of `own_own` has the unknowns of its own with
-// its unknown k, row k of `own_crossed` those of the other set with it. Rows count up to the diagonal.
+// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of
+// `own_own` has the unknowns of its own with its unknown k, row k of `own_crossed` those of the
+// other set with it. Rows count up to the diagonal.
 struct CrossingBlock {
     own: vec4<f32>,
     crossed: vec4<f32>,
@@ -158,7 +162,8 @@ fn add_own(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residua
     (*block).own_own[3] += weighted.w * slopes;
 }
 
-// Adds one with these slopes in its own height and half height, and in what is unknown of the other set.
+// Adds one with these slopes in its own height and half height, and in what is unknown of the other
+// set.
 fn add_between(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residual: f32, slopes: vec2<f32>, crossed: vec4<f32>) {
     let height = slopes.x;
     let thickness = slopes.y;

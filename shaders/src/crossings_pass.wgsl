@@ -1,6 +1,7 @@
 // A pass: the step of every crossing, and what all of them have seen. After crossings_terms.wgsl.
 //
-// crossings_pass.cl is the twin of this file; CrossingBlock::step and CrossingsPlan in texere-core (crossings/) are the definitions.
+// crossings_pass.cl is the twin of this file; CrossingBlock::step and CrossingsPlan in texere-core
+// (crossings/) are the definitions.
 
 // As crossings are.
 @group(0) @binding(38) var<storage, read_write> crossings: array<vec4<f32>>;

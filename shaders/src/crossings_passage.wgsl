@@ -1,8 +1,10 @@
 // A thread that changes sides between two threads of the other set. After crossings.wgsl.
 //
-// crossings_passage.cl is the twin of this file, and StraightPassage in texere-core (crossings/passage.rs) the definition.
+// crossings_passage.cl is the twin of this file, and StraightPassage in texere-core
+// (crossings/passage.rs) the definition.
 
-// A straight passage over the first of two crossed threads and under the second one, at the slope that leaves most room.
+// A straight passage over the first of two crossed threads and under the second one, at the slope
+// that leaves most room.
 struct StraightPassage {
     // Cosine and sine of the slope.
     slope: vec2<f32>,
@@ -30,7 +32,8 @@ fn left_by(across: f32, rise: f32, halves: vec4<f32>, slope: vec2<f32>) -> f32 {
 fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> StraightPassage {
     let distance = sqrt(across * across + rise * rise);
     let excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // The best slope of round threads, level or upright: wide ellipses leave most room at one of these.
+    // The best slope of round threads, level or upright: wide ellipses leave most room at one of
+    // these.
     var slope = vec2(0.0, 1.0);
     if rise > 0.0 {
         slope = vec2(rise, across) / distance;

@@ -1,4 +1,5 @@
-// The energy: what threads want, and what keeps them apart. After crossings.wgsl and crossings_passage.wgsl.
+// The energy: what threads want, and what keeps them apart. After crossings.wgsl and
+// crossings_passage.wgsl.
 //
 // crossings_terms.cl is the twin of this file, and texere-core (crossings/terms.rs) the definition.
 
@@ -47,7 +48,8 @@ fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Alon
     add_alone(block, weights, share, before.lie - 2.0 * middle.lie + after.lie, slope);
 }
 
-// First differences along the thread to a crossing `gap` away: tension, and sections that change little.
+// First differences along the thread to a crossing `gap` away: tension, and sections that change
+// little.
 fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Along, gap: f32, tension: f32, evenness: f32) {
     if other.there {
         let taut = tension / gap;
@@ -56,16 +58,19 @@ fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Al
     }
 }
 
-// What a thread does to what it crosses between two crossings, the `second` of which is this one or else the first.
+// What a thread does to what it crosses between two crossings, the `second` of which is this one or
+// else the first.
 struct Meeting {
     room: f32,
-    // Slopes in its own height and half height, and in what is unknown of the thread that it crosses here.
+    // Slopes in its own height and half height, and in what is unknown of the thread that it
+    // crosses here.
     slopes: vec2<f32>,
     crossed: vec4<f32>,
     clearance: f32,
 }
 
-// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its upper end.
+// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its
+// upper end.
 fn shoulder(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>, second: bool) -> Meeting {
     let rises = side * (last.lie.y - first.lie.y) > 0.0;
     let upper = select(first.lie, last.lie, rises);
@@ -127,7 +132,8 @@ fn add_meeting(block: ptr<function, CrossingBlock>, of_set: u32, first: Along, l
     }
 }
 
-// What the thread has to clear between this crossing and the one so many further along it, past threads of other levels.
+// What the thread has to clear between this crossing and the one so many further along it, past
+// threads of other levels.
 fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Along, steps: i32) {
     let other = along_of(here.site, of_set, steps);
     if !other.there {
@@ -176,8 +182,8 @@ fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>
     keep_clear(block, apart, rise, wide, thick, sign, 0.5);
 }
 
-// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of two lie side by side or one above the
-// other, as ellipses. All are clear of one another beside it.
+// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of
+// two lie side by side or one above the other, as ellipses. All are clear of one another beside it.
 fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, across: i32, of_level: bool) {
     let site = beside(here.site, of_set, 0, across);
     if !is_there(site) {
@@ -205,7 +211,8 @@ fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along
     add_half_way(block, of_set, here.lie, after, other, across, gap);
 }
 
-// The neighbours of a thread to one side: `steps` is how many threads away the next one of its level lies.
+// The neighbours of a thread to one side: `steps` is how many threads away the next one of its
+// level lies.
 fn add_neighbours(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, side: i32, steps: i32) {
     if steps != 0 {
         add_neighbour(block, of_set, before, here, after, side * steps, true);
@@ -235,7 +242,8 @@ fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);
     let side = side_of(site, WARP);
-    // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+    // Threads of two layers slope where they cross: along the slope of the other one an ellipse
+    // reaches further.
     var slope = vec2(0.0);
     if (cloth.flags & LAYERED) != 0u && thread_of(site, WARP).level != thread_of(site, WEFT).level {
         slope = CROSSINGS_STEEPER * vec2(slope_of(site, WEFT), slope_of(site, WARP));

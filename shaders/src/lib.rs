@@ -1,5 +1,5 @@
-//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. No GPU interface is used here;
-//! `texere-wgpu` runs them.
+//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. No GPU
+//! interface is used here; `texere-wgpu` runs them.
 //!
 //! | file | entry points | work |
 //! |---|---|---|
@@ -15,7 +15,8 @@
 //! | `attributes.wgsl` | `block_lengths`, `yarn_lengths`, `attributes`, `cap_attributes` | attributes of vertices |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
-//! Those that bring yarns to rest are in [`settling`] and [`crossings`], those that make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
+//! Those that bring yarns to rest are in [`settling`] and [`crossings`], those that make pictures
+//! in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
 //!
 //! ```
 //! use texere_shaders::{MESH, Resource};
@@ -27,8 +28,9 @@ pub mod crossings;
 pub mod picture;
 pub mod settling;
 
-/// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every device allows, and there
-/// are as few workgroups without work as can be, since these take time too.
+/// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every
+/// device allows, and there are as few workgroups without work as can be, since these take time
+/// too.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));
@@ -165,7 +167,8 @@ pub struct Shader {
     pub source: &'static str,
     /// Lanes of a workgroup, in one dimension.
     pub workgroup: u32,
-    /// All that it uses, by number; all in group 0. At most eight are storage buffers, which is what WebGPU promises.
+    /// All that it uses, by number; all in group 0. At most eight are storage buffers, which is
+    /// what WebGPU promises.
     pub bindings: &'static [Binding],
 }
 
@@ -299,9 +302,11 @@ pub const PACKED_CAPS: Shader = Shader {
     ],
 };
 
-/// What unpacks packed vertices in shaders of a caller's, `unpacked_position` and `unpacked_normal`: to be put before them, it binds nothing.
+/// What unpacks packed vertices in shaders of a caller's, `unpacked_position` and
+/// `unpacked_normal`: to be put before them, it binds nothing.
 ///
-/// A vertex shader that draws a cloth, whose middle lies at (50, 50, 0) mm, from its packed vertices:
+/// A vertex shader that draws a cloth, whose middle lies at (50, 50, 0) mm, from its packed
+/// vertices:
 ///
 /// ```
 /// let source = format!("{}{}", texere_shaders::UNPACK, "

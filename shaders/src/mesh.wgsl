@@ -1,13 +1,15 @@
-// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl, rings.wgsl and share.wgsl.
+// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl,
+// rings.wgsl and share.wgsl.
 //
-// The twin of mesh.cl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
-// at a time (8 where sides are odd in number), contiguous across the workgroup.
+// The twin of mesh.cl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so
+// lanes store 16 bytes at a time (8 where sides are odd in number), contiguous across the
+// workgroup.
 
 const MESH_GROUP = 128u;
 
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
-// The indices of a ring's quads. These three lie four by four where sides are even in number, so that every block starts
-// at 16 bytes, and else two by two, at 8.
+// The indices of a ring's quads. These three lie four by four where sides are even in number, so
+// that every block starts at 16 bytes, and else two by two, at 8.
 @group(0) @binding(6) var<storage, read> pattern: array<vec4<u32>>;
 @group(0) @binding(7) var<storage, read_write> vertices: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> indices: array<vec4<u32>>;
@@ -15,8 +17,8 @@ const MESH_GROUP = 128u;
 @group(0) @binding(7) var<storage, read_write> vertex_pairs: array<vec2<f32>>;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
 
-// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an even number: so they hold
-// floats of at most one normal and one position.
+// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
+// even number: so they hold floats of at most one normal and one position.
 fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, normal_point);
@@ -33,8 +35,8 @@ fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     return select(select(normal.yz, vec2(position.z, normal.x), first == 2u), position.xy, first == 0u);
 }
 
-// A workgroup of MESH_GROUP a row of the chunk's block table. Indices first: they wait for nothing, and are on their way
-// while the points are fetched.
+// A workgroup of MESH_GROUP a row of the chunk's block table. Indices first: they wait for nothing,
+// and are on their way while the points are fetched.
 @compute @workgroup_size(MESH_GROUP)
 fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {

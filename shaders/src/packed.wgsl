@@ -1,8 +1,9 @@
 // Stage 2 with stage 1 in it, as packed vertices. After common.wgsl, rings.wgsl and share.wgsl.
 //
-// The twin of packed.cl and of texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is three words: x in bits 0 to 20 of
-// the first two, y in bits 21 to 41, z in bits 42 to 62; then the steps of the octahedral normal, 16 bits each. Lanes store two words
-// at a time (one where sides are odd in number), contiguous across the workgroup.
+// The twin of packed.cl and of texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is
+// three words: x in bits 0 to 20 of the first two, y in bits 21 to 41, z in bits 42 to 62; then the
+// steps of the octahedral normal, 16 bits each. Lanes store two words at a time (one where sides
+// are odd in number), contiguous across the workgroup.
 
 const PACKED_GROUP = 64u;
 
@@ -12,8 +13,8 @@ const PACKED_GROUP = 64u;
 @group(0) @binding(44) var<storage, read_write> packed_words: array<u32>;
 @group(0) @binding(10) var<storage, read> packed_cap_rows: array<CapRow>;
 
-// The lowest bits of the whole quanta that are nearest to a coordinate. Products are by powers of two, so nothing but the last step
-// rounds.
+// The lowest bits of the whole quanta that are nearest to a coordinate. Products are by powers of
+// two, so nothing but the last step rounds.
 fn packed_coordinate(mm: f32) -> u32 {
     let quanta = mm * params.quanta_per_mm;
     let rest = quanta - round(quanta * (1.0 / QUANTA_WRAP)) * QUANTA_WRAP;
@@ -39,8 +40,9 @@ fn packed_normal(normal: vec3<f32>) -> u32 {
     return (bitcast<u32>(steps.x) & 0xffffu) | (bitcast<u32>(steps.y) << 16u);
 }
 
-// Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at `point`, the second of the vertex at
-// `next`, which is another one only where the first is the word of a normal.
+// Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at
+// `point`, the second of the vertex at `next`, which is another one only where the first is the
+// word of a normal.
 fn two_words(ring: u32, first: u32, point: vec4<f32>, next: vec4<f32>) -> vec2<u32> {
     let stance = stance_of(ring);
     let position = packed_position(position_at(stance, next));

@@ -1,9 +1,10 @@
-// The paper's algorithms 2 and 4, one lane a yarn: the yardstick that the schedule per-ring is measured against. After
-// common.wgsl.
+// The paper's algorithms 2 and 4, one lane a yarn: the yardstick that the schedule per-ring is
+// measured against. After common.wgsl.
 //
-// The twin of per_yarn.cl. Only what the paper does: upright, untwisted, open yarns without caps. A lane's share is a
-// part, a run of one yarn's rings in a chunk, so that a fabric larger than a device's buffers can be made at all. Here
-// `blocks` has one row a part: its first block's, with all of the part's rings.
+// The twin of per_yarn.cl. Only what the paper does: upright, untwisted, open yarns without caps. A
+// lane's share is a part, a run of one yarn's rings in a chunk, so that a fabric larger than a
+// device's buffers can be made at all. Here `blocks` has one row a part: its first block's, with
+// all of the part's rings.
 
 const PER_YARN_GROUP = 64u;
 

@@ -1,16 +1,18 @@
-// A block's rings in workgroup memory: what the stages of the schedule per-ring begin with. After common.wgsl, and after
-// RINGS_BEYOND: 1 where the ring that the block's last quads lead to is wanted, too, else 0.
+// A block's rings in workgroup memory: what the stages of the schedule per-ring begin with. After
+// common.wgsl, and after RINGS_BEYOND: 1 where the ring that the block's last quads lead to is
+// wanted, too, else 0.
 //
 // rings.cl is the twin of this file.
 
 // Rings that there is room for: whole eights, for the scan.
 const RINGS_HELD = BLOCK_RINGS + 8u * RINGS_BEYOND;
 
-// The whole turn of each yarn, then the roll at each block's start, then the leans of all rings where any yarn leans: one buffer, since eight are all that WebGPU promises.
+// The whole turn of each yarn, then the roll at each block's start, then the leans of all rings
+// where any yarn leans: one buffer, since eight are all that WebGPU promises.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
 
-// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
-// less memory a workgroup takes, the more of them run at a time.
+// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis
+// instead of storing it: the less memory a workgroup takes, the more of them run at a time.
 struct BlockRings {
     // Centre, half width.
     centre: array<vec4<f32>, RINGS_HELD>,

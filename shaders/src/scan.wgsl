@@ -1,7 +1,8 @@
 // The roll at each block's start, summed over the blocks before it. After common.wgsl.
 //
-// The twin of scan.cl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a running sum over a
-// yarn's blocks then gives the roll at each block's first ring. Turns wrap, so the order of the sums does not matter.
+// The twin of scan.cl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a
+// running sum over a yarn's blocks then gives the roll at each block's first ring. Turns wrap, so
+// the order of the sums does not matter.
 
 const TURNS_GROUP = 64u;
 const ROLLS_GROUP = 256u;
@@ -31,7 +32,8 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         turn_offsets[lane] = here.sample.offset;
     }
     workgroupBarrier();
-    // The steps to the ring after each: as many as quads, so the last leads to the next block's first ring.
+    // The steps to the ring after each: as many as quads, so the last leads to the next block's
+    // first ring.
     var turn = 0u;
     if lane < block.quads {
         var next_tangent: vec3<f32>;
@@ -66,8 +68,8 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
 
 var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
 
-// A workgroup of ROLLS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on: turns become rolls in place, tile
-// by tile, and their total the yarn's whole turn.
+// A workgroup of ROLLS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on: turns
+// become rolls in place, tile by tile, and their total the yarn's whole turn.
 @compute @workgroup_size(ROLLS_GROUP)
 fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {

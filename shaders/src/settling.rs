@@ -97,7 +97,8 @@ pub const COUNT: Shader = Shader {
 /// Each chord's neighbours: a lane a chord.
 pub const FILL: Shader = Shader { entry_point: "settling_fill", ..COUNT };
 
-/// What pulls at intervals in the weighted form, and a row of what was seen for each workgroup: a lane a place.
+/// What pulls at intervals in the weighted form, and a row of what was seen for each workgroup: a
+/// lane a place.
 pub const PULL_WEIGHTED: Shader = Shader {
     entry_point: "settling_pull_weighted",
     source: PULL_SOURCE,
@@ -118,7 +119,8 @@ pub const PULL_WEIGHTED: Shader = Shader {
 /// The same in the block form.
 pub const PULL_BLOCK: Shader = Shader { entry_point: "settling_pull_block", ..PULL_WEIGHTED };
 
-/// The step of each control point in the weighted form, and the longest one in each workgroup's row: a lane a place.
+/// The step of each control point in the weighted form, and the longest one in each workgroup's
+/// row: a lane a place.
 pub const STEP_WEIGHTED: Shader = Shader {
     entry_point: "settling_step_weighted",
     source: STEP_SOURCE,
@@ -171,7 +173,8 @@ pub const POINTS: Shader = Shader {
     ],
 };
 
-/// How far control points reach: any number of workgroups, each of which takes every so many places.
+/// How far control points reach: any number of workgroups, each of which takes every so many
+/// places.
 pub const BOUNDS: Shader = Shader {
     entry_point: "settling_bounds",
     source: POINTS_SOURCE,

@@ -1,8 +1,9 @@
-// What the shaders of settling share: tables, places, intervals and chords. Stands before each of them.
+// What the shaders of settling share: tables, places, intervals and chords. Stands before each of
+// them.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core (settling/), and settling.cl is the twin
-// of this file. Core WGSL, no feature required. Constants are the core's; texere-gpu writes them before this file, and
-// FLATTENED: false where all yarns are round.
+// The formulas, the thresholds and the order of operations are those of texere-core (settling/),
+// and settling.cl is the twin of this file. Core WGSL, no feature required. Constants are the
+// core's; texere-gpu writes them before this file, and FLATTENED: false where all yarns are round.
 
 // Rust: texere_gpu::PlaceRow, 16 bytes.
 struct PlaceRow {
@@ -69,11 +70,11 @@ struct SeenRow {
     step: f32,
 }
 
-// A place (Rust: Place) is a vec4<i32>: x, y and z, units, and two half floats, half width and half height.
-// A row of the chord table (Rust: texere_gpu::ChordRow) is a vec4<u32>: the place of its interval, where along the yarn it begins
-// and ends, and the bits of the largest half of its interval.
-// A chord as passes see it is two vec4<u32>: where it begins and the place of its interval; the bits of its span, mm, and of the
-// largest half of its interval.
+// A place (Rust: Place) is a vec4<i32>: x, y and z, units, and two half floats, half width and half
+// height. A row of the chord table (Rust: texere_gpu::ChordRow) is a vec4<u32>: the place of its
+// interval, where along the yarn it begins and ends, and the bits of the largest half of its
+// interval. A chord as passes see it is two vec4<u32>: where it begins and the place of its
+// interval; the bits of its span, mm, and of the largest half of its interval.
 
 @group(0) @binding(12) var<uniform> settling: SettlingParams;
 @group(0) @binding(13) var<storage, read> place_rows: array<PlaceRow>;
@@ -190,7 +191,8 @@ fn chord_middle(chord: Chord) -> vec3<i32> {
     return chord.at + to_units(chord.span * 0.5);
 }
 
-// How many repeats away the image of a chord lies that is nearest to another one, which begins `way` before it.
+// How many repeats away the image of a chord lies that is nearest to another one, which begins
+// `way` before it.
 fn nearest_image(one: vec3<f32>, other: vec3<f32>, way: vec3<i32>) -> vec2<i32> {
     let apart = to_mm(way) + (other - one) * 0.5;
     let frequency = vec2(settling.frequency_x, settling.frequency_y);
@@ -202,7 +204,8 @@ fn to_image(way: vec3<i32>, image: vec2<i32>) -> vec3<i32> {
     return vec3(way.x + image.x * settling.period_x, way.y + image.y * settling.period_y, way.z);
 }
 
-// Shares of two chords where they come nearest to one another; the second begins `way` from the first.
+// Shares of two chords where they come nearest to one another; the second begins `way` from the
+// first.
 fn chords_nearest(one: vec3<f32>, other: vec3<f32>, way: vec3<f32>) -> vec2<f32> {
     let a = max(dot3(one, one), SHORT);
     let e = max(dot3(other, other), SHORT);

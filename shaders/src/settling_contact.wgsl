@@ -1,9 +1,11 @@
-// Where two intervals come near one another, and what that does. After settling.wgsl, before settling_pull.wgsl.
+// Where two intervals come near one another, and what that does. After settling.wgsl, before
+// settling_pull.wgsl.
 //
-// settling_contact.cl is the twin of this file, and contact.rs and the first half of pass.rs of texere-core the definition.
+// settling_contact.cl is the twin of this file, and contact.rs and the first half of pass.rs of
+// texere-core the definition.
 
-// What an interval has seen: the least distance to another yarn, mm, the same over both reaches, the least radius of curvature in
-// diameters.
+// What an interval has seen: the least distance to another yarn, mm, the same over both reaches,
+// the least radius of curvature in diameters.
 struct Sight {
     near: f32,
     clearance: f32,
@@ -17,15 +19,17 @@ struct Approach {
     distance: f32,
 }
 
-// What a contact asks of the first interval's points: the step of its place, mm, the direction to the other yarn, and what each of
-// the four counts. The weights are all 0 where it asks for nothing.
+// What a contact asks of the first interval's points: the step of its place, mm, the direction to
+// the other yarn, and what each of the four counts. The weights are all 0 where it asks for
+// nothing.
 struct Push {
     back: vec3<f32>,
     direction: vec3<f32>,
     weights: vec4<f32>,
 }
 
-// What four points count, where one of them stands beyond an open yarn's end: those that it is made of count instead.
+// What four points count, where one of them stands beyond an open yarn's end: those that it is made
+// of count instead.
 fn folded(tags: u32, weights: vec4<f32>) -> vec4<f32> {
     var own = weights;
     if (tags & TAG_OPENS) != 0u {
@@ -53,7 +57,8 @@ fn contact_at(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>) -> 
     return Approach(at, between, length3(between));
 }
 
-// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes nearer.
+// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes
+// nearer.
 fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride: vec2<f32>) -> Approach {
     let start = contact_at(one, other, way, at);
     let velocity = interval_velocity(one, at.x);
@@ -153,7 +158,8 @@ fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
 
 const MOST_AT_ONCE = 32u;
 
-// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort them out first meet those few together.
+// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort
+// them out first meet those few together.
 fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sight>) -> u32 {
     var here = start;
     var bits = 0u;

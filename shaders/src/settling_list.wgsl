@@ -1,7 +1,8 @@
 // Which chords are neighbours. After settling.wgsl.
 //
-// settling_list.cl is the twin of this file, and neighbours.rs of texere-core the definition. Chords are sorted into cells in any
-// order, but a chord's neighbours end in the order of their numbers.
+// settling_list.cl is the twin of this file, and neighbours.rs of texere-core the definition.
+// Chords are sorted into cells in any order, but a chord's neighbours end in the order of their
+// numbers.
 
 @group(0) @binding(14) var<storage, read> strands: array<StrandRow>;
 @group(0) @binding(16) var<storage, read> chord_rows: array<vec4<u32>>;
@@ -114,7 +115,8 @@ fn between(end: u32, start: u32, window: i32) -> bool {
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of one another.
+// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of
+// one another.
 fn leads_on(one: vec4<u32>, other: vec4<u32>, image: vec2<i32>, window: i32, strand: StrandRow) -> bool {
     let shift = vec2(strand.shift_x, strand.shift_y);
     let here = all(image == vec2(0)) && (between(one.z, other.y, window) || between(other.z, one.y, window));
@@ -142,7 +144,8 @@ fn are_neighbours(number: u32, one: Chord, other_number: u32, other: Chord) -> b
     return !leads_on(chord_rows[number], chord_rows[other_number], image, window, strands[yarn]);
 }
 
-// The first cell to visit along an axis (x) and how many (y): its own and those beside it, each once.
+// The first cell to visit along an axis (x) and how many (y): its own and those beside it, each
+// once.
 fn cells_beside(cell: u32, period: i32, count: u32) -> vec2<u32> {
     if count < 3u {
         return vec2(0u, count);
@@ -154,8 +157,8 @@ fn cells_beside(cell: u32, period: i32, count: u32) -> vec2<u32> {
     return vec2(first, min(cell + 1u, count - 1u) - first + 1u);
 }
 
-// Finds the neighbours of chord `number`, and gives back how many there are. It puts up to `room` of them into the list from
-// `start` on, each where it belongs in the order of numbers.
+// Finds the neighbours of chord `number`, and gives back how many there are. It puts up to `room`
+// of them into the list from `start` on, each where it belongs in the order of numbers.
 fn find_neighbours(number: u32, start: u32, room: u32) -> u32 {
     let one = chord(number);
     let cell = cell_of(chord_middle(one));
@@ -197,8 +200,8 @@ fn settling_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgrou
     }
 }
 
-// A lane a chord: its neighbours. What is left, if the compiler made other roundings of this shader than of the one that has
-// counted, gets a number that is no chord's.
+// A lane a chord: its neighbours. What is left, if the compiler made other roundings of this shader
+// than of the one that has counted, gets a number that is no chord's.
 @compute @workgroup_size(SETTLING_LIST_GROUP)
 fn settling_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

@@ -1,6 +1,7 @@
 // Control points from where yarns have come to rest, and how far they reach. After settling.wgsl.
 //
-// The formulas are those of texere-core (Scale::point, renew_virtual_ends), and settling_points.cl is the twin of this file.
+// The formulas are those of texere-core (Scale::point, renew_virtual_ends), and settling_points.cl
+// is the twin of this file.
 
 // Rust: texere_gpu::SettledParams, 32 bytes.
 struct SettledParams {
@@ -36,8 +37,8 @@ struct BoundsRow {
 @group(0) @binding(32) var<storage, read> settled_rows: array<SettledRow>;
 @group(0) @binding(33) var<storage, read_write> bounds: array<BoundsRow>;
 
-// Where a place lies, mm: origin + units * unit, rounded once. Units are split in two parts that floats hold exactly, and what
-// the first sum loses is added to the other part.
+// Where a place lies, mm: origin + units * unit, rounded once. Units are split in two parts that
+// floats hold exactly, and what the first sum loses is added to the other part.
 fn position(place: u32) -> vec3<f32> {
     let units = places[place].xyz;
     let high = vec3<f32>(units >> vec3(12u)) * (f32(4096) * settled.unit);

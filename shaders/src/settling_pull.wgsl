@@ -1,11 +1,14 @@
-// What pulls at the four control points of each interval. After settling.wgsl and settling_contact.wgsl.
+// What pulls at the four control points of each interval. After settling.wgsl and
+// settling_contact.wgsl.
 //
-// settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs the definition. Sums go in the order of the lists.
+// settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs the definition. Sums
+// go in the order of the lists.
 //
-// Lanes write planes of one number for each place, side by side. First those of the slots: in the weighted form eight for each,
-// contacts' ways (x, y, z) and their weights, and the same of bends; in the block form nine, all ways and the squares of their
-// directions (xx, xy, xz, yy, yz, zz). Then half of the length that is too much (x, y, z), the length, the least distance
-// seen, mm, and the least one over both reaches.
+// Lanes write planes of one number for each place, side by side. First those of the slots: in the
+// weighted form eight for each, contacts' ways (x, y, z) and their weights, and the same of bends;
+// in the block form nine, all ways and the squares of their directions (xx, xy, xz, yy, yz, zz).
+// Then half of the length that is too much (x, y, z), the length, the least distance seen, mm, and
+// the least one over both reaches.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
@@ -23,7 +26,8 @@ fn interval_at(place: u32) -> Interval {
     return interval_of(places[place - 1u], places[place], places[place + 1u], places[place + 2u]);
 }
 
-// A bend at one place of an interval: where it would go, and how much each point counts. All 0 where it may bend so.
+// A bend at one place of an interval: where it would go, and how much each point counts. All 0
+// where it may bend so.
 struct Bend {
     towards: vec3<f32>,
     way: vec3<f32>,
@@ -91,7 +95,8 @@ fn write(plane: u32, place: u32, value: f32) {
     pulls[plane * settling.places + place] = value;
 }
 
-// Writes what an interval knows of itself from plane `plane` on, and gives back its share in what all have seen.
+// Writes what an interval knows of itself from plane `plane` on, and gives back its share in what
+// all have seen.
 fn write_own(plane: u32, place: u32, length: vec3<f32>, arc: f32, sight: Sight) -> SeenRow {
     let wanted = lengths[place];
     write(plane, place, length.x);
@@ -284,7 +289,8 @@ fn has_interval(place: u32) -> bool {
     return place < settling.places && (place_rows[place].tags & TAG_INTERVAL) != 0u;
 }
 
-// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each group.
+// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each
+// group.
 @compute @workgroup_size(SETTLING_PULL_GROUP)
 fn settling_pull_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                           @builtin(local_invocation_index) lane: u32) {

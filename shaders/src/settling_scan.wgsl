@@ -1,6 +1,7 @@
 // Sums of all counts before each one. It needs no other file.
 //
-// settling_scan.cl is the twin of this file. Sums stop at the largest number, so that too many are seen.
+// settling_scan.cl is the twin of this file. Sums stop at the largest number, so that too many are
+// seen.
 
 const SETTLING_SCAN_GROUP = 256u;
 // Counts of a lane.
@@ -17,7 +18,8 @@ fn add_sat(a: u32, b: u32) -> u32 {
     return select(sum, 0xffffffffu, sum < a);
 }
 
-// A group its SETTLING_SCAN_GROUP * SCAN_VALUES values, in place; `sums` gets the sum of each group.
+// A group its SETTLING_SCAN_GROUP * SCAN_VALUES values, in place; `sums` gets the sum of each
+// group.
 @compute @workgroup_size(SETTLING_SCAN_GROUP)
 fn settling_scan(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

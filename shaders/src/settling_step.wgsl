@@ -14,8 +14,8 @@
 const WEIGHTED_SLOT = 8u;
 const BLOCK_SLOT = 9u;
 
-// The places of the intervals that pull at a point, by the slot that it has there: the one that begins a place behind it, at it,
-// one and two places before it. NOWHERE where the yarn has none.
+// The places of the intervals that pull at a point, by the slot that it has there: the one that
+// begins a place behind it, at it, one and two places before it. NOWHERE where the yarn has none.
 const NOWHERE = 0xffffffffu;
 
 fn interval_place(strand: StrandRow, number: i32) -> u32 {
@@ -136,7 +136,8 @@ fn step_block(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec3<f
     return within_limits(step, place, least_seen(intervals, 4u * BLOCK_SLOT + 4u));
 }
 
-// The length that an interval is to have after a pass in which lengths are free. `plane` has the arcs of all intervals.
+// The length that an interval is to have after a pass in which lengths are free. `plane` has the
+// arcs of all intervals.
 fn freed(plane: u32, intervals: vec4<u32>, length: f32, start: f32) -> f32 {
     var sum = 0.0;
     var count = 0.0;

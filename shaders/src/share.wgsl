@@ -2,9 +2,10 @@
 //
 // share.cl is the twin of this file.
 
-// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same one, `store`, of ring `ring`
-// and of each `step`th ring after it. So a lane fetches its part of the outline or of the pattern only once. Where a ring
-// has more stores than the workgroup has lanes, a lane goes on `across` stores further.
+// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same
+// one, `store`, of ring `ring` and of each `step`th ring after it. So a lane fetches its part of
+// the outline or of the pattern only once. Where a ring has more stores than the workgroup has
+// lanes, a lane goes on `across` stores further.
 struct Share {
     store: u32,
     across: u32,

@@ -1,4 +1,5 @@
-//! Every shader parses, validates, and says the same as the Rust that launches it. No device needed.
+//! Every shader parses, validates, and says the same as the Rust that launches it. No device
+//! needed.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -240,7 +241,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (3, size_of::<Block>()),
         (4, size_of::<u32>()),
         (5, size_of::<SectionPoint>()),
-        // For an even number of sides, two vertices, or the indices of two quads, are the least that a ring has more.
+        // For an even number of sides, two vertices, or the indices of two quads, are the least
+        // that a ring has more.
         (6, 12 * size_of::<u32>()),
         (7, 2 * size_of::<Vertex>()),
         (8, 12 * size_of::<u32>()),
@@ -291,7 +293,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
     }
     let offsets = [offset_of!(ChordRow, from), offset_of!(ChordRow, to), offset_of!(ChordRow, thickest)];
     assert_eq!((offset_of!(Place, halves), offsets), (12, [4, 8, 12]));
-    // Read as four components: the order of the fields matters. Half floats are read the lower one first.
+    // Read as four components: the order of the fields matters. Half floats are read the lower one
+    // first.
     assert_eq!((offset_of!(ControlPoint, x), offset_of!(ControlPoint, z)), (0, 8));
     let point: [u32; 4] = bytemuck::cast(ControlPoint::default().flattened(1.0, 2.0));
     assert_eq!(point[3], 0x4000_3c00);

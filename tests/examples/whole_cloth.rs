@@ -1,4 +1,5 @@
-//! A whole design on a device, vertex by vertex against the CPU: for cloths that are too large for the suite.
+//! A whole design on a device, vertex by vertex against the CPU: for cloths that are too large for
+//! the suite.
 //!
 //! ```sh
 //! cargo run --release -p texere-conformance --example whole_cloth -- designs/paper/1141x1050.toml wgpu:0 opencl:0
@@ -44,7 +45,8 @@ fn main() -> ExitCode {
 struct Worst {
     chunks: u64,
     vertices: u64,
-    /// Of a coordinate, in units of what is allowed: 1e-4 of the radius plus 4 units in the last place.
+    /// Of a coordinate, in units of what is allowed: 1e-4 of the radius plus 4 units in the last
+    /// place.
     position: f32,
     /// Of a normal's component, in units of 1e-4.
     normal: f32,

@@ -1,4 +1,5 @@
-//! Broken settlers of crossings: each does one thing wrong, and the comparison with `cpu-serial` has to notice.
+//! Broken settlers of crossings: each does one thing wrong, and the comparison with `cpu-serial`
+//! has to notice.
 
 use std::sync::Arc;
 

@@ -30,7 +30,8 @@ impl SettlingSabotage {
     pub const ALL: [Self; 4] = [Self::LostContacts, Self::LostShift, Self::StaleList, Self::WrongSlot];
 }
 
-/// A settler of its own that compares every chord with every other, and that is broken as its [`SettlingSabotage`] says.
+/// A settler of its own that compares every chord with every other, and that is broken as its
+/// [`SettlingSabotage`] says.
 #[derive(Debug)]
 pub struct SabotagedSettler {
     sabotage: SettlingSabotage,

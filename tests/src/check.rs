@@ -14,8 +14,9 @@ use crate::drive::{DriveError, Way, drive};
 use crate::limits::Tight;
 use crate::oracle::Oracle;
 
-/// Runs `yarns` under `settings` on `device` every way through a session, and compares: with the oracle, with the gold
-/// reference (to the bit where `exact`), the whole with chunks of a few blocks, a closed yarn's end with its start.
+/// Runs `yarns` under `settings` on `device` every way through a session, and compares: with the
+/// oracle, with the gold reference (to the bit where `exact`), the whole with chunks of a few
+/// blocks, a closed yarn's end with its start.
 ///
 /// ```
 /// use texere_conformance::{DeferredBackend, cases, check};

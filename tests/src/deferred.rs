@@ -1,8 +1,9 @@
 //! A backend that behaves like a GPU, and gives the gold reference's output.
 //!
-//! Launches only record what to do; the work is done when it is read. Chunks are as small as they get, results come in
-//! small pieces from memory that held NaN before, and a third chunk takes the memory of the first. So it shows where the
-//! core or the suite relies on results being there early, as they are on a CPU.
+//! Launches only record what to do; the work is done when it is read. Chunks are as small as they
+//! get, results come in small pieces from memory that held NaN before, and a third chunk takes the
+//! memory of the first. So it shows where the core or the suite relies on results being there
+//! early, as they are on a CPU.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

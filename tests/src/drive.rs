@@ -26,9 +26,11 @@ pub enum DriveError {
 /// The ways through a session; all must give the same output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Straight into the caller's memory, both stages in one; rings from a stage of their own afterwards.
+    /// Straight into the caller's memory, both stages in one; rings from a stage of their own
+    /// afterwards.
     Into,
-    /// Two chunks in flight: one is worked on while the one before is read. Control points come in pieces.
+    /// Two chunks in flight: one is worked on while the one before is read. Control points come in
+    /// pieces.
     Streamed,
     /// Stage 1, read, stage 2, read; control points come in pieces, the last piece first.
     Staged,
@@ -66,16 +68,18 @@ impl ChunkOutput {
     }
 }
 
-/// Control points that a piecewise upload sends at a time: many pieces even for a small fabric, and never whole yarns.
+/// Control points that a piecewise upload sends at a time: many pieces even for a small fabric, and
+/// never whole yarns.
 const PIECE_POINTS: usize = 7;
 
 /// Pieces that a piecewise upload is cut into at most.
 const PIECES: usize = 100;
 
-/// Runs `yarns` through a new session of `device`, chunks cut to `limits` and the device's own, by `way`.
+/// Runs `yarns` through a new session of `device`, chunks cut to `limits` and the device's own, by
+/// `way`.
 ///
-/// Breaches of a session's rules (too many pieces, or out of order) go to `report`; whether the output is right is for a
-/// comparison to find.
+/// Breaches of a session's rules (too many pieces, or out of order) go to `report`; whether the
+/// output is right is for a comparison to find.
 ///
 /// **Errors**: [`DriveError`] where planning or the backend fails.
 pub fn drive(
@@ -133,7 +137,8 @@ fn upload(session: &mut Session, yarns: &Yarns, way: Way) -> Result<(), SessionE
     pieces.into_iter().try_for_each(|(first, piece)| session.upload(first, piece))
 }
 
-/// Copies `piece` to `out` from `at` on, if it follows the piece before and fits; gives back whether it does.
+/// Copies `piece` to `out` from `at` on, if it follows the piece before and fits; gives back
+/// whether it does.
 fn take<T: Copy>(
     what: &str,
     done: &mut usize,

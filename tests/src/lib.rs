@@ -1,13 +1,14 @@
 //! The proof that every backend of texere gives matching output.
 //!
-//! Every [case](cases) runs on every device that a [registry](REGISTRY) opens, and is compared with an [f64
-//! oracle](oracle) that shares no geometry with the core, and with the gold reference, the serial CPU backend. [`compare`]
-//! has the tolerances; the broken backends of [`Sabotage`] show that the comparison can fail.
+//! Every [case](cases) runs on every device that a [registry](REGISTRY) opens, and is compared with
+//! an [f64 oracle](oracle) that shares no geometry with the core, and with the gold reference, the
+//! serial CPU backend. [`compare`] has the tolerances; the broken backends of [`Sabotage`] show
+//! that the comparison can fail.
 //!
 //! [`rest`] has starts for cloth that settles, and a check of how it came to rest.
 //!
-//! A session's times, and the bytes that an edit moves, are checked on each device too. A backend from elsewhere runs the
-//! whole suite with one line: see [`run`].
+//! A session's times, and the bytes that an edit moves, are checked on each device too. A backend
+//! from elsewhere runs the whole suite with one line: see [`run`].
 
 mod broken_crossings;
 mod broken_settler;

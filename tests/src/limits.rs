@@ -3,8 +3,8 @@
 use texere_core::backend::Plan;
 use texere_core::{Limits, PlanError};
 
-/// The suite's own chunks hold at most this share of a plan's blocks: every case of more than one block is cut, and none
-/// into so many chunks that it takes long.
+/// The suite's own chunks hold at most this share of a plan's blocks: every case of more than one
+/// block is cut, and none into so many chunks that it takes long.
 const CUTS: u64 = 40;
 
 /// The limit that chunks are cut to.
@@ -21,7 +21,8 @@ pub enum Tight {
 }
 
 impl Tight {
-    /// Limits that leave room for the largest block of `plan`, `room` times over, beside the ring that a cut repeats.
+    /// Limits that leave room for the largest block of `plan`, `room` times over, beside the ring
+    /// that a cut repeats.
     #[must_use]
     pub fn limits(self, plan: &Plan, room: u64) -> Limits {
         let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
@@ -38,7 +39,8 @@ impl Tight {
     }
 }
 
-/// The least value of a limit that holds the largest block of `plan`, found from the errors for anything less.
+/// The least value of a limit that holds the largest block of `plan`, found from the errors for
+/// anything less.
 ///
 /// # Panics
 ///

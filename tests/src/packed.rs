@@ -1,4 +1,5 @@
-//! Packed vertices against the mesh that they stand for, unpacked in f64 by code of this file's own.
+//! Packed vertices against the mesh that they stand for, unpacked in f64 by code of this file's
+//! own.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -9,7 +10,8 @@ use texere_core::backend::{Plan, Session, SessionError};
 use texere_core::{Backend, Limits, MeshPiece, MeshPlace, PackedVertex, Quantum, Settings, Vertex, Yarns};
 use thiserror::Error;
 
-/// How far a normal may be turned by packing, rad: half a step of either coordinate where a step turns it most, in the middle of a face.
+/// How far a normal may be turned by packing, rad: half a step of either coordinate where a step
+/// turns it most, in the middle of a face.
 const NORMAL: f64 = 6.6e-5;
 
 /// How much further a GPU's may be, whose two kernels need not round alike, rad.
@@ -41,7 +43,8 @@ pub enum PackedError {
         /// The normal that it unpacks to.
         actual: DVec3,
     },
-    /// Two vertices of one corner of one ring, in two chunks or in two cuts, are packed differently.
+    /// Two vertices of one corner of one ring, in two chunks or in two cuts, are packed
+    /// differently.
     #[error("{place:?} is {one:?} and {other:?}: a crack")]
     Crack {
         /// The vertex.
@@ -53,9 +56,10 @@ pub enum PackedError {
     },
 }
 
-/// Packs the vertices of `yarns` on `device`, in chunks of `limits` and in those of the device's own, and checks that each lies within half a
-/// quantum of the mesh's (within one unless `exact`), that its normal is as near, and that the same corner of the same ring is packed alike
-/// wherever it is: in a cap, where a chunk repeats it, where a closed yarn does, and in both cuts.
+/// Packs the vertices of `yarns` on `device`, in chunks of `limits` and in those of the device's
+/// own, and checks that each lies within half a quantum of the mesh's (within one unless `exact`),
+/// that its normal is as near, and that the same corner of the same ring is packed alike wherever
+/// it is: in a cap, where a chunk repeats it, where a closed yarn does, and in both cuts.
 ///
 /// ```
 /// use texere_conformance::{cases, check_packed};
@@ -156,7 +160,8 @@ fn control_point(yarns: &Yarns, plan: &Plan, place: &MeshPlace) -> DVec3 {
     DVec3::new(point.x.into(), point.y.into(), point.z.into())
 }
 
-/// The position nearest to `near` that the bits may stand for: bits 0 to 20, 21 to 41 and 42 to 62 of the 64.
+/// The position nearest to `near` that the bits may stand for: bits 0 to 20, 21 to 41 and 42 to 62
+/// of the 64.
 fn position(packed: PackedVertex, near: DVec3, quantum: Quantum) -> DVec3 {
     let bits = u64::from(packed.position[0]) | u64::from(packed.position[1]) << 32;
     let (step, range) = (f64::from(quantum.mm()), f64::from(1u32 << 21));

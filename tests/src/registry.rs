@@ -35,8 +35,8 @@ pub struct Entry {
     pub name: &'static str,
     /// Whether its output must equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all its devices, each once for every schedule. A device that does not open counts as missing, and so does a
-    /// backend without devices.
+    /// Opens all its devices, each once for every schedule. A device that does not open counts as
+    /// missing, and so does a backend without devices.
     pub open: OpenAll,
     /// The cases that its devices get.
     pub cases: fn() -> Vec<Case>,
@@ -94,8 +94,8 @@ pub const REGISTRY: &[Entry] = &[
     Entry::near("wgpu", || open_each(WgpuBackend::devices(), WgpuBackend::open)),
 ];
 
-/// All devices of [`REGISTRY`] that are not held to the bits of `cpu-serial`, opened once: for stages without a schedule, so each under
-/// one of them.
+/// All devices of [`REGISTRY`] that are not held to the bits of `cpu-serial`, opened once: for
+/// stages without a schedule, so each under one of them.
 ///
 /// **Panics** where a backend that `TEXERE_REQUIRE` names has a device that does not open.
 #[must_use]

@@ -41,7 +41,8 @@ pub enum Sabotage {
     MisplacedPiece,
     /// One ring's section is turned by a hundredth of a radian.
     RolledSection,
-    /// No outline leans, whatever the up directions of its yarn: a fault only of yarns that have some.
+    /// No outline leans, whatever the up directions of its yarn: a fault only of yarns that have
+    /// some.
     LevelOutlines,
     /// Two yarns of the same length have changed places, in the first chunk.
     SwappedYarns,
@@ -278,7 +279,8 @@ fn roll(ring: &mut [Vertex]) {
     }
 }
 
-/// Exchanges the first two parts of a chunk that are equally long; `per_ring` values belong to each ring.
+/// Exchanges the first two parts of a chunk that are equally long; `per_ring` values belong to each
+/// ring.
 fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
     if let [first, second, ..] = chunk.parts()
         && first.rings == second.rings

@@ -1,4 +1,5 @@
-//! The cases that a schedule does not do: decided here from the case, so that no backend can excuse itself.
+//! The cases that a schedule does not do: decided here from the case, so that no backend can excuse
+//! itself.
 
 use std::sync::Arc;
 
@@ -9,7 +10,8 @@ use texere_core::{Backend, BackendError, DeviceInfo, Frame, Settings, Yarns};
 use crate::REGISTRY;
 use crate::registry::names;
 
-/// Whether `device` must refuse `yarns` under `settings`. Only [`Schedule::PerYarn`] leaves anything out.
+/// Whether `device` must refuse `yarns` under `settings`. Only [`Schedule::PerYarn`] leaves
+/// anything out.
 #[must_use]
 pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
     device.schedule == Schedule::PerYarn
@@ -24,7 +26,8 @@ pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
 ///
 /// # Panics
 ///
-/// Where a device is missing of a backend that `TEXERE_REQUIRE` names. For other backends the reason is printed.
+/// Where a device is missing of a backend that `TEXERE_REQUIRE` names. For other backends the
+/// reason is printed.
 pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = Arc<dyn Backend>> {
     let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let opened = REGISTRY.iter().flat_map(move |entry| {

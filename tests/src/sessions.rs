@@ -1,4 +1,5 @@
-//! Guarantees of every session besides its output: plausible times, and an edit that moves one yarn.
+//! Guarantees of every session besides its output: plausible times, and an edit that moves one
+//! yarn.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
@@ -37,7 +38,8 @@ pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
     PROMISES.into_iter().map(trial).collect()
 }
 
-/// Settings and a yarn that use all stages: scan and caps too, unless the device's schedule does neither.
+/// Settings and a yarn that use all stages: scan and caps too, unless the device's schedule does
+/// neither.
 fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     if device.info().schedule == Schedule::PerYarn {
         return (Settings::default(), Yarn::default());
@@ -122,8 +124,8 @@ const EDIT_LIMITS: Limits = Limits { blocks: 64, ..Limits::NONE };
 /// The edited yarn, a pick in the middle.
 const EDITED: usize = 815 + 375;
 
-/// A yarn that is uploaded again moves its own bytes and no more, reading its chunks moves theirs and no more, and they
-/// are what a new session makes of the edited cloth.
+/// A yarn that is uploaded again moves its own bytes and no more, reading its chunks moves theirs
+/// and no more, and they are what a new session makes of the edited cloth.
 fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
     let mut yarns = cloth().clone();
     let plan = Arc::new(Plan::new(yarns.layout().clone(), all_of(device).0)?);
@@ -203,8 +205,8 @@ fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Yarns that a settler has moved are meshed where it left them: as those that are read from it and sent again, but no byte goes
-/// over the host where that is not the device's own memory.
+/// Yarns that a settler has moved are meshed where it left them: as those that are read from it and
+/// sent again, but no byte goes over the host where that is not the device's own memory.
 fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
     if !device.info().can.settle {
         return Ok(());

@@ -24,12 +24,14 @@ const FULL: &str = "--full";
 
 /// Runs the suite on the backends of `registry` and says whether all is well.
 ///
-/// `args` are those of a test program, its name first: `--list` and a filter among them. `--full` adds the cases of
-/// [`cases::product`], and `--worst` prints the largest errors, beside what is allowed.
+/// `args` are those of a test program, its name first: `--list` and a filter among them. `--full`
+/// adds the cases of [`cases::product`], and `--worst` prints the largest errors, beside what is
+/// allowed.
 ///
-/// Each trial is named `case::device`. A backend that is missing, or a device of it that does not open, shows as ignored
-/// with the reason, or as failed where the backend is among `required`: names with commas between them. To run the suite on
-/// a backend of your own takes one line in a test target without harness:
+/// Each trial is named `case::device`. A backend that is missing, or a device of it that does not
+/// open, shows as ignored with the reason, or as failed where the backend is among `required`:
+/// names with commas between them. To run the suite on a backend of your own takes one line in a
+/// test target without harness:
 ///
 /// ```no_run
 /// # use texere_wgpu::{Schedule, WgpuBackend as MyBackend};

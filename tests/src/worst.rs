@@ -16,7 +16,8 @@ impl Table {
         self.0.lock().unwrap().push((trial, Quantity::ALL.map(|quantity| report.worst(quantity))));
     }
 
-    /// Prints one line a trial and the worst of all last: each quantity's error, and its share of what is allowed.
+    /// Prints one line a trial and the worst of all last: each quantity's error, and its share of
+    /// what is allowed.
     pub(crate) fn print(&self) {
         let mut rows = self.0.lock().unwrap();
         rows.sort_by(|(a, _), (b, _)| a.cmp(b));

@@ -13,7 +13,8 @@ fn vertices(yarns: &Yarns) -> Vec<Vertex> {
     Pipeline::new(yarns).settings(settings).mesh(&SerialBackend::new()).unwrap().vertices
 }
 
-/// A twisted, a closed and a flattened yarn. None runs straight up, where the upright frame has no side of its own.
+/// A twisted, a closed and a flattened yarn. None runs straight up, where the upright frame has no
+/// side of its own.
 fn cloth() -> Yarns {
     let twisted = cases::winding(60, Yarn { twist: 3.0, ..Yarn::default() });
     let closed = cases::winding(40, Yarn { closed: true, ..Yarn::default() });

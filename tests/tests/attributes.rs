@@ -10,11 +10,13 @@ use texere_core::backend::{Chunk, Plan, Session, SessionError};
 use texere_core::{Attribute, Backend, End, Frame, Settings, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Parts that the test's own lengths cut each control interval into; half as many are tried beside them.
+/// Parts that the test's own lengths cut each control interval into; half as many are tried beside
+/// them.
 const PARTS: u32 = 256;
 
-/// The length of each yarn from its start to each of its rings, mm: chords of a much finer spline of the oracle's, and of one half
-/// as fine, from which Richardson's extrapolation takes their own error.
+/// The length of each yarn from its start to each of its rings, mm: chords of a much finer spline
+/// of the oracle's, and of one half as fine, from which Richardson's extrapolation takes their own
+/// error.
 fn lengths(yarns: &Yarns, settings: &Settings) -> Vec<Vec<f64>> {
     let per_interval = settings.subdivisions + 1;
     let per_ring = (PARTS / per_interval).max(2) / 2 * 2;
@@ -40,7 +42,8 @@ fn lengths(yarns: &Yarns, settings: &Settings) -> Vec<Vec<f64>> {
     oracle.yarns.iter().map(of_yarn).collect()
 }
 
-/// The cases whose yarns the fine spline of the test is not too much for, which are most. Attributes do not depend on the frame.
+/// The cases whose yarns the fine spline of the test is not too much for, which are most.
+/// Attributes do not depend on the frame.
 fn small() -> Vec<Case> {
     let is_small = |case: &Case| case.settings.frame == Frame::Upright && case.yarns().points().len() <= 500;
     cases::all().into_iter().filter(is_small).collect()

@@ -1,5 +1,5 @@
-//! Chunked equals whole: parts cover every ring once, each part's vertices are that ring range of the whole, indices
-//! are equal after adding the base, and what is drawn is the same.
+//! Chunked equals whole: parts cover every ring once, each part's vertices are that ring range of
+//! the whole, indices are equal after adding the base, and what is drawn is the same.
 
 use std::sync::Arc;
 
@@ -17,7 +17,8 @@ use texere_cpu::SerialBackend;
 
 const TOPOLOGIES: [Topology; 3] = [Topology::Indexed, Topology::Shared, Topology::None];
 
-/// Open and closed, short and long yarns of many sections; a long one of each kind; yarns round the size of a block.
+/// Open and closed, short and long yarns of many sections; a long one of each kind; yarns round the
+/// size of a block.
 fn fabrics() -> Vec<(String, Yarns)> {
     let mut fabrics = vec![("mixed".into(), mixed())];
     for closed in [false, true] {
@@ -43,7 +44,8 @@ fn settings() -> Vec<Settings> {
     all
 }
 
-/// Limits down to one block, each kind of limit tight once: as tight as it gets, and with room for a few blocks.
+/// Limits down to one block, each kind of limit tight once: as tight as it gets, and with room for
+/// a few blocks.
 fn limits(plan: &Plan) -> Vec<Limits> {
     let by_blocks = |blocks| Limits { blocks, ..Limits::NONE };
     let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
@@ -107,7 +109,8 @@ fn parts_cover_every_ring_once() {
                 assert_eq!((part.yarn, part.first_ring), (yarn, ring), "{name}");
                 assert_eq!(part.first_vertex, rings * plan.settings().sides, "{name}");
                 rings += part.rings;
-                // The ring that a cut repeats is the first of the next chunk, even where it is a yarn's last.
+                // The ring that a cut repeats is the first of the next chunk, even where it is a
+                // yarn's last.
                 let again = u32::from(chunk.repeats_ring() && at + 1 == chunk.parts().len());
                 assert!(part.rings > again, "{name}");
                 ring += part.rings - again;
@@ -267,7 +270,8 @@ fn bits<T: bytemuck::Pod>(values: &[T]) -> &[u8] {
     bytemuck::cast_slice(values)
 }
 
-/// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the section.
+/// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the
+/// section.
 type Corner = (u32, u64, u64);
 
 /// What is drawn, as corners that do not depend on chunks.

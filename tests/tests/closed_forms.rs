@@ -1,4 +1,5 @@
-//! Curves whose tubes are known in closed form: a torus and a helix. They check the oracle as well as the backends.
+//! Curves whose tubes are known in closed form: a torus and a helix. They check the oracle as well
+//! as the backends.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +21,8 @@ impl Ring {
     }
 }
 
-/// The one yarn of `yarns` as the oracle has it, then as the CPU backends have it, each with how exact it can be.
+/// The one yarn of `yarns` as the oracle has it, then as the CPU backends have it, each with how
+/// exact it can be.
 fn tubes(yarns: &Yarns, settings: Settings) -> Vec<(&'static str, Vec<Ring>, f64)> {
     let sides = settings.sides as usize;
     let oracle = Oracle::new(yarns, &settings);
@@ -69,8 +71,9 @@ fn planes() -> [(&'static str, DVec3, DVec3); 3] {
 const AROUND: f64 = 4.0;
 const POINTS: u32 = 32;
 
-/// Half way between two of the points that it passes through, h radians apart on a circle of radius R, a Catmull-Rom
-/// spline lies 9/8 cos(h/2) - 1/8 cos(3h/2) = 1 - 3h⁴/128 + … radii from the middle, and nowhere further off.
+/// Half way between two of the points that it passes through, h radians apart on a circle of radius
+/// R, a Catmull-Rom spline lies 9/8 cos(h/2) - 1/8 cos(3h/2) = 1 - 3h⁴/128 + … radii from the
+/// middle, and nowhere further off.
 fn deviation() -> f64 {
     AROUND * 3.0 / 128.0 * (TAU / f64::from(POINTS)).powi(4)
 }
@@ -105,7 +108,8 @@ fn a_closed_circle_makes_a_torus() {
     }
 }
 
-/// In a plane nothing turns: the section keeps its angle to the plane, all the way round and through the vertical.
+/// In a plane nothing turns: the section keeps its angle to the plane, all the way round and
+/// through the vertical.
 #[test]
 fn a_rotation_minimising_frame_does_not_turn_round_a_circle() {
     for (name, x, y) in planes() {
@@ -127,8 +131,9 @@ fn a_rotation_minimising_frame_does_not_turn_round_a_circle() {
     }
 }
 
-/// Against the Frenet frame of a helix (its normal points at the axis) a frame that does not turn about the tangent
-/// turns by minus torsion times arc length (Bishop 1975). Torsion is b / (a² + b²) for radius a and rise b per radian.
+/// Against the Frenet frame of a helix (its normal points at the axis) a frame that does not turn
+/// about the tangent turns by minus torsion times arc length (Bishop 1975). Torsion is b / (a² +
+/// b²) for radius a and rise b per radian.
 #[test]
 fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
     let per_turn = 64.0;
@@ -154,7 +159,8 @@ fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
                 let (torsion, length) = (b / (a * a + b * b), a.hypot(b) * radians);
                 let off = angle(ring) - start + torsion * length;
                 let off = off - (off / TAU).round() * TAU;
-                // The spline's tangents and chords miss those of the helix by the fourth power of a step.
+                // The spline's tangents and chords miss those of the helix by the fourth power of a
+                // step.
                 let allowed = 1e-6 * length + 1e-4 + 10.0 * exact;
                 assert!(off.abs() < allowed, "{who}, radius {a}, rise {b}, ring {ring}: {off} rad");
             }
@@ -182,9 +188,10 @@ fn flattened_yarn(
 /// How far a half float may be off, in shares of it, and the spline between two of them.
 const HALF_FLOAT: f64 = 1e-3;
 
-/// Round a level circle of radius R the upright side points at the middle and the up along z. So with half width a and half
-/// height b the surface is ((ρ - R)/a)² + (z/b)² = 1 at each angle, ρ being the distance from the axis, and the normal has the
-/// direction of that function's gradient, where a and b grow by so much along the yarn's own arc.
+/// Round a level circle of radius R the upright side points at the middle and the up along z. So
+/// with half width a and half height b the surface is ((ρ - R)/a)² + (z/b)² = 1 at each angle, ρ
+/// being the distance from the axis, and the normal has the direction of that function's gradient,
+/// where a and b grow by so much along the yarn's own arc.
 #[test]
 fn a_flattened_circle_makes_a_torus_of_ellipses() {
     let turned = |k: f64| TAU * k / f64::from(POINTS);
@@ -215,7 +222,8 @@ fn a_flattened_circle_makes_a_torus_of_ellipses() {
     }
 }
 
-/// Along a helix about z the upright side points at the axis, and the up at right angles to it and to the tangent.
+/// Along a helix about z the upright side points at the axis, and the up at right angles to it and
+/// to the tangent.
 #[test]
 fn a_flattened_helix_has_an_ellipse_in_each_of_its_normal_planes() {
     let (out, rise, per_turn) = (2.0, 0.6, 48.0);

@@ -3,7 +3,8 @@
 use texere_gpu::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, SETTLING_CONSTANTS};
 use texere_kernels::{ATTRIBUTES, CROSSINGS, KernelProgram, PACKING, PER_RING, PER_YARN, SETTLING};
 
-/// All that is compiled for a mesh, for a settling or for crossings, without what stands before it, and the constants that it is to use.
+/// All that is compiled for a mesh, for a settling or for crossings, without what stands before it,
+/// and the constants that it is to use.
 fn sources() -> [(&'static str, String, &'static [Constant]); 6] {
     let kernels =
         |programs: &[KernelProgram]| programs.iter().flat_map(|program| program.sources).copied().collect();
@@ -46,7 +47,8 @@ fn sources_use_every_constant_and_define_none_of_them() {
     }
 }
 
-/// Any other number with a fraction or an exponent would be a constant that the core does not know of.
+/// Any other number with a fraction or an exponent would be a constant that the core does not know
+/// of.
 #[test]
 fn formulas_have_no_other_number_than_small_ones() {
     const PLAIN: [f32; 9] = [0.0, 0.125, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0];

@@ -1,4 +1,5 @@
-//! Crossings on every device of the registry, against `cpu-serial`: where threads lie, what passes see, and whole courses.
+//! Crossings on every device of the registry, against `cpu-serial`: where threads lie, what passes
+//! see, and whole courses.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -52,7 +53,8 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
     Crossings::new(ups, warp, weft).tension(0.7, 1.4).press(2.0)
 }
 
-/// Threads by turns on so many levels of each set, in plain weave within a layer where there are as many of both; else in a twill for each level.
+/// Threads by turns on so many levels of each set, in plain weave within a layer where there are as
+/// many of both; else in a twill for each level.
 fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
     let threads = |count: usize, levels: u32, spacing: f32| -> Vec<CrossingThread> {
         let thread = |number: usize| CrossingThread {
@@ -151,7 +153,8 @@ const OFF: f32 = 1e-4;
 /// A rounding of an unknown, likewise.
 const ROUNDING: f32 = 5e-7;
 
-/// Where eight passes begin: with the course, where threads are thin, and where they have almost grown.
+/// Where eight passes begin: with the course, where threads are thin, and where they have almost
+/// grown.
 fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<CrossingState>); 2] {
     let thin = plan.start().expect("crossings");
     let mut serial = SerialBackend::new().crossings_settler(Arc::clone(plan)).expect("a settler");
@@ -172,8 +175,9 @@ fn seen_apart(one: &CrossingsSeen, other: &CrossingsSeen) -> f32 {
     (one.step - other.step).abs().max((one.clearance - other.clearance).abs())
 }
 
-/// How far a course may be off: threads that only just touch, or have two slopes to choose from, make much of a rounding. So ten times
-/// what the reference's own course is off when it begins a rounding beside, and [`OFF`] at least.
+/// How far a course may be off: threads that only just touch, or have two slopes to choose from,
+/// make much of a rounding. So ten times what the reference's own course is off when it begins a
+/// rounding beside, and [`OFF`] at least.
 fn certain(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32, expected: &Course) -> f32 {
     let mut beside = begin.to_vec();
     for (number, value) in bytemuck::cast_slice_mut::<_, f32>(&mut beside).iter_mut().enumerate() {
@@ -300,7 +304,8 @@ fn cloths_come_to_the_same_rest_on_every_device() {
             let furthest = apart(&centred(&read), &centred(&crossings));
             let device = &device.info().name;
             println!("{device}: {name}: {off:.1e}, {furthest:.1e}, {found:?}, {expected:?}");
-            // What still moves by a ten-thousandth a pass after 400 of them is not at one place on all devices.
+            // What still moves by a ten-thousandth a pass after 400 of them is not at one place on
+            // all devices.
             let most = if expected.at_rest { 1e-3 } else { 1e-2 };
             if found.at_rest != expected.at_rest
                 || found.passes.abs_diff(expected.passes) > 10

@@ -1,4 +1,5 @@
-//! The facade can be read by a stranger: few names at its root, each name in one room, and each public type's name once.
+//! The facade can be read by a stranger: few names at its root, each name in one room, and each
+//! public type's name once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -118,7 +119,8 @@ fn the_root_of_the_facade_has_few_names() {
 
 #[test]
 fn each_name_lies_in_one_room() {
-    // Settling and crossings are two stages with a vocabulary each: both have a `settle`, a margin, a bend.
+    // Settling and crossings are two stages with a vocabulary each: both have a `settle`, a margin,
+    // a bend.
     let core = |room: &str| !matches!(room, "settling" | "crossings");
     let facade = rooms_of(&crates().join("texere/src"), |_| true);
     for (room, found) in

@@ -1,4 +1,5 @@
-//! What any tube must be, whatever the numbers: closed where it should be, facing outward, of the right volume.
+//! What any tube must be, whatever the numbers: closed where it should be, facing outward, of the
+//! right volume.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
@@ -19,8 +20,8 @@ fn place(position: [f32; 3]) -> DVec3 {
     DVec3::from_array(position.map(f64::from))
 }
 
-/// Triangles with corners that coincide to the bit taken for one. Yarns here never touch, so that only a closed yarn's
-/// last ring and the rim of a cap coincide with anything.
+/// Triangles with corners that coincide to the bit taken for one. Yarns here never touch, so that
+/// only a closed yarn's last ring and the rim of a cap coincide with anything.
 fn welded(mesh: &Mesh) -> Vec<[usize; 3]> {
     let mut numbers = BTreeMap::new();
     let weld: Vec<usize> = mesh
@@ -38,7 +39,8 @@ fn welded(mesh: &Mesh) -> Vec<[usize; 3]> {
 ///
 /// # Panics
 ///
-/// Where the surface has an open edge, or one that more than two triangles share, or two that face differently.
+/// Where the surface has an open edge, or one that more than two triangles share, or two that face
+/// differently.
 fn euler_number(triangles: &[[usize; 3]]) -> i64 {
     let mut edges = BTreeSet::new();
     for &[a, b, c] in triangles {

@@ -1,4 +1,5 @@
-//! Yarns that leave the plane of their cloth: turned any way and bent, with up directions of their own.
+//! Yarns that leave the plane of their cloth: turned any way and bent, with up directions of their
+//! own.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -46,7 +47,8 @@ fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     yarns.mapped(map).unwrap()
 }
 
-/// Over a saddle that bends down along x and up along y, with this radius, mm, in the middle of the small cloth.
+/// Over a saddle that bends down along x and up along y, with this radius, mm, in the middle of the
+/// small cloth.
 fn saddle(yarns: &Yarns, radius: f64) -> Yarns {
     saddle_about(yarns, radius, [1.65; 2])
 }
@@ -143,7 +145,8 @@ fn binders() -> [Yarns; 2] {
     [ribbons(21, &over), ribbons(6, &|yarn, k| [0.1 * yarn, 0.2 * yarn, k])]
 }
 
-/// Flat yarns without ups of their own come as near to one another whatever way their cloth lies, also where they run straight up.
+/// Flat yarns without ups of their own come as near to one another whatever way their cloth lies,
+/// also where they run straight up.
 #[test]
 fn flat_yarns_that_run_up_and_down_keep_their_clearance_any_way_round() {
     let knits = ["tricot.toml", "jersey.toml", "locknit.toml"].map(|name| small(name, 1.5));
@@ -241,7 +244,8 @@ fn all_cores_make_the_bits_of_one() {
     }
 }
 
-/// A ribbon of `count` points that rises by `slope` in its middle, radians, in a cloth beside a twisted yarn.
+/// A ribbon of `count` points that rises by `slope` in its middle, radians, in a cloth beside a
+/// twisted yarn.
 fn rising(slope: f32, count: u8) -> Yarns {
     let mut at = [0.0_f32, 1.0, 0.0];
     let ribbon: Vec<_> = (0..count)
@@ -262,7 +266,8 @@ fn rising(slope: f32, count: u8) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A ribbon in a live mesh that is raised, raised further, made longer and laid flat again is that of a fresh mesh, each time and on every device.
+/// A ribbon in a live mesh that is raised, raised further, made longer and laid flat again is that
+/// of a fresh mesh, each time and on every device.
 #[test]
 fn flat_yarns_that_are_raised_are_live() {
     let (flat, settings) = (rising(0.2, 40), Settings { sides: 8, ..Settings::default() });
@@ -333,7 +338,8 @@ fn ring() -> Yarns {
     yarns.build().unwrap().with_ups(ups).unwrap()
 }
 
-/// The outline at each control point has its height along the up that was asked for, what of that lies along the yarn left out.
+/// The outline at each control point has its height along the up that was asked for, what of that
+/// lies along the yarn left out.
 #[test]
 fn outlines_stand_along_their_ups() {
     let ring = ring();
@@ -348,7 +354,8 @@ fn outlines_stand_along_their_ups() {
             let number = 3 * point;
             let [centre, tangent] = [rings[number].centre, rings[number].tangent].map(glam::Vec3::from_array);
             let up = (*up - tangent * up.dot(tangent)).normalize();
-            // Whichever way the section is turned inside, its corners lie on an ellipse with the up as its short axis.
+            // Whichever way the section is turned inside, its corners lie on an ellipse with the up
+            // as its short axis.
             let side = up.cross(tangent);
             let corners: Vec<_> = mesh.vertices[4 * number..][..4]
                 .iter()
@@ -399,7 +406,8 @@ fn ups_that_are_none_are_named() {
     assert!(flat.mapped(|[x, _, _]| [x, x, x]).is_err());
 }
 
-/// A live mesh of a bent cloth is that of a fresh one, what moves in it takes another plan, and a ray from outside hits what lies there.
+/// A live mesh of a bent cloth is that of a fresh one, what moves in it takes another plan, and a
+/// ray from outside hits what lies there.
 #[test]
 fn bent_cloth_is_kept_live_and_picked() {
     let bent = saddle(&cloth(Section::Circle, 0.0), 6.0);

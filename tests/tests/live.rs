@@ -1,4 +1,5 @@
-//! A fabric that is edited ends as one that is made anew, on every backend: lifts, yarns, stitches, colours, and all of it taken back.
+//! A fabric that is edited ends as one that is made anew, on every backend: lifts, yarns, stitches,
+//! colours, and all of it taken back.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
@@ -368,7 +369,8 @@ fn a_lift_makes_two_yarns_again() {
     assert_eq!((vertices, update.anew), (rings * 6, false));
 }
 
-/// Cloth is shown as it is woven, and again when it has come to rest; what is lifted then lies as woven among what is at rest.
+/// Cloth is shown as it is woven, and again when it has come to rest; what is lifted then lies as
+/// woven among what is at rest.
 #[test]
 fn cloth_at_rest_keeps_its_weave() {
     let threads = |count| vec![Thread::new(0.35, 0.15); count];

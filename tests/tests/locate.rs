@@ -1,4 +1,5 @@
-//! Which yarn, ring and side a vertex or a triangle belongs to, beside a walk over all parts and beside the corners of the triangles themselves.
+//! Which yarn, ring and side a vertex or a triangle belongs to, beside a walk over all parts and
+//! beside the corners of the triangles themselves.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;

@@ -1,4 +1,5 @@
-//! Host memory against the plan's word, by the count of the allocator. What a GPU's driver takes is not in it.
+//! Host memory against the plan's word, by the count of the allocator. What a GPU's driver takes is
+//! not in it.
 
 use std::ops::ControlFlow;
 
@@ -27,7 +28,8 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
     peak
 }
 
-/// A mesh of 600 MB, streamed: the control points and two chunks, each of two buffers of 64 MiB at most, with their tables.
+/// A mesh of 600 MB, streamed: the control points and two chunks, each of two buffers of 64 MiB at
+/// most, with their tables.
 fn a_stream_peaks_at_two_chunks() {
     let yarns = cases::winding(1_000_000, Yarn::default());
     let points = size_of_val(yarns.points());

@@ -14,8 +14,8 @@ fn straight(points: usize) -> Vec<ControlPoint> {
     (0..points).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect()
 }
 
-/// A twisted yarn of several blocks, on every device that does it and on the one that does nothing: with a session that has
-/// its points but no scan yet.
+/// A twisted yarn of several blocks, on every device that does it and on the one that does nothing:
+/// with a session that has its points but no scan yet.
 fn on_every_device(check: impl Fn(&dyn Backend, &Arc<Plan>, &[Chunk], Session)) {
     let points = straight(200);
     let mut yarns = Yarns::builder();
@@ -145,7 +145,8 @@ fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
     });
 }
 
-/// Also one of a plan that was made of the same yarns and settings: a chunk knows its plan, and nobody compares tables.
+/// Also one of a plan that was made of the same yarns and settings: a chunk knows its plan, and
+/// nobody compares tables.
 #[test]
 fn a_chunk_of_another_plan() {
     on_every_device(|device, plan, chunks, mut session| {
@@ -196,7 +197,8 @@ fn the_backend_that_does_nothing_streams_any_number_of_chunks() {
         })
         .stream(&NullBackend::default(), |_, _| ControlFlow::<()>::Continue(()));
     assert!(ended.unwrap().is_continue());
-    // One for the upload, one for each block but the last, which shares a chunk with the one before.
+    // One for the upload, one for each block but the last, which shares a chunk with the one
+    // before.
     assert_eq!(steps, 1 + 3999u32.div_ceil(64) - 1);
 }
 

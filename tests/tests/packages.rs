@@ -1,4 +1,5 @@
-//! Which package needs which: no GPU backend falls back on the CPU's, and what has no need of a GPU does without.
+//! Which package needs which: no GPU backend falls back on the CPU's, and what has no need of a GPU
+//! does without.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -40,8 +41,8 @@ fn text(value: &Value) -> &str {
     value.as_str().unwrap()
 }
 
-/// A package asks for the newest Rust that any of what it links or builds with asks for, or our own code, and for no newer one; and the workflow
-/// checks it with that.
+/// A package asks for the newest Rust that any of what it links or builds with asks for, or our own
+/// code, and for no newer one; and the workflow checks it with that.
 #[test]
 fn each_package_names_the_oldest_rust_that_builds_it() {
     let metadata = metadata();

@@ -19,7 +19,8 @@ fn small() -> Vec<Case> {
     cases::all().into_iter().filter(|case| case.yarns().points().len() <= 500).collect()
 }
 
-/// A quantum that reaches from one end of any yarn of a case to the other, whatever its spline does.
+/// A quantum that reaches from one end of any yarn of a case to the other, whatever its spline
+/// does.
 fn quantum(yarns: &Yarns) -> Quantum {
     let extent = |yarn: usize| {
         let points = yarns.yarn_points(yarn).unwrap_or_default();
@@ -75,7 +76,8 @@ fn a_large_cloth_is_packed_as_its_mesh() {
     }
 }
 
-/// A yarn of ten metres, each block of which is unpacked near its own control point: the grid begins again many times along it.
+/// A yarn of ten metres, each block of which is unpacked near its own control point: the grid
+/// begins again many times along it.
 #[test]
 fn a_cloth_may_be_larger_than_the_quantum_reaches() {
     let points: Vec<_> =
@@ -182,14 +184,16 @@ proptest! {
     #[test]
     fn positions_are_rounded_by_half_a_quantum_and_alike_near_any_place(
         position in prop::array::uniform3(prop_oneof![-1e9f32..1e9, -300.0f32..300.0, -1e-3f32..1e-3]),
-        // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has finer digits.
+        // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely,
+        // where the lower bound has finer digits.
         reach in prop_oneof![0.0f32..1e3, 0.0f32..1e9].prop_map(|reach| reach.max(1e-2)),
         shares in prop::array::uniform2(prop::array::uniform3(-1.0f64..1.0)),
     ) {
         let quantum = Quantum::reaching(reach);
         let packed = PackedVertex::pack(&Vertex { position, normal: [0.0, 0.0, 1.0] }, quantum);
         prop_assert_eq!(packed.position[1] >> 31, 0);
-        // As far off as may be, and as f32 may say it: rounding to f32 may go beyond the reach, where it has less digits than that.
+        // As far off as may be, and as f32 may say it: rounding to f32 may go beyond the reach,
+        // where it has less digits than that.
         let near = |shares: [f64; 3]| {
             let near: [f32; 3] = std::array::from_fn(|axis| {
                 (f64::from(position[axis]) + shares[axis] * f64::from(quantum.reach())) as f32

@@ -1,4 +1,5 @@
-//! Yarns that nobody thought of: parallel equals serial, chunked equals whole, all to the bit, and nothing panics.
+//! Yarns that nobody thought of: parallel equals serial, chunked equals whole, all to the bit, and
+//! nothing panics.
 
 use std::sync::Arc;
 
@@ -11,13 +12,15 @@ use texere_core::{
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Mostly round numbers, so that points repeat, line up and double back far more often than chance has it.
+/// Mostly round numbers, so that points repeat, line up and double back far more often than chance
+/// has it.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![6 => (-3i8..=3).prop_map(f32::from), 3 => -10.0f32..10.0, 1 => -1e6f32..1e6, 1 => Just(0.0)]
 }
 
-/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every unit: proptest 1.12 fails an assertion of
-/// its own, rarely, where the lower bound has digits finer than those of the upper bound.
+/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
+/// unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has digits
+/// finer than those of the upper bound.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))
 }
@@ -135,7 +138,8 @@ proptest! {
         }
     }
 
-    /// Boxes from control points alone hold every vertex of the cloth, of its yarns, and of any part of a yarn.
+    /// Boxes from control points alone hold every vertex of the cloth, of its yarns, and of any
+    /// part of a yarn.
     #[test]
     fn bounds_hold_every_vertex(yarns in yarns(), settings in settings(), from in 0.0f64..1.0, to in 0.0f64..=1.0) {
         let device = ParallelBackend::open().unwrap();

@@ -1,4 +1,5 @@
-//! A region of a mesh is that part of the whole, to the bit, and nothing that lies in it is missing.
+//! A region of a mesh is that part of the whole, to the bit, and nothing that lies in it is
+//! missing.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -11,7 +12,8 @@ use texere_core::{
     Yarn, Yarns,
 };
 
-/// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the section.
+/// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the
+/// section.
 type Corner = (u32, u64, u32);
 
 /// Fabrics of blocks here and there in a box: many yarns, and single ones that wind through it.

@@ -50,8 +50,9 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     }
     let copied = repeat.laid(&one.yarns).expect("copies");
     assert_eq!(copied.layout().offsets(), whole.yarns.layout().offsets());
-    // At rest is whatever is clear and not too tight, so nothing draws the two to one place. Points start up to 0.01 diameters
-    // off along each axis, each in a direction of its own: up to 0.035 mm from the same point of the other.
+    // At rest is whatever is clear and not too tight, so nothing draws the two to one place. Points
+    // start up to 0.01 diameters off along each axis, each in a direction of its own: up to 0.035
+    // mm from the same point of the other.
     let apart = |one: &Yarns, other: &Yarns| {
         let pairs = one.points().iter().zip(other.points());
         pairs.map(|(one, other)| one.position().distance(other.position())).fold(0.0, f32::max)

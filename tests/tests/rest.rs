@@ -17,7 +17,8 @@ fn circle(centre: DVec3, plane: [DVec3; 2], size: f64, count: u32, radius: f64) 
     StartYarn { points: (0..count).map(point).collect(), radius, ends: Ends::Closed }
 }
 
-/// Two circles, each through the other's middle, the second one's plane turned about their common axis.
+/// Two circles, each through the other's middle, the second one's plane turned about their common
+/// axis.
 fn linked_circles() -> Start {
     start(vec![
         circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 3.0, 48, 1.5),
@@ -78,7 +79,8 @@ fn a_yarn_is_near_itself_only_further_along() {
     let chord = 1.2 * (TAU / 4.0 / 1.2f64).sin();
     assert!(report.clearance > chord && report.clearance < chord + 0.02, "{report:?}");
 
-    // Two legs that bow towards one another: the spline goes through the points of a parabola as the parabola does.
+    // Two legs that bow towards one another: the spline goes through the points of a parabola as
+    // the parabola does.
     let leg =
         [[0.0, 0.8], [1.0, 0.5], [2.0, 0.4], [3.0, 0.5], [4.0, 0.8], [5.0, 1.3], [6.3, 1.2], [7.0, 0.0]];
     let mirrored = leg.iter().rev().skip(1).map(|at| dvec3(at[0], -at[1], 0.0));
@@ -137,9 +139,10 @@ fn the_integral_of_linked_circles_is_one() {
 
 /// Every start: its clearance, the least radius of curvature and the thickness, both in diameters.
 ///
-/// Jersey, warp knits of one bar and the weaves are as their models promise. In rib, garter, tuck, miss and lace each half of a
-/// loop follows the loop that crosses it there, and what hangs on one needle lies in layers: so they begin clearer than loops
-/// of one shape would, which pierce to .4. The two bars of a warp knit always pierce one another at the start.
+/// Jersey, warp knits of one bar and the weaves are as their models promise. In rib, garter, tuck,
+/// miss and lace each half of a loop follows the loop that crosses it there, and what hangs on one
+/// needle lies in layers: so they begin clearer than loops of one shape would, which pierce to .4.
+/// The two bars of a warp knit always pierce one another at the start.
 const LISTED: [(&str, f64, f64, f64); 39] = [
     ("jersey-4.2", 0.995, 0.715, 2.27),
     ("jersey-5", 1.003, 0.956, 2.22),
@@ -242,7 +245,8 @@ fn a_pulled_stitch_is_a_crossing() {
     }
 }
 
-/// A tuck lies between the held loop and the one that is drawn through both; a float behind the held loop is free.
+/// A tuck lies between the held loop and the one that is drawn through both; a float behind the
+/// held loop is free.
 #[test]
 fn tucks_and_held_loops_are_drawn_through_and_floats_are_not() {
     let course = 3.75;
@@ -268,8 +272,8 @@ fn tucks_and_held_loops_are_drawn_through_and_floats_are_not() {
     }
 }
 
-/// The loop that is moved hangs with its neighbour in the loop of the next course; the one on the needle that it left goes
-/// through nothing.
+/// The loop that is moved hangs with its neighbour in the loop of the next course; the one on the
+/// needle that it left goes through nothing.
 #[test]
 fn lace_hangs_together() {
     let lace = weft_knit("lace", &Chart::new(&[">kk", "kkk", "kkk"]), Gauge::new(5.0), Length::Held);
@@ -285,8 +289,8 @@ fn lace_hangs_together() {
         assert!(found.at.unwrap().iter().any(|place| place.yarn == 1), "{what}: {found:?}");
     }
 
-    // The left foot of the arch, lifted out of the cloth to the face: that of a loop which goes through another can't be. The
-    // right one lies behind the loop that was moved.
+    // The left foot of the arch, lifted out of the cloth to the face: that of a loop which goes
+    // through another can't be. The right one lies behind the loop that was moved.
     for (course, crosses) in [(1, false), (2, true)] {
         let mut lifted = lace.points();
         lifted[course][1..3].iter_mut().for_each(|foot| foot.z += 4.0);

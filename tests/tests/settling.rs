@@ -1,5 +1,5 @@
-//! Yarns come to rest: every start of the list on the `cpu` backend, by a check of its own; and the same bits on every schedule of
-//! the CPU.
+//! Yarns come to rest: every start of the list on the `cpu` backend, by a check of its own; and the
+//! same bits on every schedule of the CPU.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -20,7 +20,8 @@ fn cpu() -> ParallelBackend {
     ParallelBackend::open().expect("the CPU")
 }
 
-/// What a start lacks once it has settled, by an independent check of splines, distances and linking in f64.
+/// What a start lacks once it has settled, by an independent check of splines, distances and
+/// linking in f64.
 fn lacking(start: &Start) -> Option<String> {
     let (rest, points) = settle_start(start, &cpu(), |_, _| {});
     let report = check(start, &points);
@@ -46,7 +47,8 @@ fn starts_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Cloths in which no repeat is like the next, and in which so many points move that the worst of them decide.
+/// Cloths in which no repeat is like the next, and in which so many points move that the worst of
+/// them decide.
 #[test]
 fn large_cloths_come_to_rest() {
     let failed: Vec<_> = [random_misses(30, 1), lace(25)].iter().filter_map(lacking).collect();
@@ -109,7 +111,8 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
-/// Eight passes of either form, with neighbours listed twice: what each saw, and where everything was after it.
+/// Eight passes of either form, with neighbours listed twice: what each saw, and where everything
+/// was after it.
 fn eight_passes(
     plan: &SettlingPlan,
     settler: &mut dyn Settler,
@@ -167,7 +170,8 @@ fn whole_settlings_end_in_the_same_bits() {
     assert_eq!(end(&cpu()), reference);
 }
 
-/// Ten metres out a cloth rests just as it does at the origin: coordinates are chosen so that they are exact in both places.
+/// Ten metres out a cloth rests just as it does at the origin: coordinates are chosen so that they
+/// are exact in both places.
 #[test]
 fn a_cloth_far_out_rests_as_one_at_the_origin() {
     let at = |far: DVec3| {
@@ -205,7 +209,8 @@ fn what_comes_back_is_no_worse_than_what_came_in() {
     }
 }
 
-/// The places that come back are those that the report is of, and what was at rest comes back as it was.
+/// The places that come back are those that the report is of, and what was at rest comes back as it
+/// was.
 #[test]
 fn a_report_is_of_what_comes_back() {
     for name in ["jersey-3.6", "jersey-5", "plain-1.8", "rib-4.4"] {
@@ -228,7 +233,8 @@ fn a_report_is_of_what_comes_back() {
     }
 }
 
-/// Whatever it is doing when the one who watches breaks off: it makes no further pass, and leaves the best that it has reported.
+/// Whatever it is doing when the one who watches breaks off: it makes no further pass, and leaves
+/// the best that it has reported.
 #[test]
 fn who_watches_may_break_off() {
     let start = starts().into_iter().find(|start| start.name == "jersey-3.6").expect("a start");
@@ -253,7 +259,8 @@ fn who_watches_may_break_off() {
     }
 }
 
-/// Lists hold all neighbours that a comparison of all pairs finds: in small repeats, in open pieces of few cells, and over many.
+/// Lists hold all neighbours that a comparison of all pairs finds: in small repeats, in open pieces
+/// of few cells, and over many.
 #[test]
 fn lists_are_complete() {
     let mut plans = plans();

@@ -1,4 +1,5 @@
-//! Settling on every device of the registry, against `cpu-serial`: places, what was seen, neighbours, and whole courses.
+//! Settling on every device of the registry, against `cpu-serial`: places, what was seen,
+//! neighbours, and whole courses.
 
 use std::sync::Arc;
 
@@ -69,8 +70,9 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
-/// The same, each moved by up to a hundredth of a diameter along each axis, as every course begins: where yarns lie symmetrically,
-/// rounding alone decides which way they go. `units` more are added to one or taken off another, as in a pattern.
+/// The same, each moved by up to a hundredth of a diameter along each axis, as every course begins:
+/// where yarns lie symmetrically, rounding alone decides which way they go. `units` more are added
+/// to one or taken off another, as in a pattern.
 fn begin(plan: &SettlingPlan, units: i32) -> Vec<Place> {
     let far = 0.01 * plan.spans().diameter / plan.scale().unit();
     let (mut bits, mut all) = (1_u32, places(plan));
@@ -107,7 +109,8 @@ impl Course {
     }
 }
 
-/// Eight passes of either form, with neighbours listed twice, and with bends as soft as they are in that form's passes.
+/// Eight passes of either form, with neighbours listed twice, and with bends as soft as they are in
+/// that form's passes.
 fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Result<Course, BackendError> {
     let mut course = Course { neighbours: Vec::new(), seen: Vec::new(), places: begin.to_vec() };
     settler.upload(begin)?;
@@ -126,9 +129,10 @@ fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Resul
 /// How far places may be off, in mean diameters.
 const OFF: f64 = 1e-4;
 
-/// What `cpu-serial` makes of a plan, and how far it is off itself where places begin up to three units off, three millionths of a
-/// diameter: parallel yarns that pierce one another, as the underlaps of two guide bars do, have no one place where they are nearest,
-/// and a contact that just touches counts from one pass on or from the next.
+/// What `cpu-serial` makes of a plan, and how far it is off itself where places begin up to three
+/// units off, three millionths of a diameter: parallel yarns that pierce one another, as the
+/// underlaps of two guide bars do, have no one place where they are nearest, and a contact that
+/// just touches counts from one pass on or from the next.
 struct Reference {
     course: Course,
     own: f64,
@@ -215,7 +219,8 @@ fn devices_settle_as_the_reference_does() {
     assert!(certain >= 40, "{certain} of 82 are held to {OFF} diameters");
 }
 
-/// The proof that the comparison can fail: each broken settler is caught, by either form, and an honest one is not.
+/// The proof that the comparison can fail: each broken settler is caught, by either form, and an
+/// honest one is not.
 #[test]
 fn broken_settlers_are_caught() {
     let plan = settling_plan(&start("tuck-5"));
@@ -239,7 +244,8 @@ fn broken_settlers_are_caught() {
     }
 }
 
-/// Yarns that lie in one another are refused before their pairs fill the memory, on every device alike.
+/// Yarns that lie in one another are refused before their pairs fill the memory, on every device
+/// alike.
 #[test]
 fn yarns_too_thick_on_one_another_are_refused() {
     let mut yarns = Yarns::builder();
@@ -263,7 +269,8 @@ fn yarns_too_thick_on_one_another_are_refused() {
     }
 }
 
-/// A device with little memory, in each buffer or in all, settles the same or says what is too large.
+/// A device with little memory, in each buffer or in all, settles the same or says what is too
+/// large.
 #[test]
 fn small_memories_settle_the_same_or_are_refused_by_name() {
     let Ok(device) = OpenClBackend::open(0, Schedule::PerRing) else { return };
@@ -331,8 +338,9 @@ fn what_was_kept_comes_back() {
 const TWO_BARS: [&str; 7] =
     ["counter-", "locknit", "reverse-", "sharkskin", "satin-0", "queenscord", "parallel-"];
 
-/// Whether yarns of a start have one way to rest: they do where the weighted form alone brings them there, for cloths that need the
-/// block form are so dense that yarns buckle to one side or the other.
+/// Whether yarns of a start have one way to rest: they do where the weighted form alone brings them
+/// there, for cloths that need the block form are so dense that yarns buckle to one side or the
+/// other.
 fn has_one_rest(start: &Start, rest: &Rest) -> bool {
     rest.block_passes == 0 && !TWO_BARS.iter().any(|name| start.name.starts_with(name))
 }

@@ -1,4 +1,5 @@
-//! Settling with settings that the starts of the list don't have: what comes to rest, by the surfaces that meshes are made of.
+//! Settling with settings that the starts of the list don't have: what comes to rest, by the
+//! surfaces that meshes are made of.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -9,7 +10,8 @@ use texere_core::settling::{Length, Rest, Settling, SettlingPlan, settle, settle
 use texere_core::{Backend, Boundary, ControlPoint, Ends, Settings, SettlingError, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
-/// The yarns of a start whose yarn number `yarn` has the halves `halves(yarn)`, mm, and how they go on.
+/// The yarns of a start whose yarn number `yarn` has the halves `halves(yarn)`, mm, and how they go
+/// on.
 fn cloth(start: &Start, halves: impl Fn(usize) -> [f32; 2]) -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     for (number, yarn) in start.yarns.iter().enumerate() {
@@ -69,7 +71,8 @@ fn yarns_of_two_thicknesses_come_to_rest() {
     assert!(found.min >= 0.98, "{rest:?}, {}", found.min);
 }
 
-/// With a spline of another tension yarns run otherwise between their control points: what is clear as one is not as another.
+/// With a spline of another tension yarns run otherwise between their control points: what is clear
+/// as one is not as another.
 #[test]
 fn yarns_rest_by_the_spline_that_they_are_drawn_with() {
     let (yarns, boundary) = cloth(&plain(1.9), |_| [0.52; 2]);

@@ -1,4 +1,5 @@
-//! The steps of a run, as `Pipeline` promises them: bounded by default, reported one by one, and no more of them after a stop.
+//! The steps of a run, as `Pipeline` promises them: bounded by default, reported one by one, and no
+//! more of them after a stop.
 
 use std::ops::ControlFlow;
 
@@ -13,10 +14,12 @@ fn yarns() -> Yarns {
     cases::winding(1_800_000, Yarn::default())
 }
 
-/// The most that a buffer of a chunk may have unless more are asked for, bytes: what the docs of `Limits` say.
+/// The most that a buffer of a chunk may have unless more are asked for, bytes: what the docs of
+/// `Limits` say.
 const CHUNK_BUFFER: u64 = 64 << 20;
 
-/// Rings of six sides that such a buffer holds: four bytes for each of 36 indices, 24 for each of six vertices.
+/// Rings of six sides that such a buffer holds: four bytes for each of 36 indices, 24 for each of
+/// six vertices.
 const STEP_RINGS: u64 = CHUNK_BUFFER / 144;
 
 fn device() -> Box<dyn Backend> {

@@ -143,7 +143,8 @@ const GAPPY: &[Entry] = &[Entry::near("gappy", || {
     opened
 })];
 
-/// Runs the trials with `filter` in their names; gives back whether all passed, and what was printed.
+/// Runs the trials with `filter` in their names; gives back whether all passed, and what was
+/// printed.
 fn run_trials(filter: &str, registry: &[Entry], required: &str) -> (bool, String) {
     static RUNS: AtomicU32 = AtomicU32::new(0);
     let number = RUNS.fetch_add(1, Ordering::Relaxed);
@@ -174,7 +175,8 @@ fn a_broken_backend_fails_the_run() {
     assert_eq!(failed, ["rings-193::upright::Zeros"]);
 }
 
-/// Asserts that of the trials with `filter` in their names `trial` alone fails, for a reason that begins with `why`.
+/// Asserts that of the trials with `filter` in their names `trial` alone fails, for a reason that
+/// begins with `why`.
 fn assert_fails(filter: &str, registry: &[Entry], trial: &str, why: &str) {
     let (_, printed) = run_trials(filter, registry, "");
     assert_eq!(failed(&printed), [trial]);

@@ -1,4 +1,5 @@
-//! Uploads: what they write elsewhere is what `PaddedPoints` keeps, to the bit, and large ones arrive on every device.
+//! Uploads: what they write elsewhere is what `PaddedPoints` keeps, to the bit, and large ones
+//! arrive on every device.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
@@ -32,7 +33,8 @@ fn plan(yarns: &[(usize, bool)]) -> Plan {
 
 fn point() -> impl Strategy<Value = ControlPoint> {
     let number = -1e6f32..1e6;
-    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has finer digits.
+    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where
+    // the lower bound has finer digits.
     let radius = (0.0f32..1e3).prop_map(|radius| radius.max(1e-3));
     let flatness = prop_oneof![9 => Just(1.0f32), 1 => (0.0f32..10.0).prop_map(|flatness| flatness.max(0.1))];
     (number.clone(), number.clone(), number, radius, flatness).prop_map(|(x, y, z, r, flatness)| {
@@ -62,9 +64,10 @@ fn bits(points: &[ControlPoint]) -> &[u32] {
 }
 
 proptest! {
-    /// However little each piece has, memory that starts as zeros holds after each upload what `PaddedPoints` holds; what
-    /// is written beside the points sent is a virtual end that hangs on them. A point that is not round is seen. Ends that were
-    /// forgotten come back from the points that were written.
+    /// However little each piece has, memory that starts as zeros holds after each upload what
+    /// `PaddedPoints` holds; what is written beside the points sent is a virtual end that hangs on
+    /// them. A point that is not round is seen. Ends that were forgotten come back from the points
+    /// that were written.
     #[test]
     fn uploads_write_what_padded_points_keep(
         (yarns, uploads) in uploads(),
@@ -136,7 +139,8 @@ fn a_point_in_the_middle_goes_alone() {
     assert_eq!(sent(17), [(11, 12), (20, 24)]);
 }
 
-/// Asserts that every ring of the only chunk, one for each control point, lies where `points` are, as wide and as high.
+/// Asserts that every ring of the only chunk, one for each control point, lies where `points` are,
+/// as wide and as high.
 fn assert_holds(session: &mut Session, plan: &Plan, points: &[ControlPoint], device: &str) {
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
     session.trajectory(&chunk).unwrap();

@@ -38,8 +38,8 @@ impl Floor {
         start.elapsed().as_secs_f64() * bytes as f64 / filled as f64
     }
 
-    /// Measures `work`, which says how long it took, beside the fill of as many bytes, and prints its share of the fill's
-    /// bandwidth: the median over the samples, each with a fill of its own.
+    /// Measures `work`, which says how long it took, beside the fill of as many bytes, and prints
+    /// its share of the fill's bandwidth: the median over the samples, each with a fill of its own.
     pub(crate) fn bench(
         &mut self,
         criterion: &mut Criterion,

@@ -21,13 +21,14 @@ pub trait Fill: Debug {
     /// **Errors**: [`BackendError`] from the device.
     fn run(&mut self) -> Result<Duration, BackendError>;
 
-    /// Copies all of its buffers to memory of the host that the driver has pinned, and gives back the time that took by
-    /// the host's clock: the bandwidth of the bus.
+    /// Copies all of its buffers to memory of the host that the driver has pinned, and gives back
+    /// the time that took by the host's clock: the bandwidth of the bus.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_to_host(&mut self) -> Result<Duration, BackendError>;
 
-    /// The same in the other direction, from such memory; none where a driver offers no memory that is certain to be the host's.
+    /// The same in the other direction, from such memory; none where a driver offers no memory that
+    /// is certain to be the host's.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError>;
@@ -79,8 +80,9 @@ impl Gpu {
     }
 }
 
-/// Makes a context of a GPU device's, with nothing in it, and gives back the time that takes by the host's clock. The first
-/// one of a process pays for the driver, too. None for a device that is no GPU's.
+/// Makes a context of a GPU device's, with nothing in it, and gives back the time that takes by the
+/// host's clock. The first one of a process pays for the driver, too. None for a device that is no
+/// GPU's.
 ///
 /// **Errors**: [`BackendError`] where there is no such device.
 pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {

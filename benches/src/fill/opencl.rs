@@ -91,7 +91,8 @@ impl OpenClFill {
         Ok(Self { queue, kernel, buffers, pinned, mapped, _context: context })
     }
 
-    /// Starts `copy` for each range of each buffer: (queue, buffer, offset, bytes, pinned memory). Waits for all.
+    /// Starts `copy` for each range of each buffer: (queue, buffer, offset, bytes, pinned memory).
+    /// Waits for all.
     fn copy(
         &self,
         copy: impl Fn(*mut c_void, *mut c_void, usize, usize, *mut c_void) -> Result<*mut c_void, i32>,

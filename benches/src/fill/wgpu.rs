@@ -64,7 +64,8 @@ impl WgpuFill {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u64]) -> Self {
         let descriptor =
             ShaderModuleDescriptor { label: Some("fill"), source: ShaderSource::Wgsl(SOURCE.into()) };
-        // SAFETY: the shader checks its one bound itself. Like texere's own it does without further checks.
+        // SAFETY: the shader checks its one bound itself. Like texere's own it does without further
+        // checks.
         let module = unsafe {
             device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked())
         };

@@ -18,8 +18,9 @@ use crate::paper_cloth;
 use crate::phases::{PhaseTimer, Phases};
 use results::{Cloth, Column, PICTURE, Run};
 
-/// Measures `devices` on the paper's cloth in `sizes` (ends, picks), the median of `rounds` each, and writes
-/// `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` says in the report how it was made.
+/// Measures `devices` on the paper's cloth in `sizes` (ends, picks), the median of `rounds` each,
+/// and writes `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` says in the
+/// report how it was made.
 ///
 /// # Errors
 ///
@@ -50,8 +51,9 @@ pub fn write(
     Ok(())
 }
 
-/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`, prints them as a table, and draws
-/// the paper's figure 5 of them to `output`, an SVG file, unless that is what a design was read from.
+/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`, prints
+/// them as a table, and draws the paper's figure 5 of them to `output`, an SVG file, unless that is
+/// what a design was read from.
 ///
 /// # Errors
 ///
@@ -99,7 +101,8 @@ fn column(device: &str, cloths: &[Cloth], rounds: usize) -> Result<Column, Box<d
     Ok(Column { info: backend.info().clone(), context: first_context, build, runs })
 }
 
-/// Geometry, buffers and drawing of each cloth on the first of `devices` that draws; empty where none does.
+/// Geometry, buffers and drawing of each cloth on the first of `devices` that draws; empty where
+/// none does.
 fn phases(devices: &[String], cloths: &[Cloth]) -> Result<Vec<Phases>, Box<dyn Error>> {
     let Some(device) = devices.iter().find(|name| name.starts_with("wgpu:") && !name.contains('/')) else {
         return Ok(Vec::new());

@@ -16,7 +16,8 @@ pub(super) struct Run {
     pub(super) upload: Duration,
     /// From the open device to the first mesh in its memory, by the host's clock.
     pub(super) first: Duration,
-    /// Stage 1 and stage 2 one after the other, by the device's clock where it has one. None where stages are fused.
+    /// Stage 1 and stage 2 one after the other, by the device's clock where it has one. None where
+    /// stages are fused.
     pub(super) staged: Option<StageTimings>,
     /// Both stages as fast as the device does them, likewise.
     pub(super) whole: Duration,
@@ -30,9 +31,11 @@ pub(super) struct Run {
 #[derive(Debug)]
 pub(super) struct Column {
     pub(super) info: DeviceInfo,
-    /// A context of the device's, by the host's clock; the first of a driver pays for the driver. None for a CPU.
+    /// A context of the device's, by the host's clock; the first of a driver pays for the driver.
+    /// None for a CPU.
     pub(super) context: Option<Duration>,
-    /// Compiling the kernels, by the host's clock: opening the device takes so much longer than a context does.
+    /// Compiling the kernels, by the host's clock: opening the device takes so much longer than a
+    /// context does.
     pub(super) build: Duration,
     pub(super) runs: Vec<Run>,
 }

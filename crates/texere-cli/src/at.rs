@@ -15,7 +15,8 @@ pub(crate) struct YarnUnder {
     material: String,
     /// The height of its centreline, mm.
     z_mm: f64,
-    /// The line of a knitout file or the cell of a chart that it comes from; the course of a warp knit.
+    /// The line of a knitout file or the cell of a chart that it comes from; the course of a warp
+    /// knit.
     #[serde(skip_serializing_if = "Option::is_none")]
     place: Option<String>,
     /// The instructions that stand there.

@@ -134,7 +134,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     })
     .map_err(|error| design.refused(error))?;
     settling.iter_mut().for_each(|settling| settling.measured(&clearance));
-    // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
+    // Whether threads that settled have found room shows in their clearance, not in the pitches at
+    // which they started.
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let jams = if settled { None } else { design.structure.jams() };
     let pieces = design.structure.pieces();
@@ -178,8 +179,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     }
 }
 
-/// What would cure the faults of `diagnosis`. They are looked for in cloth as it is woven; of those that are found for cloth that has
-/// `settled` only wider spacings and thinner yarns count.
+/// What would cure the faults of `diagnosis`. They are looked for in cloth as it is woven; of those
+/// that are found for cloth that has `settled` only wider spacings and thinner yarns count.
 fn cures(design: &Design, diagnosis: &Diagnosis, settled: bool) -> Result<Vec<CureReport>, Fail> {
     let structure = &design.structure;
     if settled && structure.woven().is_none() {
@@ -316,7 +317,8 @@ impl Report {
             let touching = self.touching;
             line("clean", format!("nothing nearer than {touching} of touching, no fold{jam}, nothing wrung"));
         } else if self.faults.is_none() {
-            // No other spacing or yarn makes a program one that a machine can knit, or binds cloth that falls apart.
+            // No other spacing or yarn makes a program one that a machine can knit, or binds cloth
+            // that falls apart.
         } else if self.has_settled() && self.setts.is_none() {
             line(
                 "cure",

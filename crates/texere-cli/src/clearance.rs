@@ -11,7 +11,8 @@ use texere::check::{
 /// How near yarns come to one another.
 #[derive(Debug, Serialize)]
 pub(crate) struct ClearanceReport {
-    /// The least ratio of all contacts, 1 where yarns just touch. Where it is crowded it is no more than this; null where crowds are all there is.
+    /// The least ratio of all contacts, 1 where yarns just touch. Where it is crowded it is no more
+    /// than this; null where crowds are all there is.
     #[serde(serialize_with = "as_near_as_looked")]
     min: f64,
     contacts: u64,
@@ -42,7 +43,8 @@ struct DrawnPlace {
     crossing: Option<Crossing>,
 }
 
-/// Yarns that lie in one another many times over, or too many of them together: they are not measured pair by pair.
+/// Yarns that lie in one another many times over, or too many of them together: they are not
+/// measured pair by pair.
 #[derive(Debug, Serialize)]
 pub(crate) struct CrowdReport {
     /// The volume of the yarns over the room that they have.
@@ -72,7 +74,8 @@ pub(crate) struct ContactReport {
     pub(crate) yarns: [String; 2],
     /// Half way between the two centrelines, mm.
     pub(crate) place_mm: [f64; 3],
-    /// The crossing next to which each of the two lies; null at a yarn's end and in a turn of the weft.
+    /// The crossing next to which each of the two lies; null at a yarn's end and in a turn of the
+    /// weft.
     crossings: [Option<Crossing>; 2],
 }
 
@@ -209,7 +212,8 @@ impl fmt::Display for CrowdReport {
 }
 
 impl DrawnReport {
-    /// Where it is narrowest: `0.149 yarn radii half way between two rings: course 3 at x 3.250, y 1.000, z -0.125 mm`.
+    /// Where it is narrowest:
+    /// `0.149 yarn radii half way between two rings: course 3 at x 3.250, y 1.000, z -0.125 mm`.
     pub(crate) fn narrowest(&self) -> String {
         let width = format!("{:.3} yarn radii half way between two rings", self.width);
         self.width_at.as_ref().map_or(width.clone(), |at| format!("{width}: {at}"))

@@ -6,10 +6,11 @@ use std::{env, io, thread};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-/// Starts a thread for each core, or as many as the system gives; where it gives none, the program does all by itself.
+/// Starts a thread for each core, or as many as the system gives; where it gives none, the program
+/// does all by itself.
 ///
-/// Rayon would start them at first use, and panic where it can't have them all. So they are started before it learns how
-/// many they are.
+/// Rayon would start them at first use, and panic where it can't have them all. So they are started
+/// before it learns how many they are.
 pub(crate) fn start() {
     let (mut workers, wanted) = (Vec::new(), wanted());
     while workers.len() < wanted {

@@ -30,7 +30,8 @@ pub(crate) struct CureReport {
 }
 
 impl CureReport {
-    /// None for a cure that no design file can have: yarns far too thick may need spacings beyond any cloth's.
+    /// None for a cure that no design file can have: yarns far too thick may need spacings beyond
+    /// any cloth's.
     pub(crate) fn new(cure: &Cure) -> Option<Self> {
         let (key, value, effect) = change(&cure.remedy)?;
         Some(Self {
@@ -45,7 +46,8 @@ impl CureReport {
 }
 
 impl CureReport {
-    /// More rings, for a mesh that is wrung or inside out: an option of the commands that draw, and no key of a design file.
+    /// More rings, for a mesh that is wrung or inside out: an option of the commands that draw, and
+    /// no key of a design file.
     pub(crate) fn finer(subdivisions: u32, diagnosis: &Diagnosis) -> Self {
         let drawn = [ClothFault::Wrung, ClothFault::InsideOut];
         let mut leaves = diagnosis.faults.kinds();

@@ -9,7 +9,8 @@ use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{print, reading};
 
-/// Bytes of rows that are gathered before they are printed: calls cost nothing beside the copying from here on.
+/// Bytes of rows that are gathered before they are printed: calls cost nothing beside the copying
+/// from here on.
 const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
@@ -55,7 +56,8 @@ fn print_stitches(knit: &Knitted, side: Side) -> Result<(), Fail> {
     print::text(&rows)
 }
 
-/// Prints a row for each pick, the last one on top, some rows at a time: the whole text is as large as the cloth.
+/// Prints a row for each pick, the last one on top, some rows at a time: the whole text is as large
+/// as the cloth.
 fn print_rows(drawdown: &Drawdown, side: Side) -> Result<(), Fail> {
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
     let on_top = |column: usize, pick| match side {

@@ -1,6 +1,8 @@
-//! What drivers write to standard error by themselves while they are loaded, such as complaints about the environment.
+//! What drivers write to standard error by themselves while they are loaded, such as complaints
+//! about the environment.
 
-/// Does `work`, which loads drivers. What they write meanwhile is shown if it fails, and says nothing to a person if not.
+/// Does `work`, which loads drivers. What they write meanwhile is shown if it fails, and says
+/// nothing to a person if not.
 #[cfg(unix)]
 pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     // Where there is no room to put it aside, it is shown.

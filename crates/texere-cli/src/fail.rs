@@ -116,8 +116,8 @@ impl fmt::Display for Fail {
     }
 }
 
-/// The exit code of an error. A cause says more than what it led to: memory that ran out while a design was read is no
-/// fault of the design.
+/// The exit code of an error. A cause says more than what it led to: memory that ran out while a
+/// design was read is no fault of the design.
 fn code_of(error: &(dyn Error + 'static)) -> u8 {
     let causes = successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
     causes.filter_map(own_code).last().unwrap_or(WORLD)
@@ -256,7 +256,8 @@ mod tests {
 
     use super::*;
 
-    /// What a design file asks for is its fault; memory, devices and the command line's settings are not, whoever comes upon them.
+    /// What a design file asks for is its fault; memory, devices and the command line's settings
+    /// are not, whoever comes upon them.
     #[test]
     fn refusals_have_the_code_of_their_cause() {
         let place = || FilePlace { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };

@@ -72,7 +72,8 @@ struct KnitReport {
 #[derive(Debug, Serialize)]
 struct BarReport {
     lapping: String,
-    /// Yarn for a rack of 480 courses, mm: what the design asks for, and what there is. Neither of yarns that have not settled.
+    /// Yarn for a rack of 480 courses, mm: what the design asks for, and what there is. Neither of
+    /// yarns that have not settled.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_asked_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,7 +1,8 @@
 //! The `texere` program: inspect, check, mesh, draft and convert textile designs.
 //!
-//! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the variable `TEXERE_SIMD` is wrong; 3 the
-//! design is wrong; 4 `check` found that the cloth pierces itself, folds or jams.
+//! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the variable
+//! `TEXERE_SIMD` is wrong; 3 the design is wrong; 4 `check` found that the cloth pierces itself,
+//! folds or jams.
 
 mod args;
 mod at;

@@ -27,7 +27,8 @@ pub(crate) fn bar(terminal: bool) -> ProgressBar {
     bar
 }
 
-/// Does `work`, and says on a terminal how far it has come if it takes over a second: `work` moves the bar, see [`share`].
+/// Does `work`, and says on a terminal how far it has come if it takes over a second: `work` moves
+/// the bar, see [`share`].
 pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
     let bar = bar(std::io::stderr().is_terminal());
     if let Ok(style) = ProgressStyle::with_template("{msg}: {percent} %, {elapsed}") {

@@ -9,7 +9,8 @@ use crate::args::{SettingsArgs, SettlingArgs, is_yarns};
 use crate::fail::Fail;
 use crate::terminal::line;
 
-/// Reads a design, and says on standard error what its reader had to assume or leave out: standard output is for what the command makes.
+/// Reads a design, and says on standard error what its reader had to assume or leave out: standard
+/// output is for what the command makes.
 pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     let design = texere::read(path)?;
     say(design.remarks());
@@ -38,7 +39,8 @@ pub(crate) fn saved(
     }))
 }
 
-/// [`design`] for a report, which says itself what is wrong with the cloth. Gives what was said beforehand, too.
+/// [`design`] for a report, which says itself what is wrong with the cloth. Gives what was said
+/// beforehand, too.
 pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     let design = texere::read(path)?;
     let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.said);

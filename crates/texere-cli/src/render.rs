@@ -173,8 +173,8 @@ fn cameras(args: &RenderArgs, middles: [Vec<f64>; 2], extent: &Extent) -> Result
     Ok(vec![camera])
 }
 
-/// The point that was asked for, or else the middle of the cloth; in a cut that of a thread, since there is nothing to cut
-/// between two.
+/// The point that was asked for, or else the middle of the cloth; in a cut that of a thread, since
+/// there is nothing to cut between two.
 fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent) -> Result<[f32; 2], Fail> {
     let ([left, lower, _], [right, upper, _]) = (extent.low, extent.high);
     if let Some([x, y]) = args.at {

@@ -20,11 +20,12 @@ const ENDS: [i32; 10] =
 /// Held from the signal that ends the program until the program has ended.
 static ENDING: Mutex<()> = Mutex::new(());
 
-/// From here on Ctrl-C and its like first remove what is not finished, whatever the program is doing. It then ends by that
-/// very signal, so that a shell knows why. A signal that was ignored when the program started stays ignored, as
-/// `nohup` does with SIGHUP.
+/// From here on Ctrl-C and its like first remove what is not finished, whatever the program is
+/// doing. It then ends by that very signal, so that a shell knows why. A signal that was ignored
+/// when the program started stays ignored, as `nohup` does with SIGHUP.
 pub(crate) fn listen() {
-    // Where memory is refused that nobody asks for by name, the standard library says how many bytes and aborts.
+    // Where memory is refused that nobody asks for by name, the standard library says how many
+    // bytes and aborts.
     let always = Arc::new(AtomicBool::new(true));
     let _ = register_conditional_shutdown(SIGABRT, WORLD.into(), always);
     let (hand_over, wait) = mpsc::channel::<Signals>();
@@ -34,7 +35,8 @@ pub(crate) fn listen() {
         texere::write::abandon();
         let _ = emulate_default_handler(signal);
     });
-    // Where no thread can be had, signals end the program as they always do; the next write removes what is left then.
+    // Where no thread can be had, signals end the program as they always do; the next write removes
+    // what is left then.
     if listener.is_ok() {
         let ignored = ignored();
         let heard = ENDS.into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
@@ -44,13 +46,14 @@ pub(crate) fn listen() {
     }
 }
 
-/// Waits for the end, if a signal is ending the program. A write that was stopped by that is no failure of its
-/// own.
+/// Waits for the end, if a signal is ending the program. A write that was stopped by that is no
+/// failure of its own.
 pub(crate) fn give_way() {
     drop(ENDING.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// The signals that are ignored, a bit each from the lowest. Linux says which; elsewhere SIGHUP is taken for ignored.
+/// The signals that are ignored, a bit each from the lowest. Linux says which; elsewhere SIGHUP is
+/// taken for ignored.
 fn ignored() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -1,4 +1,5 @@
-//! What may be shown on a terminal: text of a design, a path or a driver can be long, and can hold codes that steer it.
+//! What may be shown on a terminal: text of a design, a path or a driver can be long, and can hold
+//! codes that steer it.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,8 +7,8 @@ use std::fmt;
 /// The most characters that are shown of a text: two lines of a wide terminal.
 const SHOWN: usize = 240;
 
-/// A text on a single line: codes that would steer a terminal, or turn the direction of writing, are shown by their
-/// numbers, and the middle of what is too long is left out.
+/// A text on a single line: codes that would steer a terminal, or turn the direction of writing,
+/// are shown by their numbers, and the middle of what is too long is left out.
 ///
 /// Its start says what it is about, its end what is wrong, so both stay.
 pub(crate) fn line(text: impl fmt::Display) -> String {
@@ -32,7 +33,8 @@ fn cut(text: &str) -> Cow<'_, str> {
 }
 
 fn escape(character: char) -> Cow<'static, str> {
-    // Beside control codes: marks of direction (Unicode 16, section 23.2), and what ends a line or a paragraph.
+    // Beside control codes: marks of direction (Unicode 16, section 23.2), and what ends a line or
+    // a paragraph.
     let steers = character.is_control()
         || matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     if steers { character.escape_default().to_string().into() } else { character.to_string().into() }

@@ -32,8 +32,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     printed
 }
 
-/// Ends the program at once, whatever its threads and the device are at. Drivers may not be asked to go while they work, so the system takes
-/// all back.
+/// Ends the program at once, whatever its threads and the device are at. Drivers may not be asked
+/// to go while they work, so the system takes all back.
 fn leave() -> ! {
     #[cfg(unix)]
     crate::signals::give_way();

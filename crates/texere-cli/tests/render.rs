@@ -1,4 +1,5 @@
-//! `texere render` as a user runs it. It draws on whatever Vulkan device there is; lavapipe will do.
+//! `texere render` as a user runs it. It draws on whatever Vulkan device there is; lavapipe will
+//! do.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs::File;
@@ -25,7 +26,8 @@ fn a_picture_has_the_size_that_was_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plain.png");
     let out = path.to_str().unwrap();
-    // Round threads: 64 ends of 191 points and 48 picks of 255, 24 triangles an interval, and 4 for each cap.
+    // Round threads: 64 ends of 191 points and 48 picks of 255, 24 triangles an interval, and 4 for
+    // each cap.
     let output = render(&[
         PLAIN,
         "-o",
@@ -228,7 +230,8 @@ fn pixels(path: &PathBuf) -> (png::ColorType, Vec<u8>) {
     (info.color_type, bytes)
 }
 
-/// A weave of red warp and blue weft, seen straight from above: what share of its middle shows warp, weft and ground.
+/// A weave of red warp and blue weft, seen straight from above: what share of its middle shows
+/// warp, weft and ground.
 fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pixel: &str) -> [f64; 3] {
     let folder = tempfile::tempdir().unwrap();
     let [design, picture] = ["cloth.toml", "cloth.png"].map(|name| folder.path().join(name));
@@ -247,7 +250,8 @@ fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pix
     let mut counts = [0_u32; 3];
     for row in height / 4..3 * height / 4 {
         for [red, green, blue] in &all[row * width + width / 4..row * width + 3 * width / 4] {
-            // Ground is grey, and threads are never: light of any strength leaves them their colours.
+            // Ground is grey, and threads are never: light of any strength leaves them their
+            // colours.
             let kind = match *green > 4 * (*red.max(blue) / 5) {
                 true => 2,
                 false => usize::from(blue > red),
@@ -258,7 +262,8 @@ fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pix
     counts.map(|count| f64::from(count) / f64::from(counts.iter().sum::<u32>()))
 }
 
-/// Denim and sateen hide the ground, and on their faces most of the weft; an open cloth does neither. Pixels of the picture are counted.
+/// Denim and sateen hide the ground, and on their faces most of the weft; an open cloth does
+/// neither. Pixels of the picture are counted.
 #[test]
 fn denim_and_sateen_show_no_ground() {
     for (name, [_, weft, ground], most) in [

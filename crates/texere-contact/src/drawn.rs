@@ -1,4 +1,5 @@
-//! Tubes as a mesh draws them: how wide they are between rings, and whether they are turned inside out.
+//! Tubes as a mesh draws them: how wide they are between rings, and whether they are turned inside
+//! out.
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -8,28 +9,33 @@ use texere_core::{Settings, TWIST_SUBDIVISIONS_MAX, YarnPlace, Yarns};
 
 use crate::ContactError;
 
-/// A tube is wrung where it is narrower than this between two rings, in radii: they are turned against one another by more than 120
-/// degrees, or two thirds of the way to a tube of no width. Twisted yarns of the usual settings come to 0.7, since a mesh has rings enough for
+/// A tube is wrung where it is narrower than this between two rings, in radii: they are turned
+/// against one another by more than 120 degrees, or two thirds of the way to a tube of no width.
+/// Twisted yarns of the usual settings come to 0.7, since a mesh has rings enough for
 /// [that](texere_core::Settings::following).
 pub const WRUNG: f64 = 0.5;
 
 /// How the tubes of a fabric come out between neighbouring rings of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawn {
-    /// The least distance from the axis half way between two rings, over that on the rings, with bends straightened: 1 where no ring is turned
-    /// against the one before, the cosine of half the turn where it is. Below [`WRUNG`] the tube is wrung.
+    /// The least distance from the axis half way between two rings, over that on the rings, with
+    /// bends straightened: 1 where no ring is turned against the one before, the cosine of half the
+    /// turn where it is. Below [`WRUNG`] the tube is wrung.
     pub width: f64,
     /// Where that is.
     pub width_at: Option<YarnPlace>,
-    /// Triangles that face inwards, against the outline's own outward side: those of bends tighter than their section reaches.
+    /// Triangles that face inwards, against the outline's own outward side: those of bends tighter
+    /// than their section reaches.
     pub inwards: u64,
     /// Where the first of them is.
     pub inwards_at: Option<YarnPlace>,
 }
 
-/// Looks at the tubes of a mesh of `yarns` with `settings`, caps left out. Memory is that of the yarns once more.
+/// Looks at the tubes of a mesh of `yarns` with `settings`, caps left out. Memory is that of the
+/// yarns once more.
 ///
-/// **Errors**: [`ContactError::Settings`] for settings that no mesh is made with, [`ContactError::OutOfMemory`].
+/// **Errors**: [`ContactError::Settings`] for settings that no mesh is made with,
+/// [`ContactError::OutOfMemory`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
@@ -79,8 +85,9 @@ impl Drawn {
     }
 }
 
-/// The fewest points between control points, more than those of `settings`, with which a mesh of `yarns` is [sound](Drawn::is_sound), and
-/// what it comes to. None where no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
+/// The fewest points between control points, more than those of `settings`, with which a mesh of
+/// `yarns` is [sound](Drawn::is_sound), and what it comes to. None where no number up to
+/// [`TWIST_SUBDIVISIONS_MAX`] helps.
 ///
 /// **Errors**: those of [`drawn`].
 pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, ContactError> {
@@ -180,9 +187,11 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
 
 /// How wide the tube is half way between two rings, and how many of its triangles face inwards.
 ///
-/// A triangle has an edge of the outline in the plane of one ring, and its third corner on the other ring. Outlines go counter-clockwise
-/// about the tangent, so an edge crossed with the tangent points out of the outline, wherever the axis lies. The triangle's normal is
-/// that edge crossed with the way along the yarn to or from the third corner. It faces outwards where that way goes with the tangent.
+/// A triangle has an edge of the outline in the plane of one ring, and its third corner on the
+/// other ring. Outlines go counter-clockwise about the tangent, so an edge crossed with the tangent
+/// points out of the outline, wherever the axis lies. The triangle's normal is that edge crossed
+/// with the way along the yarn to or from the third corner. It faces outwards where that way goes
+/// with the tangent.
 fn between(here: &Standing, next: &Standing) -> (f64, u64) {
     let carry = DQuat::from_rotation_arc(here.tangent, next.tangent);
     let (mut width, mut inwards) = (1.0_f64, 0);

@@ -21,7 +21,8 @@ pub enum ContactError {
         /// Most taken.
         limit: u64,
     },
-    /// More control intervals than linking is compared for, with all their copies in a repeat that they reach into.
+    /// More control intervals than linking is compared for, with all their copies in a repeat that
+    /// they reach into.
     #[error("linking of {intervals} with their copies; {limit} are compared at most", intervals = counted(*.intervals, "control interval"))]
     LinkingSize {
         /// Intervals of all yarns, with their copies.
@@ -47,8 +48,8 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// What of the cloth it is about. None of memory, of somebody who asked to stop, of settings that no design has, and of calls that don't fit
-    /// the yarns.
+    /// What of the cloth it is about. None of memory, of somebody who asked to stop, of settings
+    /// that no design has, and of calls that don't fit the yarns.
     ///
     /// ```
     /// use texere_contact::ContactError;

@@ -11,7 +11,8 @@ use texere_core::backend::room;
 /// The most cells that an interval lies in on average, before larger cells are taken.
 pub(crate) const ENTRIES: u64 = 6;
 
-/// A cell's side, in those of boxes on average: so large that most boxes lie in one or two, and few are far from one another.
+/// A cell's side, in those of boxes on average: so large that most boxes lie in one or two, and few
+/// are far from one another.
 const CELL: f64 = 1.75;
 
 /// Cells along an axis that are not worth having: one takes their place.
@@ -95,8 +96,8 @@ impl Grid {
         }
     }
 
-    /// Counts the boxes that reach into each cell, and how many these are in all. Above `most` it stops: a few boxes
-    /// that reach into every cell would keep it for hours.
+    /// Counts the boxes that reach into each cell, and how many these are in all. Above `most` it
+    /// stops: a few boxes that reach into every cell would keep it for hours.
     fn count<I: Iterator<Item = (usize, Bounds)>>(
         &self,
         tasks: usize,

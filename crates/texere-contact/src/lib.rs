@@ -1,7 +1,10 @@
-//! How yarns lie against one another and against themselves, measured on the yarns alone: no structure is known here.
+//! How yarns lie against one another and against themselves, measured on the yarns alone: no
+//! structure is known here.
 //!
-//! - [`clearance()`]: how near surfaces come to one another, where they pierce, and how tightly yarns bend.
-//! - [`linking()`]: whether yarns have passed through one another on their way from one shape to another.
+//! - [`clearance()`]: how near surfaces come to one another, where they pierce, and how tightly
+//!   yarns bend.
+//! - [`linking()`]: whether yarns have passed through one another on their way from one shape to
+//!   another.
 //! - [`drawn()`]: whether the tubes of a mesh are wrung or turned inside out.
 //! - [`lengths_mm`]: how long yarns are.
 //! - [`yarns_under`]: which yarns lie under a point.

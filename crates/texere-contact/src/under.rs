@@ -3,12 +3,13 @@
 use texere_core::definitions::{Segment, neighbours, tangent_factor};
 use texere_core::{ControlPoint, YarnPlace, Yarns};
 
-/// Places at which each control interval is tried: between two of them a yarn that bends round another moves less than half its
-/// radius.
+/// Places at which each control interval is tried: between two of them a yarn that bends round
+/// another moves less than half its radius.
 const STEPS: u16 = 24;
 
-/// Where yarns lie under the point (`x`, `y`), mm: those whose outline, seen from the face, holds it; the topmost first. A yarn that
-/// passes several times is named as often, each time with the place nearest to the point.
+/// Where yarns lie under the point (`x`, `y`), mm: those whose outline, seen from the face, holds
+/// it; the topmost first. A yarn that passes several times is named as often, each time with the
+/// place nearest to the point.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -49,7 +50,8 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2]) -> Vec<YarnPlace> {
     found
 }
 
-/// Whether the yarn can come to the point between the middle two of the four: a spline leaves their box by less than its size.
+/// Whether the yarn can come to the point between the middle two of the four: a spline leaves their
+/// box by less than its size.
 fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
     (0..2).all(|axis| {
         let along = four.map(|point| f64::from(point.position()[axis]));
@@ -61,8 +63,8 @@ fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
     })
 }
 
-/// Where the centreline comes nearest to the point in the plane of the cloth, if the yarn is that wide there: distance and
-/// parameter.
+/// Where the centreline comes nearest to the point in the plane of the cloth, if the yarn is that
+/// wide there: distance and parameter.
 fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f64)> {
     let segment = Segment::new(four, s);
     let samples = (0..=STEPS).map(|step| {

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::ContactError;
 
-/// A caller's ear for the share of the work that is done. Behind a pointer, so that work is compiled once for all callers.
+/// A caller's ear for the share of the work that is done. Behind a pointer, so that work is
+/// compiled once for all callers.
 pub(crate) type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
 
 /// Reports to a caller, from any thread that works, how much is done.

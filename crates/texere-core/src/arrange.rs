@@ -25,11 +25,12 @@ impl Default for Placement {
 }
 
 impl Yarns {
-    /// The same yarns in another place. Sizes grow with the scale, and twist becomes slower, so that the mesh is the same but for the
-    /// placement. Where a yarn stands by [up directions](Layout::ups), all yarns of the placed cloth have some.
+    /// The same yarns in another place. Sizes grow with the scale, and twist becomes slower, so
+    /// that the mesh is the same but for the placement. Where a yarn stands by [up
+    /// directions](Layout::ups), all yarns of the placed cloth have some.
     ///
-    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`], where yarns leave the limits of size, twist and place; a scale or a turn
-    /// that is none is found so, too.
+    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`], where yarns leave the limits of
+    /// size, twist and place; a scale or a turn that is none is found so, too.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
@@ -73,8 +74,8 @@ impl Yarns {
         }
     }
 
-    /// All yarns of several cloths, one after the other. Materials and sections that are equal are kept once; sources are kept where all
-    /// cloths have some.
+    /// All yarns of several cloths, one after the other. Materials and sections that are equal are
+    /// kept once; sources are kept where all cloths have some.
     ///
     /// **Errors**: [`YarnError::NoYarns`] where there is no cloth, [`YarnError::OtherTension`]
     /// where their splines are not all of one tension.
@@ -124,7 +125,8 @@ impl Yarns {
         merged.with_ups(ups.map(|up| up.to_array()).collect())
     }
 
-    /// Some of the yarns, in the order in which they are named. Materials and sections keep their numbers.
+    /// Some of the yarns, in the order in which they are named. Materials and sections keep their
+    /// numbers.
     ///
     /// **Errors**: [`YarnError::UnknownYarn`], and [`YarnError::NoYarns`] where none is named.
     pub fn only(&self, yarns: impl IntoIterator<Item = usize>) -> Result<Self, YarnError> {

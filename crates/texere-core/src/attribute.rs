@@ -5,18 +5,21 @@ use std::ops::Add;
 
 use bytemuck::{Pod, Zeroable};
 
-/// What a vertex is, for shaders and textures: there is one for each [`Vertex`](crate::Vertex) of a chunk, in the same order.
+/// What a vertex is, for shaders and textures: there is one for each [`Vertex`](crate::Vertex) of a
+/// chunk, in the same order.
 ///
 /// **Shape**: six 4-byte values, 24 bytes. **Units**: radians and mm.
 ///
-/// Vertices of a ring are not repeated where its angle begins again: between the last corner and the first the angle falls back to 0.
-/// A shader that draws a texture there asks which corner it has, or takes sine and cosine of the angle along.
+/// Vertices of a ring are not repeated where its angle begins again: between the last corner and
+/// the first the angle falls back to 0. A shader that draws a texture there asks which corner it
+/// has, or takes sine and cosine of the angle along.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Attribute {
     /// The yarn, from 0 among all.
     pub yarn: u32,
-    /// The way round the section, from its first corner: corner k of n has 2πk/n, rad. It turns with the yarn's twist.
+    /// The way round the section, from its first corner: corner k of n has 2πk/n, rad. It turns
+    /// with the yarn's twist.
     pub angle: f32,
     /// The length of the yarn from its start to the vertex's ring, mm.
     pub along: f32,
@@ -37,8 +40,8 @@ pub fn corner_angle(corner: u32, sides: u32) -> f32 {
     corner as f32 * (std::f32::consts::TAU / sides as f32)
 }
 
-/// A length along a yarn: whole steps of 2⁻³² mm, so that a sum has the same bits in whatever order it is made. It holds 4,294 km;
-/// what is longer begins again at 0.
+/// A length along a yarn: whole steps of 2⁻³² mm, so that a sum has the same bits in whatever order
+/// it is made. It holds 4,294 km; what is longer begins again at 0.
 ///
 /// ```
 /// use texere_core::ArcLength;

@@ -1,6 +1,7 @@
 //! What a backend is written with.
 //!
-//! A [`Backend`](crate::Backend) opens a [`Session`] for a [`Plan`], and the session drives the backend's [`Engine`] chunk by chunk.
+//! A [`Backend`](crate::Backend) opens a [`Session`] for a [`Plan`], and the session drives the
+//! backend's [`Engine`] chunk by chunk.
 //!
 //! | part | types |
 //! |---|---|

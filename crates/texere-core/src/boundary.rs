@@ -1,4 +1,5 @@
-//! Where yarns end, close up, or go on beyond their control points, and the repeat that they go on in.
+//! Where yarns end, close up, or go on beyond their control points, and the repeat that they go on
+//! in.
 
 mod error;
 
@@ -14,12 +15,14 @@ pub enum Ends {
     Open,
     /// Its first control point: the yarn is a ring.
     Closed,
-    /// Its first control point again, moved by so many whole repeats along x and along y, and so on without end both ways.
+    /// Its first control point again, moved by so many whole repeats along x and along y, and so on
+    /// without end both ways.
     Repeats([i32; 2]),
 }
 
 impl Ends {
-    /// Control intervals of a yarn of `points` control points. Only an open one has none after its last.
+    /// Control intervals of a yarn of `points` control points. Only an open one has none after its
+    /// last.
     ///
     /// ```
     /// use texere_core::Ends;
@@ -36,9 +39,9 @@ impl Ends {
 
 /// How a piece of cloth goes on at its edges: the repeat's size, and the ends of each yarn.
 ///
-/// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis that has a period.
-/// Control points may lie anywhere, also beyond the repeat's edge; what counts is that the yarn's next round begins
-/// where this one leaves off.
+/// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis
+/// that has a period. Control points may lie anywhere, also beyond the repeat's edge; what counts
+/// is that the yarn's next round begins where this one leaves off.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -57,10 +60,11 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// A repeat of `repeat` mm along x and y (0 where there is none) for the yarns of `layout`, with the ends of each.
+    /// A repeat of `repeat` mm along x and y (0 where there is none) for the yarns of `layout`,
+    /// with the ends of each.
     ///
-    /// **Errors**: [`BoundaryError`] for a repeat that is not finite, negative or beyond [`COORDINATE_LIMIT`], and
-    /// those of [`Boundary::check`].
+    /// **Errors**: [`BoundaryError`] for a repeat that is not finite, negative or beyond
+    /// [`COORDINATE_LIMIT`], and those of [`Boundary::check`].
     pub fn new(layout: &Layout, repeat: [f32; 2], ends: Vec<Ends>) -> Result<Self, BoundaryError> {
         for (axis, length) in ['x', 'y'].into_iter().zip(repeat) {
             if !(0.0..=COORDINATE_LIMIT).contains(&length) {
@@ -90,8 +94,9 @@ impl Boundary {
 
     /// Whether these are the boundaries of the yarns of `layout`.
     ///
-    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed here alone or in `layout`
-    /// alone, one that goes on along an axis without a period, and one that goes on by no repeat at all.
+    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed here alone
+    /// or in `layout` alone, one that goes on along an axis without a period, and one that goes on
+    /// by no repeat at all.
     pub fn check(&self, layout: &Layout) -> Result<(), BoundaryError> {
         if self.ends.len() != layout.yarns().len() {
             return Err(BoundaryError::EndsCount { ends: self.ends.len(), yarns: layout.yarns().len() });
@@ -128,7 +133,8 @@ impl Boundary {
         &self.ends
     }
 
-    /// How far along x and y a yarn's next round lies from this one, mm: nothing but for a yarn that repeats.
+    /// How far along x and y a yarn's next round lies from this one, mm: nothing but for a yarn
+    /// that repeats.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

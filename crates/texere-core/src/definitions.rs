@@ -1,4 +1,5 @@
-//! What the geometry is: the arithmetic that every backend must agree on, to the bit between CPU backends.
+//! What the geometry is: the arithmetic that every backend must agree on, to the bit between CPU
+//! backends.
 //!
 //! | of | definition |
 //! |---|---|

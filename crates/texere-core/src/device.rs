@@ -52,7 +52,8 @@ pub enum Schedule {
     /// A lane a ring: of a GPU's workgroup, or of a processor's vector.
     #[default]
     PerRing,
-    /// A lane a yarn: the paper's algorithms 2 and 4, to measure against. Upright, untwisted, open yarns without caps only.
+    /// A lane a yarn: the paper's algorithms 2 and 4, to measure against. Upright, untwisted, open
+    /// yarns without caps only.
     PerYarn,
 }
 
@@ -66,7 +67,8 @@ impl fmt::Display for Schedule {
     }
 }
 
-/// What a device does beside making meshes, which all of them do. What it can't is refused with the error that stands here.
+/// What a device does beside making meshes, which all of them do. What it can't is refused with the
+/// error that stands here.
 ///
 /// The default is a device that makes meshes alone.
 ///
@@ -78,17 +80,23 @@ impl fmt::Display for Schedule {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Capabilities {
-    /// Yarns come to rest by their contacts: [`Backend::settler`]. Else [`BackendError::NoSettling`].
+    /// Yarns come to rest by their contacts: [`Backend::settler`]. Else
+    /// [`BackendError::NoSettling`].
     pub settle: bool,
-    /// Woven cloth comes to rest by its crossings: [`Backend::crossings_settler`]. Else [`BackendError::NoCrossings`].
+    /// Woven cloth comes to rest by its crossings: [`Backend::crossings_settler`]. Else
+    /// [`BackendError::NoCrossings`].
     pub settle_crossings: bool,
-    /// A mesh stays on the device and is edited there: [`LiveMesh`](crate::backend::LiveMesh). Else [`BackendError::NoEditing`].
+    /// A mesh stays on the device and is edited there: [`LiveMesh`](crate::backend::LiveMesh). Else
+    /// [`BackendError::NoEditing`].
     pub edit: bool,
-    /// Vertices have attributes: [`Session::attributes`](crate::backend::Session::attributes). Else [`BackendError::NoAttributes`].
+    /// Vertices have attributes: [`Session::attributes`](crate::backend::Session::attributes). Else
+    /// [`BackendError::NoAttributes`].
     pub attributes: bool,
-    /// Vertices are packed: [`Session::packed`](crate::backend::Session::packed). Else [`BackendError::NoPacking`].
+    /// Vertices are packed: [`Session::packed`](crate::backend::Session::packed). Else
+    /// [`BackendError::NoPacking`].
     pub pack: bool,
-    /// Pictures are drawn on the device, by the crate `texere-render`. To open another one for them is [`BackendError::NoDevice`].
+    /// Pictures are drawn on the device, by the crate `texere-render`. To open another one for them
+    /// is [`BackendError::NoDevice`].
     pub draw: bool,
 }
 
@@ -101,7 +109,8 @@ pub struct DeviceInfo {
     pub device: String,
     /// Driver or implementation, with its version.
     pub driver: String,
-    /// How the work is mapped onto the device, fixed when the backend was opened. [`Schedule::PerYarn`] leaves yarns out.
+    /// How the work is mapped onto the device, fixed when the backend was opened.
+    /// [`Schedule::PerYarn`] leaves yarns out.
     pub schedule: Schedule,
     /// What kind of machine it is.
     pub kind: DeviceKind,
@@ -111,8 +120,9 @@ pub struct DeviceInfo {
     pub limits: Limits,
     /// What the device does beside making meshes.
     pub can: Capabilities,
-    /// Whether the device's own clock measures the [`Session::timings`](crate::backend::Session::timings) of scan, trajectory and mesh,
-    /// from the start of the work to its end. Otherwise the host's clock does.
+    /// Whether the device's own clock measures the
+    /// [`Session::timings`](crate::backend::Session::timings) of scan, trajectory and mesh, from
+    /// the start of the work to its end. Otherwise the host's clock does.
     pub timed_by_device: bool,
 }
 
@@ -128,8 +138,8 @@ pub trait Backend: fmt::Debug + Send + Sync {
 
     /// Opens a settler for a plan. It owns all the device memory that the work needs.
     ///
-    /// **Errors**: [`BackendError::NoSettling`] where the backend has none, and other ones where memory or the device does
-    /// not allow it.
+    /// **Errors**: [`BackendError::NoSettling`] where the backend has none, and other ones where
+    /// memory or the device does not allow it.
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         let _ = plan;
         Err(BackendError::NoSettling { name: self.info().name.clone() })
@@ -137,7 +147,8 @@ pub trait Backend: fmt::Debug + Send + Sync {
 
     /// Opens a settler of crossings for a plan. It owns all the device memory that the work needs.
     ///
-    /// **Errors**: [`BackendError::NoCrossings`] where the backend has none, and other ones where memory or the device does not allow it.
+    /// **Errors**: [`BackendError::NoCrossings`] where the backend has none, and other ones where
+    /// memory or the device does not allow it.
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
         let _ = plan;
         Err(BackendError::NoCrossings { name: self.info().name.clone() })

@@ -10,10 +10,12 @@ pub(crate) const fn from_f32(value: f32) -> u16 {
     } else if size >= 65_536_f32.to_bits() {
         0x7c00
     } else if size >= LEAST_NORMAL.to_bits() {
-        // Exponents count from 15 instead of 127, and 13 bits are rounded away; what carries belongs to the exponent.
+        // Exponents count from 15 instead of 127, and 13 bits are rounded away; what carries
+        // belongs to the exponent.
         (size - (112 << 23) + 0xfff + (size >> 13 & 1)) >> 13
     } else {
-        // Floats from 0.5 on have the steps of the smallest half floats, so that the sum is rounded to these.
+        // Floats from 0.5 on have the steps of the smallest half floats, so that the sum is rounded
+        // to these.
         (f32::from_bits(size) + 0.5).to_bits() - 0.5_f32.to_bits()
     };
     sign | magnitude as u16
@@ -54,7 +56,8 @@ mod tests {
         }
     }
 
-    /// Each half float, what lies half way to the next one, and the floats beside both; then floats of all exponents.
+    /// Each half float, what lies half way to the next one, and the floats beside both; then floats
+    /// of all exponents.
     #[test]
     fn floats_are_rounded_as_the_crate_half_does() {
         let check = |bits: u32| {

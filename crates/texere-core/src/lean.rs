@@ -1,5 +1,5 @@
-//! Yarns that leave the plane of their cloth, and flat ones that run up or down: the up direction of each control point, and how far outlines
-//! lean with it.
+//! Yarns that leave the plane of their cloth, and flat ones that run up or down: the up direction
+//! of each control point, and how far outlines lean with it.
 
 use glam::{DVec3, Vec3};
 
@@ -7,7 +7,8 @@ use crate::ControlPoint;
 use crate::definitions::{Basis, Sampling, Segment, Turn, atan2_turns};
 use crate::steep::{intervals, window};
 
-/// The up directions that the control points of a yarn stand by, with the points that they belong to.
+/// The up directions that the control points of a yarn stand by, with the points that they belong
+/// to.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Leaning {
     /// Unit vectors.
@@ -20,11 +21,13 @@ pub(crate) struct Leaning {
 /// How far the cosine of two ups at a right angle may be off zero.
 const RIGHT_ANGLE: f64 = 1e-9;
 
-/// Where the height of a yarn points at `t`, from 0 to 1, of a control interval: `ups` are the up directions of its two control points, `tangents` the
-/// yarn's there, `tangent` the one at `t`; all of length 1. Gives a unit vector at right angles to `tangent`; zero where there is none.
+/// Where the height of a yarn points at `t`, from 0 to 1, of a control interval: `ups` are the up
+/// directions of its two control points, `tangents` the yarn's there, `tangent` the one at `t`; all
+/// of length 1. Gives a unit vector at right angles to `tangent`; zero where there is none.
 ///
-/// Each of the two is carried to the tangent by the smallest rotation, and they are mixed there. A yarn's height has two ends: of the second up
-/// and its opposite the one nearer to the first counts; at a right angle, but for rounding, the up itself.
+/// Each of the two is carried to the tangent by the smallest rotation, and they are mixed there. A
+/// yarn's height has two ends: of the second up and its opposite the one nearer to the first
+/// counts; at a right angle, but for rounding, the up itself.
 ///
 /// ```
 /// use glam::DVec3;

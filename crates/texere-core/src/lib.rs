@@ -1,4 +1,5 @@
-//! What every stage and every backend of texere shares: yarns, plans, rings, meshes, and the backend trait.
+//! What every stage and every backend of texere shares: yarns, plans, rings, meshes, and the
+//! backend trait.
 //!
 //! ```text
 //! Yarns ──> Plan ──> Trajectory ──> Mesh
@@ -6,9 +7,9 @@
 //!                    stage 1        stage 2
 //! ```
 //!
-//! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`](backend::Plan) works out every count and offset
-//! for one choice of [`Settings`]. A [`Backend`] turns control points into [`Ring`](definitions::Ring)s and rings into a [`Mesh`];
-//! [`Pipeline`] drives it.
+//! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`](backend::Plan)
+//! works out every count and offset for one choice of [`Settings`]. A [`Backend`] turns control
+//! points into [`Ring`](definitions::Ring)s and rings into a [`Mesh`]; [`Pipeline`] drives it.
 //!
 //! | module | holds |
 //! |---|---|
@@ -17,8 +18,9 @@
 //! | [`mod@backend`] | what a backend is written with: plans, chunks, engines, sessions |
 //! | [`settling`], [`crossings`] | how yarns come to rest, and what a device does for it |
 //!
-//! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course, y along the warp or
-//! wale, z out of the technical face; right-handed. Triangles are counter-clockwise seen from outside.
+//! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course,
+//! y along the warp or wale, z out of the technical face; right-handed. Triangles are
+//! counter-clockwise seen from outside.
 //!
 //! This crate does no I/O, knows no GPU and holds no unsafe code.
 

@@ -10,10 +10,12 @@ use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
-/// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
+/// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and
+/// made again.
 ///
-/// Unlike a [`Session`](crate::backend::Session), which works chunk by chunk in the memory of two, it keeps the meshes of all chunks. With
-/// [room](Plan::with_room) in the plan a yarn may get more control points, or fewer, and all others stay where they are.
+/// Unlike a [`Session`](crate::backend::Session), which works chunk by chunk in the memory of two,
+/// it keeps the meshes of all chunks. With [room](Plan::with_room) in the plan a yarn may get more
+/// control points, or fewer, and all others stay where they are.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -42,7 +44,8 @@ use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 pub struct LiveMesh<E: Engine + ?Sized = dyn Engine> {
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
-    /// All control points, for whether a yarn is steep depends on those beside the ones that are sent.
+    /// All control points, for whether a yarn is steep depends on those beside the ones that are
+    /// sent.
     points: PaddedPoints,
     /// Rings that are to be made again, yarn by yarn.
     stale: BTreeMap<usize, Range<u32>>,
@@ -66,20 +69,24 @@ pub struct Change {
 }
 
 impl LiveMesh {
-    /// Makes room for the whole mesh of `plan` on `device`, in chunks that are cut to the device's limits.
+    /// Makes room for the whole mesh of `plan` on `device`, in chunks that are cut to the device's
+    /// limits.
     ///
-    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not allow it, and those of [`LiveMesh::with_engine`].
+    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not
+    /// allow it, and those of [`LiveMesh::with_engine`].
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
     }
 }
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
-    /// The same with an engine that was opened for `plan`, on a device of `limits`. For backends whose engines can do more than the trait
-    /// [`Engine`].
+    /// The same with an engine that was opened for `plan`, on a device of `limits`. For backends
+    /// whose engines can do more than the trait [`Engine`].
     ///
-    /// **Errors**: [`SessionError::Region`] for a plan of only a region, [`SessionError::Plan`] where not even one block fits, [`BackendError::OutOfMemory`] where all chunks together do not, and
-    /// [`BackendError::NoEditing`] for an engine that is not [editable](Engine::is_editable).
+    /// **Errors**: [`SessionError::Region`] for a plan of only a region, [`SessionError::Plan`]
+    /// where not even one block fits, [`BackendError::OutOfMemory`] where all chunks together do
+    /// not, and [`BackendError::NoEditing`] for an engine that is not
+    /// [editable](Engine::is_editable).
     pub fn with_engine(engine: Box<E>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, SessionError> {
         if !engine.is_editable() {
             return Err(BackendError::NoEditing.into());
@@ -113,13 +120,15 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         &self.plan
     }
 
-    /// The chunks as they are now. Each has its own memory on the device, in the [slot](Slot) of its index.
+    /// The chunks as they are now. Each has its own memory on the device, in the [slot](Slot) of
+    /// its index.
     #[must_use]
     pub fn chunks(&self) -> &[Chunk] {
         &self.chunks
     }
 
-    /// Where a yarn's rings lie: each chunk that holds some, an index into [`LiveMesh::chunks`], with the part of it that they are.
+    /// Where a yarn's rings lie: each chunk that holds some, an index into [`LiveMesh::chunks`],
+    /// with the part of it that they are.
     ///
     /// **Panics** past the last yarn.
     pub fn parts(&self, yarn: usize) -> impl Iterator<Item = (usize, &Part)> {
@@ -147,8 +156,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         self.engine.timings()
     }
 
-    /// Makes again what has changed, and says where that lies, chunk by chunk. May return before it is done: what is read or drawn later
-    /// has it.
+    /// Makes again what has changed, and says where that lies, chunk by chunk. May return before it
+    /// is done: what is read or drawn later has it.
     ///
     /// **Errors**: what the device says. What was to be made again still is.
     pub fn update(&mut self) -> Result<Vec<Change>, SessionError> {
@@ -176,8 +185,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(changes)
     }
 
-    /// Makes [attributes](crate::Attribute) beside the mesh from the next update on, which makes all of it again. A yarn that is edited then
-    /// changes as a whole: what follows the edit lies further along.
+    /// Makes [attributes](crate::Attribute) beside the mesh from the next update on, which makes
+    /// all of it again. A yarn that is edited then changes as a whole: what follows the edit lies
+    /// further along.
     pub fn keep_attributes(&mut self) {
         if !self.attributes {
             self.attributes = true;
@@ -191,10 +201,12 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         self.attributes
     }
 
-    /// Waits for the attributes of chunk number `chunk` of [`LiveMesh::chunks`] and lends them piece by piece, as
-    /// [`Session::read_attributes`](crate::backend::Session::read_attributes) does, in the order of the mesh's vertices.
+    /// Waits for the attributes of chunk number `chunk` of [`LiveMesh::chunks`] and lends them
+    /// piece by piece, as [`Session::read_attributes`](crate::backend::Session::read_attributes)
+    /// does, in the order of the mesh's vertices.
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before [`LiveMesh::keep_attributes`], and those of [`LiveMesh::read_mesh`].
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`LiveMesh::keep_attributes`], and those of
+    /// [`LiveMesh::read_mesh`].
     pub fn read_attributes(
         &mut self,
         chunk: usize,
@@ -216,11 +228,12 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(flow?)
     }
 
-    /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by piece, as [`Session::read_mesh`](crate::backend::Session::read_mesh)
-    /// does. What there is only room for is lent, too, and means nothing: [`Chunk::parts`] say where yarns lie.
+    /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by
+    /// piece, as [`Session::read_mesh`](crate::backend::Session::read_mesh) does. What there is
+    /// only room for is lent, too, and means nothing: [`Chunk::parts`] say where yarns lie.
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed, [`SessionError::NoChunk`] past the last one, and what the
-    /// device says.
+    /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed,
+    /// [`SessionError::NoChunk`] past the last one, and what the device says.
     pub fn read_mesh(&mut self, chunk: usize, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
         if !self.is_made("read_mesh", chunk)? {
             return Ok(ControlFlow::Continue(()));

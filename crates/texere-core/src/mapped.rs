@@ -7,7 +7,8 @@ use crate::definitions::{Basis, Segment};
 use crate::steep::window;
 use crate::{ControlPoint, Layout, Yarn, YarnError, Yarns};
 
-/// How far apart places are tried to find how a map stretches, as a share of the yarn's half height there.
+/// How far apart places are tried to find how a map stretches, as a share of the yarn's half height
+/// there.
 const NEAR: f64 = 0.01;
 
 /// A yarn after a map: its control points, its up directions, and how many times as long it is.
@@ -18,15 +19,17 @@ struct Carried {
 }
 
 impl Yarns {
-    /// The same yarns carried from place to place by `map`, mm to mm: round a cylinder, over a saddle, or turned any way. Control points, half
-    /// widths, half heights and [up directions](Yarns::with_ups) go along, as the map stretches and turns what lies near each
-    /// point, so that yarns are as clear of one another as before where it bends the cloth little over a yarn's thickness. Twist keeps its
-    /// turns. The spline runs between the carried points: a map that bends much between two of them needs more of them.
+    /// The same yarns carried from place to place by `map`, mm to mm: round a cylinder, over a
+    /// saddle, or turned any way. Control points, half widths, half heights and [up
+    /// directions](Yarns::with_ups) go along, as the map stretches and turns what lies near each
+    /// point, so that yarns are as clear of one another as before where it bends the cloth little
+    /// over a yarn's thickness. Twist keeps its turns. The spline runs between the carried points:
+    /// a map that bends much between two of them needs more of them.
     ///
     /// `map` must be smooth, and neither fold space nor turn it inside out.
     ///
-    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`] where yarns leave the limits of size, twist and place, and
-    /// [`YarnError::Up`] where the map leaves no direction.
+    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`] where yarns leave the limits of
+    /// size, twist and place, and [`YarnError::Up`] where the map leaves no direction.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -116,12 +119,14 @@ fn carry(
             DMat3::from_cols_array_2d(&[DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
                 ((map(place + axis * near) - map(place - axis * near)) / (2.0 * near)).to_array()
             }));
-        // The section at right angles to the carried yarn: what lies along the yarn is along its surface.
+        // The section at right angles to the carried yarn: what lies along the yarn is along its
+        // surface.
         let tangent = (stretch * along).normalize_or_zero();
         let across = |v: DVec3| v - tangent * v.dot(tangent);
         let (side, up) = (across(stretch * up.cross(along) * wide), across(stretch * up * high));
         let half_height = up.length();
-        // With as much area as the carried ellipse, whose axes it has but for what the map shears over the yarn's width.
+        // With as much area as the carried ellipse, whose axes it has but for what the map shears
+        // over the yarn's width.
         let half_width = side.cross(up).length() / half_height;
         let [x, y, z] = map(place).as_vec3().to_array();
         let carried_point = ControlPoint { x, y, z, ..*point };

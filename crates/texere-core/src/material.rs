@@ -15,12 +15,14 @@ pub struct Material {
     pub srgb: [u8; 3],
     /// Linear density in tex (g/km), where the design gives one.
     pub tex: Option<f32>,
-    /// Fibres that stand off the yarn: their length in cm for a cm of yarn, as Uster testers have it in their H. 0 for none, as of filament;
-    /// [`HAIRINESS_LIMIT`] at most. Only pictures show them.
+    /// Fibres that stand off the yarn: their length in cm for a cm of yarn, as Uster testers have
+    /// it in their H. 0 for none, as of filament; [`HAIRINESS_LIMIT`] at most. Only pictures show
+    /// them.
     pub hairiness: f32,
 }
 
-/// The most hairiness that is taken: spun yarns have 3 to 11 by Uster's testers, and coarse woollen some more.
+/// The most hairiness that is taken: spun yarns have 3 to 11 by Uster's testers, and coarse woollen
+/// some more.
 pub const HAIRINESS_LIMIT: f32 = 30.0;
 
 impl Default for Material {
@@ -31,7 +33,8 @@ impl Default for Material {
 }
 
 impl Material {
-    /// The colour in linear light, each channel in \[0, 1\] (IEC 61966-2-1, the sRGB transfer function).
+    /// The colour in linear light, each channel in \[0, 1\] (IEC 61966-2-1, the sRGB transfer
+    /// function).
     #[must_use]
     pub fn linear_rgb(&self) -> [f32; 3] {
         self.srgb.map(|channel| {

@@ -76,7 +76,8 @@ pub fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, OutOfMemory> 
 
 /// Makes sure that `list` can take `count` more.
 ///
-/// **Errors**: [`OutOfMemory`], naming `what` and the bytes of the whole list, which stays as it was.
+/// **Errors**: [`OutOfMemory`], naming `what` and the bytes of the whole list, which stays as it
+/// was.
 ///
 /// ```
 /// let mut picks = vec![1_u8];

@@ -15,12 +15,13 @@ pub struct Draw {
     pub indices: std::ops::Range<u64>,
     /// What to add to an index to get a vertex of the mesh.
     pub base_vertex: u64,
-    /// How many vertices from `base_vertex` on the draw may refer to, for file formats and interfaces that ask: those of its chunk, or with a
-    /// shared pattern its own.
+    /// How many vertices from `base_vertex` on the draw may refer to, for file formats and
+    /// interfaces that ask: those of its chunk, or with a shared pattern its own.
     pub vertices: u64,
 }
 
-/// A range of indices that draws (part of) one yarn of a chunk from buffers of the chunk's own: what an indexed draw of a GPU's interface takes.
+/// A range of indices that draws (part of) one yarn of a chunk from buffers of the chunk's own:
+/// what an indexed draw of a GPU's interface takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChunkDraw {
     /// The yarn, from 0 among all.
@@ -32,8 +33,8 @@ pub struct ChunkDraw {
 }
 
 impl Plan {
-    /// Gaps between rings that the shared pattern covers: those of the longest part that there is room for, at most
-    /// [`SHARED_GAPS`].
+    /// Gaps between rings that the shared pattern covers: those of the longest part that there is
+    /// room for, at most [`SHARED_GAPS`].
     fn shared_gaps(&self) -> u64 {
         let longest = self.ring_offsets().windows(2).map(|bounds| bounds[1] - bounds[0] - 1).max();
         longest.unwrap_or(0).min(SHARED_GAPS)
@@ -45,8 +46,8 @@ impl Plan {
         self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
     }
 
-    /// The indices of [`Topology::Shared`]: the pattern of the longest part, then, with caps, for each section those of
-    /// its start cap and of its finish cap.
+    /// The indices of [`Topology::Shared`]: the pattern of the longest part, then, with caps, for
+    /// each section those of its start cap and of its finish cap.
     #[must_use]
     pub fn shared_indices(&self) -> Vec<u32> {
         let sides = self.settings().sides;
@@ -64,8 +65,9 @@ impl Plan {
         indices
     }
 
-    /// [`Plan::shared_indices`] in half the memory, for an interface that draws with 16-bit indices and a base vertex. None
-    /// where one of them does not fit: with more than seven sides, if a yarn is long enough.
+    /// [`Plan::shared_indices`] in half the memory, for an interface that draws with 16-bit indices
+    /// and a base vertex. None where one of them does not fit: with more than seven sides, if a
+    /// yarn is long enough.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -84,7 +86,8 @@ impl Plan {
         self.shared_indices().into_iter().map(|index| u16::try_from(index).ok()).collect()
     }
 
-    /// The indices of a cap of `section`, counted from the cap's first vertex: three a triangle, facing out of the yarn.
+    /// The indices of a cap of `section`, counted from the cap's first vertex: three a triangle,
+    /// facing out of the yarn.
     pub fn cap_indices(&self, section: usize, end: End) -> impl Iterator<Item = u32> {
         self.cap_triangles(section).iter().flat_map(move |&[a, b, c]| match end {
             End::Start => [a, c, b],
@@ -92,15 +95,18 @@ impl Plan {
         })
     }
 
-    /// How to draw a chunk as part of a whole mesh, yarn by yarn, its caps last. Empty with [`Topology::None`].
+    /// How to draw a chunk as part of a whole mesh, yarn by yarn, its caps last. Empty with
+    /// [`Topology::None`].
     pub fn draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = Draw> + 'a {
         self.draws_from(chunk, chunk.first_vertex(), chunk.first_index())
     }
 
-    /// How to draw a chunk from buffers of its own, such as a device lends, likewise: vertices and indices count from the chunk's first.
+    /// How to draw a chunk from buffers of its own, such as a device lends, likewise: vertices and
+    /// indices count from the chunk's first.
     ///
-    /// Of a [`LiveMesh`](crate::backend::LiveMesh) draw these and nothing else: in the room between yarns lie triangles from before an edit. They
-    /// change with an edit that makes a yarn longer or shorter.
+    /// Of a [`LiveMesh`](crate::backend::LiveMesh) draw these and nothing else: in the room between
+    /// yarns lie triangles from before an edit. They change with an edit that makes a yarn longer
+    /// or shorter.
     pub fn chunk_draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = ChunkDraw> + 'a {
         self.draws_from(chunk, 0, 0).map(|draw| ChunkDraw {
             yarn: draw.yarn,
@@ -120,7 +126,8 @@ impl Plan {
         let topology = self.settings().topology;
         let tubes = chunk.parts().iter().flat_map(move |part| {
             let gaps = u64::from(part.rings) - 1;
-            // A shared pattern starts again at each stretch's first ring; an indexed part is one stretch.
+            // A shared pattern starts again at each stretch's first ring; an indexed part is one
+            // stretch.
             let stretch = if topology == Topology::Shared { SHARED_GAPS } else { gaps.max(1) };
             (0..gaps.div_ceil(stretch)).map(move |number| {
                 let here = stretch.min(gaps - number * stretch);
@@ -201,8 +208,8 @@ pub struct MeshMut<'a> {
 
 /// A whole fabric's mesh in host memory.
 ///
-/// It keeps plan, chunks and materials, so that a writer needs nothing else, and a change of colour never rebuilds
-/// geometry.
+/// It keeps plan, chunks and materials, so that a writer needs nothing else, and a change of colour
+/// never rebuilds geometry.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;

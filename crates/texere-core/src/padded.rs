@@ -5,7 +5,8 @@ use std::ops::Range;
 use crate::backend::{Plan, zeroed};
 use crate::{ControlPoint, OutOfMemory};
 
-/// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has end cases.
+/// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has
+/// end cases.
 ///
 /// ```
 /// use texere_core::backend::{PaddedPoints, Plan};
@@ -33,8 +34,8 @@ impl PaddedPoints {
         Ok(Self { points: zeroed("control points", count)? })
     }
 
-    /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual ends that they touch. Points
-    /// past the fabric's last are left out.
+    /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual
+    /// ends that they touch. Points past the fabric's last are left out.
     ///
     /// Gives back the range of padded points that may have changed.
     pub fn upload(&mut self, plan: &Plan, first: u64, points: &[ControlPoint]) -> Range<u64> {
@@ -71,11 +72,12 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
     range.start as usize..range.end as usize
 }
 
-/// Works out the virtual ends of one padded yarn from the control points between them: equations 3 and 4 of the paper for
-/// an open yarn, wrapped neighbours for a closed one.
+/// Works out the virtual ends of one padded yarn from the control points between them: equations 3
+/// and 4 of the paper for an open yarn, wrapped neighbours for a closed one.
 ///
-/// `padded` lies as [`Plan::padded_offsets`] says: one place before the yarn's own points, and one (open) or three (closed)
-/// behind them. **Panics** for fewer than two points of its own (three when closed).
+/// `padded` lies as [`Plan::padded_offsets`] says: one place before the yarn's own points, and one
+/// (open) or three (closed) behind them. **Panics** for fewer than two points of its own (three
+/// when closed).
 ///
 /// ```
 /// use texere_core::backend::renew_virtual_ends;
@@ -97,7 +99,8 @@ pub fn renew_virtual_ends(padded: &mut [ControlPoint], closed: bool) {
     }
 }
 
-/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn has none.
+/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn
+/// has none.
 #[inline]
 pub fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
     if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {

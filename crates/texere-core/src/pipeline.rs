@@ -15,7 +15,8 @@ use crate::{
 
 pub use self::error::PipelineError;
 
-/// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
+/// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed
+/// in between.
 const UPLOAD_POINTS: usize = 1 << 20;
 
 /// How far a run has come.
@@ -41,7 +42,8 @@ type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
 pub struct Pipeline<'a> {
     yarns: &'a Yarns,
     settings: Settings,
-    /// Whether there are as many subdivisions as the twist of the yarns needs, since nobody chose others.
+    /// Whether there are as many subdivisions as the twist of the yarns needs, since nobody chose
+    /// others.
     follows_twist: bool,
     limits: Limits,
     within: Option<Bounds>,
@@ -86,7 +88,8 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Points inserted between two control points (K), whatever twist needs: [`Pipeline::undersampled`] tells.
+    /// Points inserted between two control points (K), whatever twist needs:
+    /// [`Pipeline::undersampled`] tells.
     #[must_use]
     pub fn subdivisions(mut self, subdivisions: u32) -> Self {
         self.settings.subdivisions = subdivisions;
@@ -129,16 +132,17 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Cuts chunks to `limits` where the device's own are wider, instead of to [`Limits::default`]: bounds the memory of a
-    /// [`Pipeline::stream`], and how far one step of progress goes.
+    /// Cuts chunks to `limits` where the device's own are wider, instead of to [`Limits::default`]:
+    /// bounds the memory of a [`Pipeline::stream`], and how far one step of progress goes.
     #[must_use]
     pub fn limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Makes only what lies in a box, such as [`Bounds::rectangle`]: whole blocks of rings, and of each the same bits as in the whole mesh.
-    /// More in [`Plan::within`]. A [`Pipeline::trajectory`] is whole all the same.
+    /// Makes only what lies in a box, such as [`Bounds::rectangle`]: whole blocks of rings, and of
+    /// each the same bits as in the whole mesh. More in [`Plan::within`]. A
+    /// [`Pipeline::trajectory`] is whole all the same.
     ///
     /// ```
     /// # use texere_core::backend::NullBackend;
@@ -160,11 +164,12 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Takes control points from where `settler` has left them instead of those of the yarns, whose layout stays: on the device that
-    /// it works on they don't leave it. What lies [within](Pipeline::within) a box is still told by those of the yarns, and so is which yarns are
-    /// [steep](crate::Layout::is_steep) and how outlines [lean](crate::Layout::ups): where yarns settle so far that they run up or down
-    /// elsewhere, or where flattened ones do at all, make new [`Yarns`] of what has been
-    /// [read back](crate::settling::settled).
+    /// Takes control points from where `settler` has left them instead of those of the yarns, whose
+    /// layout stays: on the device that it works on they don't leave it. What lies
+    /// [within](Pipeline::within) a box is still told by those of the yarns, and so is which yarns
+    /// are [steep](crate::Layout::is_steep) and how outlines [lean](crate::Layout::ups): where
+    /// yarns settle so far that they run up or down elsewhere, or where flattened ones do at all,
+    /// make new [`Yarns`] of what has been [read back](crate::settling::settled).
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {
@@ -184,8 +189,9 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Calls `progress` while control points are uploaded, with no rings done, and after each chunk; the last call has all
-    /// rings done. `Break` ends the run there with [`PipelineError::Cancelled`].
+    /// Calls `progress` while control points are uploaded, with no rings done, and after each
+    /// chunk; the last call has all rings done. `Break` ends the run there with
+    /// [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
         self.progress = Some(Box::new(progress));
@@ -212,7 +218,8 @@ impl<'a> Pipeline<'a> {
 
     /// The plan for these settings.
     ///
-    /// **Errors**: those of [`Plan::new`], and [`PipelineError::Backend`] where there is no memory to find what lies within a box.
+    /// **Errors**: those of [`Plan::new`], and [`PipelineError::Backend`] where there is no memory
+    /// to find what lies within a box.
     pub fn plan(&self) -> Result<Plan, PipelineError> {
         let plan = Plan::new(self.yarns.layout().clone(), self.chosen())?;
         let Some(bounds) = &self.within else { return Ok(plan) };
@@ -229,8 +236,8 @@ impl<'a> Pipeline<'a> {
 
     /// The whole mesh, in host memory.
     ///
-    /// **Errors**: [`PipelineError`] where the settings can't be planned for, memory does not suffice, the device fails,
-    /// or progress asked to stop.
+    /// **Errors**: [`PipelineError`] where the settings can't be planned for, memory does not
+    /// suffice, the device fails, or progress asked to stop.
     pub fn mesh(mut self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
         let (plan, mut session) = self.start(device)?;
         let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
@@ -251,10 +258,11 @@ impl<'a> Pipeline<'a> {
         Ok(Mesh { vertices, indices, chunks, plan, materials: self.yarns.materials().clone() })
     }
 
-    /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: the control points and two
-    /// chunks at a time. Of each chunk come all vertices in order, then all indices in order; a piece of indices may end anywhere, also within a
-    /// triangle. No triangle comes twice: what a chunk repeats of another are vertices. A sink that answers `Break` ends the run, and its answer comes back; by then at most one chunk more
-    /// has been worked on.
+    /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: the
+    /// control points and two chunks at a time. Of each chunk come all vertices in order, then all
+    /// indices in order; a piece of indices may end anywhere, also within a triangle. No triangle
+    /// comes twice: what a chunk repeats of another are vertices. A sink that answers `Break` ends
+    /// the run, and its answer comes back; by then at most one chunk more has been worked on.
     ///
     /// **Errors**: those of [`Pipeline::mesh`].
     pub fn stream<B>(
@@ -290,8 +298,8 @@ impl<'a> Pipeline<'a> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// What shaders and textures ask of each vertex, in host memory: in the order of [`Pipeline::mesh`]'s vertices with the same settings
-    /// and limits.
+    /// What shaders and textures ask of each vertex, in host memory: in the order of
+    /// [`Pipeline::mesh`]'s vertices with the same settings and limits.
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
@@ -305,7 +313,8 @@ impl<'a> Pipeline<'a> {
     /// # }
     /// ```
     ///
-    /// **Errors**: those of [`Pipeline::mesh`], and [`BackendError::NoAttributes`](crate::BackendError::NoAttributes).
+    /// **Errors**: those of [`Pipeline::mesh`], and
+    /// [`BackendError::NoAttributes`](crate::BackendError::NoAttributes).
     pub fn attributes(self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
         self.of_vertices(device, "attributes", |session, chunk, out: &mut [Attribute]| {
             session.measure()?;
@@ -317,7 +326,8 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    /// Packed vertices, 12 bytes each, in host memory: in the order of [`Pipeline::mesh`]'s vertices with the same settings and limits.
+    /// Packed vertices, 12 bytes each, in host memory: in the order of [`Pipeline::mesh`]'s
+    /// vertices with the same settings and limits.
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
@@ -330,7 +340,8 @@ impl<'a> Pipeline<'a> {
     /// # }
     /// ```
     ///
-    /// **Errors**: those of [`Pipeline::mesh`], and [`BackendError::NoPacking`](crate::BackendError::NoPacking).
+    /// **Errors**: those of [`Pipeline::mesh`], and
+    /// [`BackendError::NoPacking`](crate::BackendError::NoPacking).
     pub fn packed(self, device: &dyn Backend) -> Result<Vec<PackedVertex>, PipelineError> {
         self.of_vertices(device, "packed vertices", |session, chunk, out: &mut [PackedVertex]| {
             session.packed(chunk)?;

@@ -11,7 +11,8 @@ use crate::{ControlPoint, Yarns};
 pub struct YarnPlace {
     /// The yarn, from 0.
     pub yarn: usize,
-    /// The control interval: the number of the control point that it starts from, from 0 within the yarn.
+    /// The control interval: the number of the control point that it starts from, from 0 within the
+    /// yarn.
     pub interval: usize,
     /// Where in the interval, from 0 to 1.
     pub t: f64,

@@ -6,15 +6,17 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::half;
 
-/// A point that a yarn's centreline passes through, with the yarn's half width and half height there.
+/// A point that a yarn's centreline passes through, with the yarn's half width and half height
+/// there.
 ///
-/// The half width lies level in the cloth, the half height out of it, both at right angles to the yarn, whatever its
-/// twist: yarns flatten where they cross and spread where they float, while their fibres turn inside. Of a round yarn both
-/// are the radius.
+/// The half width lies level in the cloth, the half height out of it, both at right angles to the
+/// yarn, whatever its twist: yarns flatten where they cross and spread where they float, while
+/// their fibres turn inside. Of a round yarn both are the radius.
 ///
-/// **Shape**: three `f32` and two half floats (IEEE 754 binary16), 16 bytes, 16-byte stride. **Units**: millimetres. The
-/// spline interpolates all five components, so slubs (thick places) and flat places are made by these two alone. A half float
-/// has 11 bits: sizes are rounded to the nearest of them, by at most 1 in 2048.
+/// **Shape**: three `f32` and two half floats (IEEE 754 binary16), 16 bytes, 16-byte stride.
+/// **Units**: millimetres. The spline interpolates all five components, so slubs (thick places) and
+/// flat places are made by these two alone. A half float has 11 bits: sizes are rounded to the
+/// nearest of them, by at most 1 in 2048.
 ///
 /// ```
 /// use texere_core::ControlPoint;
@@ -53,17 +55,17 @@ const _: () = assert!(
 /// Beyond it the squares and cubes that the spline forms could leave the range of `f32`.
 pub const COORDINATE_LIMIT: f32 = 1e9;
 
-/// The least half width and half height that are taken for a yarn's, mm: a tenth of a micrometre. The smallest number that a
-/// half float holds with all its bits is 6.1e-5.
+/// The least half width and half height that are taken for a yarn's, mm: a tenth of a micrometre.
+/// The smallest number that a half float holds with all its bits is 6.1e-5.
 pub const RADIUS_MIN: f32 = 1e-4;
 
-/// The most half width and half height that are taken for a yarn's, mm: thirty metres. A half float ends at 65,504, and a
-/// virtual end may be twice as large as its neighbour.
+/// The most half width and half height that are taken for a yarn's, mm: thirty metres. A half float
+/// ends at 65,504, and a virtual end may be twice as large as its neighbour.
 pub const RADIUS_MAX: f32 = 3e4;
 
 impl ControlPoint {
-    /// A control point of a round yarn at (`x`, `y`, `z`) with `radius`, all in mm. The radius is rounded to the nearest
-    /// half float, to the even one of two.
+    /// A control point of a round yarn at (`x`, `y`, `z`) with `radius`, all in mm. The radius is
+    /// rounded to the nearest half float, to the even one of two.
     #[must_use]
     #[inline]
     pub fn new(x: f32, y: f32, z: f32, radius: f32) -> Self {
@@ -105,8 +107,8 @@ impl ControlPoint {
         self.halves.0[0] == self.halves.0[1]
     }
 
-    /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes are worked out in `f32`
-    /// and rounded to half floats.
+    /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes
+    /// are worked out in `f32` and rounded to half floats.
     ///
     /// The sizes of a virtual end may be negative; they only steer the spline's slope.
     #[must_use]
@@ -141,8 +143,8 @@ impl Halves {
         half::to_f32(self.0[1])
     }
 
-    /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are ordered as their bits are; those
-    /// below it, infinity and NaN come after all of them.
+    /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are
+    /// ordered as their bits are; those below it, infinity and NaN come after all of them.
     pub(crate) const fn within_limits(self) -> bool {
         const LEAST: u16 = half::from_f32(RADIUS_MIN);
         const MOST: u16 = half::from_f32(RADIUS_MAX);

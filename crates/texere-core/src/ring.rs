@@ -8,7 +8,8 @@ use crate::{SectionPoint, Vertex};
 
 /// One place along a yarn: everything of it that a section needs to stand there.
 ///
-/// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm; growths in mm per mm; `roll` in 2⁻³² turns.
+/// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm; growths in mm per mm; `roll` in 2⁻³²
+/// turns.
 ///
 /// ```
 /// use texere_core::definitions::Ring;
@@ -31,8 +32,8 @@ pub struct Ring {
     pub width_growth: f32,
     /// Growth of the half height along the yarn.
     pub height_growth: f32,
-    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame: 0 but where the yarn has [up
-    /// directions that it stands by](crate::Layout::ups).
+    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame: 0 but
+    /// where the yarn has [up directions that it stands by](crate::Layout::ups).
     pub lean: Turn,
 }
 
@@ -86,9 +87,10 @@ impl Ring {
 
     /// The vertex at `point` of the section that stands here as `stance` says.
     ///
-    /// The section is turned by the roll, then stretched to the half width along the side and to the half height along the up
-    /// of the upright frame. Its normal is stretched by the inverse transpose. The normal of a section that grows leans back:
-    /// it is at right angles both to the outline and to the line along the surface.
+    /// The section is turned by the roll, then stretched to the half width along the side and to
+    /// the half height along the up of the upright frame. Its normal is stretched by the inverse
+    /// transpose. The normal of a section that grows leans back: it is at right angles both to the
+    /// outline and to the line along the surface.
     #[must_use]
     #[inline]
     pub fn vertex(&self, stance: &Stance, point: &SectionPoint) -> Vertex {
@@ -109,13 +111,15 @@ impl Ring {
                 let SectionPoint { x, y, normal_x, normal_y } = point.rolled(*sin, *cos);
                 let (wide, high) = (self.half_width, self.half_height);
                 let at = |x: f32, y: f32| *side * x + *up * y;
-                // Each times the other's half: the inverse transpose, times the product of both halves.
+                // Each times the other's half: the inverse transpose, times the product of both
+                // halves.
                 let (normal_x, normal_y) = (normal_x * high, normal_y * wide);
                 let lean = self.width_growth * x * normal_x + self.height_growth * y * normal_y;
                 let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y + lean * lean).sqrt();
                 let normal = at(normal_x * inverse, normal_y * inverse) - tangent * (lean * inverse);
-                // Zero is added so that no sum is -0. The vertex is then the same to the bit whether a lean or a roll of zero
-                // is worked out or left out, and opposite points have opposite normals.
+                // Zero is added so that no sum is -0. The vertex is then the same to the bit
+                // whether a lean or a roll of zero is worked out or left out, and opposite points
+                // have opposite normals.
                 (centre + Vec3::ZERO + at(x * wide, y * high), normal + Vec3::ZERO)
             }
         };
@@ -126,7 +130,8 @@ impl Ring {
 /// How a section stands on a [`Ring`]: the same for all its vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stance {
-    /// Of a yarn that is round there. Flattening does nothing, so the frame may turn with the section.
+    /// Of a yarn that is round there. Flattening does nothing, so the frame may turn with the
+    /// section.
     Round {
         /// The frame, turned by the roll.
         basis: Basis,

@@ -24,8 +24,8 @@ pub struct Sampling {
     step: f32,
 }
 
-/// The most points that may be inserted between two control points; a thousand already puts rings of a 0.1 mm yarn
-/// less than a micrometre apart.
+/// The most points that may be inserted between two control points; a thousand already puts rings
+/// of a 0.1 mm yarn less than a micrometre apart.
 pub const SUBDIVISIONS_MAX: u32 = 1023;
 
 impl Default for Sampling {
@@ -68,14 +68,16 @@ impl Sampling {
         self.s
     }
 
-    /// `1 / (K + 1)` as `f32`: ring k of an interval lies at t = k times this, one rounding on every device.
+    /// `1 / (K + 1)` as `f32`: ring k of an interval lies at t = k times this, one rounding on
+    /// every device.
     #[must_use]
     #[inline]
     pub const fn step(&self) -> f32 {
         self.step
     }
 
-    /// Rings of a yarn of `points` control points: `(points - 1)(K + 1) + 1` open, `points (K + 1) + 1` closed.
+    /// Rings of a yarn of `points` control points: `(points - 1)(K + 1) + 1` open,
+    /// `points (K + 1) + 1` closed.
     #[must_use]
     pub const fn rings(&self, points: u64, closed: bool) -> u64 {
         let intervals = if closed { points } else { points - 1 };
@@ -84,8 +86,8 @@ impl Sampling {
 
     /// The spline at ring `ring` of a yarn, whose *padded* control points start at `padded[0]`.
     ///
-    /// `rings` is the yarn's ring count. Ring `j (K + 1) + k` lies at t = k / (K + 1) of interval j; the last ring of
-    /// an open yarn at t = 1 of its last interval.
+    /// `rings` is the yarn's ring count. Ring `j (K + 1) + k` lies at t = k / (K + 1) of interval
+    /// j; the last ring of an open yarn at t = 1 of its last interval.
     #[must_use]
     #[inline]
     pub fn sample(&self, padded: &[ControlPoint], ring: u32, rings: u32, closed: bool) -> RingSample {
@@ -105,7 +107,8 @@ impl Sampling {
         }
     }
 
-    /// The length of the spline from ring `ring`, not the yarn's last, to the next one. `padded` is as in [`Sampling::sample`].
+    /// The length of the spline from ring `ring`, not the yarn's last, to the next one. `padded` is
+    /// as in [`Sampling::sample`].
     #[must_use]
     #[inline]
     pub fn step_length(&self, padded: &[ControlPoint], ring: u32) -> ArcLength {
@@ -130,8 +133,8 @@ pub struct RingSample {
 }
 
 impl RingSample {
-    /// The way from this ring's centre to the next one's, mm, from offsets within the interval, so that it keeps its
-    /// digits far from the origin.
+    /// The way from this ring's centre to the next one's, mm, from offsets within the interval, so
+    /// that it keeps its digits far from the origin.
     #[must_use]
     #[inline]
     pub fn chord_to(&self, next: &Self) -> glam::Vec3 {

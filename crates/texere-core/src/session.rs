@@ -15,22 +15,23 @@ use crate::{Backend, BackendError, ControlPoint, Limits, Vertex};
 
 pub use self::error::SessionError;
 
-/// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
-/// its results where they lie, so it reads none back.
+/// Bytes that a session has moved between host and device, so far. A backend that works in the
+/// host's own memory lends its results where they lie, so it reads none back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Traffic {
-    /// Control points, their virtual ends included, sent by [`Session::upload`] or [`Session::take_settled`]. Tables are not
-    /// counted: they are sent once.
+    /// Control points, their virtual ends included, sent by [`Session::upload`] or
+    /// [`Session::take_settled`]. Tables are not counted: they are sent once.
     pub uploaded: u64,
-    /// Rings, vertices, packed or not, and indices that came back, and control points of a settler on another device.
+    /// Rings, vertices, packed or not, and indices that came back, and control points of a settler
+    /// on another device.
     pub read: u64,
 }
 
 /// One fabric on one device: upload, scan, then the stages chunk by chunk.
 ///
-/// Chunks come from [`Plan::chunks`] of the session's plan, with the device's limits or stricter ones. Two may be in flight;
-/// running a stage for a third may use the memory of the oldest again. [`Pipeline`](crate::Pipeline) does all this; by hand it
-/// reads
+/// Chunks come from [`Plan::chunks`] of the session's plan, with the device's limits or stricter
+/// ones. Two may be in flight; running a stage for a third may use the memory of the oldest again.
+/// [`Pipeline`](crate::Pipeline) does all this; by hand it reads
 ///
 /// ```
 /// use std::{ops::ControlFlow, sync::Arc};
@@ -73,7 +74,8 @@ pub struct Session<E: Engine + ?Sized = dyn Engine> {
 /// What lies in a slot.
 #[derive(Debug, Default)]
 struct InFlight {
-    /// The tables that are there. The chunk's index would not do: chunks of another cut have the same ones.
+    /// The tables that are there. The chunk's index would not do: chunks of another cut have the
+    /// same ones.
     tables: Option<TablesId>,
     has_rings: bool,
     has_mesh: bool,
@@ -90,15 +92,16 @@ impl InFlight {
 impl Session {
     /// Starts work on a plan on `device`.
     ///
-    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not allow it.
+    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not
+    /// allow it.
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Ok(Self::with_engine(device.engine(plan.clone())?, device.info().limits, plan))
     }
 }
 
 impl<E: Engine + ?Sized> Session<E> {
-    /// Starts work on `plan` with an engine that was opened for it, on a device of `limits`. For backends whose engines can
-    /// do more than the trait [`Engine`].
+    /// Starts work on `plan` with an engine that was opened for it, on a device of `limits`. For
+    /// backends whose engines can do more than the trait [`Engine`].
     #[must_use]
     pub fn with_engine(engine: Box<E>, limits: Limits, plan: Arc<Plan>) -> Self {
         Self {
@@ -113,8 +116,8 @@ impl<E: Engine + ?Sized> Session<E> {
         }
     }
 
-    /// Cuts a scan's chunks to `limits` where the device's own are wider: as the caller cuts those of the stages, so that their
-    /// tables are sent once.
+    /// Cuts a scan's chunks to `limits` where the device's own are wider: as the caller cuts those
+    /// of the stages, so that their tables are sent once.
     #[must_use]
     pub fn with_limits(mut self, limits: &Limits) -> Self {
         self.limits = self.limits.min(limits);
@@ -133,11 +136,13 @@ impl<E: Engine + ?Sized> Session<E> {
         &self.engine
     }
 
-    /// Takes control points, the first of which is number `first` of the fabric: any range, so that a generator can feed
-    /// block by block and an edit send one yarn. Points that never came are zeros. They are taken as they are: [`Yarns`](crate::Yarns) are sound,
-    /// others a caller may check with [`check_points`](crate::check_points).
+    /// Takes control points, the first of which is number `first` of the fabric: any range, so that
+    /// a generator can feed block by block and an edit send one yarn. Points that never came are
+    /// zeros. They are taken as they are: [`Yarns`](crate::Yarns) are sound, others a caller may
+    /// check with [`check_points`](crate::check_points).
     ///
-    /// **Errors**: [`SessionError::UploadRange`] past the last control point, and what the device says.
+    /// **Errors**: [`SessionError::UploadRange`] past the last control point, and what the device
+    /// says.
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
         let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
         if end > total {
@@ -148,11 +153,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Takes all control points from where a settler has left them. Where it works on the same device they never leave that. Which yarns are
-    /// [steep](crate::Layout::is_steep), and how outlines [lean](crate::Layout::ups), stays as the plan has it.
+    /// Takes all control points from where a settler has left them. Where it works on the same
+    /// device they never leave that. Which yarns are [steep](crate::Layout::is_steep), and how
+    /// outlines [lean](crate::Layout::ups), stays as the plan has it.
     ///
-    /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of control points than the
-    /// plan's, and what either device says.
+    /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of
+    /// control points than the plan's, and what either device says.
     pub fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<(), SessionError> {
         let points = |strand: &SettlingYarn| u64::from(strand.points);
         let settled = settler.plan().strands().iter().map(points);
@@ -166,10 +172,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Works out the roll at each block's start, and the whole turn of each closed yarn: once after uploads. There is
-    /// nothing to do where [`Plan::needs_scan`] is false, or nothing was uploaded since.
+    /// Works out the roll at each block's start, and the whole turn of each closed yarn: once after
+    /// uploads. There is nothing to do where [`Plan::needs_scan`] is false, or nothing was uploaded
+    /// since.
     ///
-    /// **Errors**: [`SessionError::Plan`] where the device's limits hold no block, and what the device says.
+    /// **Errors**: [`SessionError::Plan`] where the device's limits hold no block, and what the
+    /// device says.
     pub fn scan(&mut self) -> Result<(), SessionError> {
         if self.plan.needs_scan() && !self.scanned {
             self.go_through(E::scan)?;
@@ -178,8 +186,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Works out how long each yarn is at each block's start, for [`Session::attributes`]: once after uploads. There is nothing to do where
-    /// nothing was uploaded since.
+    /// Works out how long each yarn is at each block's start, for [`Session::attributes`]: once
+    /// after uploads. There is nothing to do where nothing was uploaded since.
     ///
     /// **Errors**: [`BackendError::NoAttributes`] and those of [`Session::scan`].
     pub fn measure(&mut self) -> Result<(), SessionError> {
@@ -212,15 +220,15 @@ impl<E: Engine + ?Sized> Session<E> {
 
     /// Stage 1, rings from control points. May return before it is done.
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before a scan that is needed; [`SessionError::ForeignChunk`]; and what the
-    /// device says.
+    /// **Errors**: [`SessionError::OutOfOrder`] before a scan that is needed;
+    /// [`SessionError::ForeignChunk`]; and what the device says.
     pub fn trajectory(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         let slot = self.start("trajectory", chunk)?;
         self.ensure_rings(slot, chunk)
     }
 
-    /// Stage 2, vertices and indices, with stage 1 in it where that has not run for this chunk. May return before it
-    /// is done.
+    /// Stage 2, vertices and indices, with stage 1 in it where that has not run for this chunk. May
+    /// return before it is done.
     ///
     /// **Errors**: those of [`Session::trajectory`].
     pub fn mesh(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
@@ -231,10 +239,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 where only a fused
-    /// [`Session::mesh`] has run. A sink that answers `Break` ends the reading, and the answer comes back.
+    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 where
+    /// only a fused [`Session::mesh`] has run. A sink that answers `Break` ends the reading, and
+    /// the answer comes back.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
+    /// device says.
     pub fn read_trajectory(
         &mut self,
         chunk: &Chunk,
@@ -251,11 +261,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Waits for this chunk's mesh and lends it piece by piece: all vertices in order, then all indices in order. The
-    /// pieces lie in the engine's own or in mapped memory. A sink that answers `Break` ends the reading, and the answer
-    /// comes back.
+    /// Waits for this chunk's mesh and lends it piece by piece: all vertices in order, then all
+    /// indices in order. The pieces lie in the engine's own or in mapped memory. A sink that
+    /// answers `Break` ends the reading, and the answer comes back.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
+    /// device says.
     pub fn read_mesh(&mut self, chunk: &Chunk, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
         let slot = self.find(chunk, |here| here.has_mesh)?;
         let mut bytes = 0;
@@ -267,7 +278,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// What shaders and textures ask of each vertex of `chunk`, in memory of its own. May return before it is done.
+    /// What shaders and textures ask of each vertex of `chunk`, in memory of its own. May return
+    /// before it is done.
     ///
     /// ```
     /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
@@ -282,7 +294,8 @@ impl<E: Engine + ?Sized> Session<E> {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`], and those of [`Session::trajectory`].
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`], and those of
+    /// [`Session::trajectory`].
     pub fn attributes(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         self.check_own(chunk)?;
         if !self.measured {
@@ -294,10 +307,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Waits for this chunk's attributes and lends them piece by piece, in the order of its vertices, each piece with the number of its
-    /// first. A sink that answers `Break` ends the reading, and the answer comes back.
+    /// Waits for this chunk's attributes and lends them piece by piece, in the order of its
+    /// vertices, each piece with the number of its first. A sink that answers `Break` ends the
+    /// reading, and the answer comes back.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
+    /// device says.
     pub fn read_attributes(
         &mut self,
         chunk: &Chunk,
@@ -313,9 +328,10 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Stage 2 with packed vertices instead of others, 12 bytes each, in memory of their own: no mesh is needed for it. They have the order of the
-    /// mesh's vertices, and come without indices: [`Plan::shared_indices`] has those of [`Topology::Shared`](crate::Topology::Shared),
-    /// which is meant for whoever saves memory. May return before it is done.
+    /// Stage 2 with packed vertices instead of others, 12 bytes each, in memory of their own: no
+    /// mesh is needed for it. They have the order of the mesh's vertices, and come without indices:
+    /// [`Plan::shared_indices`] has those of [`Topology::Shared`](crate::Topology::Shared), which
+    /// is meant for whoever saves memory. May return before it is done.
     ///
     /// ```
     /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
@@ -340,10 +356,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Waits for this chunk's packed vertices and lends them piece by piece, in order, each piece with the number of its first. A sink that
-    /// answers `Break` ends the reading, and the answer comes back.
+    /// Waits for this chunk's packed vertices and lends them piece by piece, in order, each piece
+    /// with the number of its first. A sink that answers `Break` ends the reading, and the answer
+    /// comes back.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
+    /// device says.
     pub fn read_packed(
         &mut self,
         chunk: &Chunk,
@@ -359,9 +377,11 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Runs stage 2 into the caller's slices, which must be exactly as long as planned. The mesh is not in flight afterwards.
+    /// Runs stage 2 into the caller's slices, which must be exactly as long as planned. The mesh is
+    /// not in flight afterwards.
     ///
-    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and those of [`Session::mesh`].
+    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and those of
+    /// [`Session::mesh`].
     pub fn mesh_into(&mut self, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), SessionError> {
         let lengths = [
             ("vertices", out.vertices.len() as u64, u64::from(chunk.vertices())),
@@ -380,7 +400,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Sends the tables of `chunk` unless they are there, and starts no stage: for a backend that lends them to kernels of its caller's.
+    /// Sends the tables of `chunk` unless they are there, and starts no stage: for a backend that
+    /// lends them to kernels of its caller's.
     ///
     /// **Errors**: those of [`Session::trajectory`].
     pub fn slot_of_tables(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
@@ -389,24 +410,24 @@ impl<E: Engine + ?Sized> Session<E> {
 
     /// Where the mesh of `chunk` lies on the device, for a backend that lends its memory.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::mesh`] has been called
-    /// for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
+    /// [`Session::mesh`] has been called for this chunk.
     pub fn slot_of_mesh(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_mesh)
     }
 
     /// Where the attributes of `chunk` lie on the device, likewise.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::attributes`] has been called
-    /// for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
+    /// [`Session::attributes`] has been called for this chunk.
     pub fn slot_of_attributes(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_attributes)
     }
 
     /// Where the packed vertices of `chunk` lie on the device, likewise.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::packed`] has been called
-    /// for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
+    /// [`Session::packed`] has been called for this chunk.
     pub fn slot_of_packed(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_packed)
     }
@@ -491,8 +512,8 @@ fn slot_of(in_flight: &[InFlight; 2], chunk: &Chunk) -> Option<Slot> {
     Slot::BOTH.into_iter().find(holds)
 }
 
-/// The slot that holds the tables of `chunk`, and `true`. If none does: the slot that was taken longest ago, emptied, and
-/// `false`.
+/// The slot that holds the tables of `chunk`, and `true`. If none does: the slot that was taken
+/// longest ago, emptied, and `false`.
 fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot, bool) {
     if let Some(slot) = slot_of(in_flight, chunk) {
         return (slot, true);

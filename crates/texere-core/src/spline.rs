@@ -1,7 +1,8 @@
 //! The cubic cardinal spline through the control points (the paper's equations 1 to 4).
 //!
-//! Everything is evaluated on differences from the interval's first point, which is added last: from absolute
-//! coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3 rad.
+//! Everything is evaluated on differences from the interval's first point, which is added last:
+//! from absolute coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3
+//! rad.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -69,24 +70,29 @@ pub struct Sample {
 
 /// A velocity whose square is below this share of the segment's squared size counts as zero.
 ///
-/// Repeated points and cusps give exact zeros; the share (a millionth of the size) catches those that rounding moves a
-/// little off zero, whose direction would be noise.
+/// Repeated points and cusps give exact zeros; the share (a millionth of the size) catches those
+/// that rounding moves a little off zero, whose direction would be noise.
 pub const ZERO_VELOCITY: f32 = 1e-12;
 
-/// The squared length, mm², up to which a length counts as zero whatever the segment's size: 1e-15 mm. The squares of much
-/// shorter ones leave the normal range of `f32`, and some devices flush them to zero.
+/// The squared length, mm², up to which a length counts as zero whatever the segment's size: 1e-15
+/// mm. The squares of much shorter ones leave the normal range of `f32`, and some devices flush
+/// them to zero.
 pub const NO_LENGTH: f32 = 1e-30;
 
-/// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is within 1e-4 rad of the
-/// axis, and the square of anything steeper would start to leave the range of `f32`.
+/// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is
+/// within 1e-4 rad of the axis, and the square of anything steeper would start to leave the range
+/// of `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
 
-/// Half width and half height between two control points never fall below this share of the smaller one.
+/// Half width and half height between two control points never fall below this share of the smaller
+/// one.
 ///
-/// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no tube.
+/// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no
+/// tube.
 pub const RADIUS_FLOOR: f32 = 0.5;
 
-/// Where Gauss and Legendre's rule with eight points tries a function between -1 and 1: at each of these and its negative.
+/// Where Gauss and Legendre's rule with eight points tries a function between -1 and 1: at each of
+/// these and its negative.
 ///
 /// **Source**: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, table 25.4.
 pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_289_84];
@@ -94,14 +100,16 @@ pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_2
 /// The weight of each of them, likewise.
 pub const ARC_WEIGHTS: [f32; 4] = [0.362_683_8, 0.313_706_64, 0.222_381_03, 0.101_228_54];
 
-/// Where the slowest of a rule's places is slower than this share of the fastest, a spline may all but stand still in between, and its
-/// speed has a kink there: then each of [`ARC_PANELS`] parts has a rule of its own.
+/// Where the slowest of a rule's places is slower than this share of the fastest, a spline may all
+/// but stand still in between, and its speed has a kink there: then each of [`ARC_PANELS`] parts
+/// has a rule of its own.
 pub const ARC_EVEN: f32 = 0.5;
 
 /// The parts that a length is worked out in where the spline's speed is uneven.
 pub const ARC_PANELS: u32 = 16;
 
-/// s = (1 - tension) / 2, the factor of the spline's tangents (the paper's equation 2), in the precision of `T`.
+/// s = (1 - tension) / 2, the factor of the spline's tangents (the paper's equation 2), in the
+/// precision of `T`.
 ///
 /// ```
 /// use texere_core::definitions::tangent_factor;
@@ -115,7 +123,8 @@ pub fn tangent_factor<T: From<f32> + Sub<Output = T> + Div<Output = T>>(tension:
 }
 
 impl Segment {
-    /// The segment between `points[1]` and `points[2]`, with the [factor of tangents](tangent_factor) `s`.
+    /// The segment between `points[1]` and `points[2]`, with the [factor of
+    /// tangents](tangent_factor) `s`.
     #[must_use]
     #[inline]
     pub fn new(points: &[ControlPoint; 4], s: f32) -> Self {
@@ -144,8 +153,9 @@ impl Segment {
 
     /// The spline at `t` in \[0, 1\].
     ///
-    /// Where the velocity vanishes the tangent is the direction that the yarn takes right after (right before, at
-    /// t = 1, a yarn's end): the first derivative that does not vanish, and +x where all do.
+    /// Where the velocity vanishes the tangent is the direction that the yarn takes right after
+    /// (right before, at t = 1, a yarn's end): the first derivative that does not vanish, and +x
+    /// where all do.
     #[must_use]
     #[inline]
     pub fn sample(&self, t: f32) -> Sample {
@@ -180,8 +190,8 @@ impl Segment {
         (c1 + (c2 * 2.0 + c3 * (3.0 * t)) * t).length_squared().sqrt()
     }
 
-    /// The length of the spline between two parameters in \[0, 1\], mm, by Gauss and Legendre's rule with eight points; where its speed is
-    /// [uneven](ARC_EVEN), in [`ARC_PANELS`] parts.
+    /// The length of the spline between two parameters in \[0, 1\], mm, by Gauss and Legendre's
+    /// rule with eight points; where its speed is [uneven](ARC_EVEN), in [`ARC_PANELS`] parts.
     ///
     /// ```
     /// use texere_core::definitions::Segment;
@@ -219,12 +229,14 @@ impl Segment {
         (sum * half, slowest >= ARC_EVEN * fastest)
     }
 
-    /// A box that holds the spline's samples between `from` and `to`, and sizes that they do not exceed: those of the control
-    /// points of the stretch as a Bézier curve, made larger by what rounding may take from them.
+    /// A box that holds the spline's samples between `from` and `to`, and sizes that they do not
+    /// exceed: those of the control points of the stretch as a Bézier curve, made larger by what
+    /// rounding may take from them.
     pub(crate) fn hull(&self, from: f32, to: f32) -> Hull {
         let [low, high] = extremes(self.position, Vec3::ZERO, from, to, [Vec3::min, Vec3::max]);
-        // Coefficients are up to 3.5 times as large as the largest difference, and each is rounded some ten times here and in
-        // `sample`: together that is less than 50 units in the last place of the difference.
+        // Coefficients are up to 3.5 times as large as the largest difference, and each is rounded
+        // some ten times here and in `sample`: together that is less than 50 units in the last
+        // place of the difference.
         let slack = Vec3::splat(64.0 * f32::EPSILON * self.largest);
         let size = |size: &Size| {
             let [_, most] = extremes(size.terms, size.start, from, to, [f32::min, f32::max]);
@@ -239,7 +251,8 @@ impl Segment {
         }
     }
 
-    /// The tangent where the velocity vanishes: the limit from the right, or from the left at t = 1.
+    /// The tangent where the velocity vanishes: the limit from the right, or from the left at t =
+    /// 1.
     fn direction_at_rest(&self, t: f32) -> Vec3 {
         let [_, c2, c3] = self.position;
         let acceleration = (c2 + c3 * (3.0 * t)) * 2.0;
@@ -255,8 +268,8 @@ impl Segment {
     }
 }
 
-/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at `a` and the one after
-/// next at `c`.
+/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at
+/// `a` and the one after next at `c`.
 #[inline]
 pub(crate) fn coefficients<T>(a: T, b: T, c: T, s: f32) -> [T; 3]
 where
@@ -265,8 +278,9 @@ where
     [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)]
 }
 
-/// The least and the greatest control point, by the two functions, of the Bézier curve that `start + (terms[0] + (terms[1] +
-/// terms[2] t) t) t` is between `from` and `to`: the curve does not leave them.
+/// The least and the greatest control point, by the two functions, of the Bézier curve that
+/// `start + (terms[0] + (terms[1] + terms[2] t) t) t` is between `from` and `to`: the curve does
+/// not leave them.
 fn extremes<T>(
     [c1, c2, c3]: [T; 3],
     start: T,
@@ -307,7 +321,8 @@ impl Size {
         Self { start, terms: coefficients(a, b, c, s), floor: start.min(end) * RADIUS_FLOOR }
     }
 
-    /// The size at `t` and its growth along the yarn, where `inverse` is one over the spline's speed.
+    /// The size at `t` and its growth along the yarn, where `inverse` is one over the spline's
+    /// speed.
     #[inline]
     fn sample(&self, t: f32, inverse: f32) -> (f32, f32) {
         let [r1, r2, r3] = self.terms;

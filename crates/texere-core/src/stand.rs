@@ -10,20 +10,24 @@ use crate::lean::Leaning;
 use crate::mapped::tangent;
 use crate::steep::{carried_steps, intervals, is_flat, runs_straight, upright_turns_beyond, window, wrings};
 
-/// By how much the upright frame of a flattened yarn may turn about it within a control interval, and by how much its ups are turned
-/// from control point to control point where it is handed over, turns: 15 degrees.
+/// By how much the upright frame of a flattened yarn may turn about it within a control interval,
+/// and by how much its ups are turned from control point to control point where it is handed over,
+/// turns: 15 degrees.
 ///
 /// With 20 rings of a flat jersey turn by up to 34, since its tangents bend between two points
-/// (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With less a quarter of a turn takes longer, and the sections of a flat yarn
-/// stand off the plane of their cloth for as far.
+/// (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With less a quarter of a
+/// turn takes longer, and the sections of a flat yarn stand off the plane of their cloth for as
+/// far.
 const HANDED_OVER: f32 = 15.0 / 360.0;
 
-/// The squared sine of the angle to z within which the upright frame of a flattened yarn does not count: 15 degrees. Which way the side of a
-/// binder points that goes straight down through the cloth is a matter of how it trembles. Without it a binder is turned on its way down, and still
+/// The squared sine of the angle to z within which the upright frame of a flattened yarn does not
+/// count: 15 degrees. Which way the side of a binder points that goes straight down through the
+/// cloth is a matter of how it trembles. Without it a binder is turned on its way down, and still
 /// so where it lies level again (`a_flat_yarn_stands_upright_where_it_lies_flat`).
 const NEAR_POLE: f32 = 0.067;
 
-/// Points on either side of the lap of a closed yarn whose ups are looked for: in so many steps of [`HANDED_OVER`] a frame turns by whole turns.
+/// Points on either side of the lap of a closed yarn whose ups are looked for: in so many steps of
+/// [`HANDED_OVER`] a frame turns by whole turns.
 const LAP_POINTS: usize = 24;
 
 /// Whether a yarn is steep, and how its outline leans if it does.
@@ -49,7 +53,8 @@ impl Stand {
             None => {
                 let tangents: Vec<_> =
                     (0..points.len()).map(|point| tangent(points, closed, point)).collect();
-                // On end the upright frame has no direction, but for a convention that does not turn with the cloth.
+                // On end the upright frame has no direction, but for a convention that does not
+                // turn with the cloth.
                 let stands_on_end = tangents.iter().any(|tangent| level(tangent) < VERTICAL);
                 if !stands_on_end && !upright_turns_beyond(points, closed, HANDED_OVER) {
                     return upright;
@@ -62,8 +67,9 @@ impl Stand {
     }
 }
 
-/// The ups of a flattened yarn: those of the upright frame where that turns slowly. Elsewhere, and near its pole, they are carried along, and
-/// turned by [`HANDED_OVER`] at most from point to point to where it stands further on.
+/// The ups of a flattened yarn: those of the upright frame where that turns slowly. Elsewhere, and
+/// near its pole, they are carried along, and turned by [`HANDED_OVER`] at most from point to point
+/// to where it stands further on.
 fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<Vec3> {
     let count = points.len();
     // How far a frame that is carried along is turned against the upright one at each point.
@@ -72,7 +78,8 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
         let window = window(points, closed, interval);
         rolls.push(rolls[interval] + carried_steps(&window).map(|step| f64::from(step.turns())).sum::<f64>());
     }
-    // Round a closed yarn so often that the middle lap has neighbours enough on either side for a frame to be handed over by half a turn.
+    // Round a closed yarn so often that the middle lap has neighbours enough on either side for a
+    // frame to be handed over by half a turn.
     let laps = if closed { 2 * LAP_POINTS.div_ceil(count) + 1 } else { 1 };
     let whole = rolls[rolls.len() - 1];
     let mut before: Option<f64> = None;
@@ -88,7 +95,8 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
         })
         .collect();
     let turns = if closed && asked.iter().all(Option::is_none) {
-        // Nothing says how it stands: what a lap turns is spread over its points, for an outline turned by half a turn is the same.
+        // Nothing says how it stands: what a lap turns is spread over its points, for an outline
+        // turned by half a turn is the same.
         let left = whole - (whole * 2.0).round() / 2.0;
         (0..laps * count)
             .map(|place| -whole * (place / count) as f64 - left * (place % count) as f64 / count as f64)
@@ -110,8 +118,9 @@ fn level(tangent: &Vec3) -> f32 {
     tangent.truncate().length_squared()
 }
 
-/// Turns that follow those asked for, of one place each, as nearly as steps of [`HANDED_OVER`] at most do: half way between the highest of
-/// those that are nowhere above what is asked, and the lowest that are nowhere below.
+/// Turns that follow those asked for, of one place each, as nearly as steps of [`HANDED_OVER`] at
+/// most do: half way between the highest of those that are nowhere above what is asked, and the
+/// lowest that are nowhere below.
 fn followed(asked: &[Option<f64>]) -> Vec<f64> {
     let step = f64::from(HANDED_OVER);
     let bound = |sign: f64| {

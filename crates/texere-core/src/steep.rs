@@ -10,21 +10,24 @@ use crate::definitions::{Segment, Turn};
 use crate::lean::IntervalLean;
 use crate::{ControlPoint, Frame};
 
-/// By how much an upright frame may turn about a yarn within one control interval, turns: 4 degrees.
+/// By how much an upright frame may turn about a yarn within one control interval, turns: 4
+/// degrees.
 ///
-/// Woven threads that keep to their planes turn by nothing, and those that a settled cloth pushes aside by up to a degree; the loops of
-/// knits turn by 10 degrees and more. Two rings are at most an interval apart, so the tube between them is never narrower than
-/// cos 2° of its radius.
+/// Woven threads that keep to their planes turn by nothing, and those that a settled cloth pushes
+/// aside by up to a degree; the loops of knits turn by 10 degrees and more. Two rings are at most
+/// an interval apart, so the tube between them is never narrower than cos 2° of its radius.
 pub const UPRIGHT_TURN: f32 = 4.0 / 360.0;
 
-/// Places within an interval between which the turn is added up. With 4 a hairpin through the vertical was taken for half as much.
+/// Places within an interval between which the turn is added up. With 4 a hairpin through the
+/// vertical was taken for half as much.
 const PLACES: u32 = 16;
 
-/// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly the turn of all of it.
+/// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly the
+/// turn of all of it.
 const S: f32 = 0.5;
 
-/// Whether the upright frame of a yarn turns about it by more than `most`, in turns, within an interval of `points`, against a frame that is
-/// carried along.
+/// Whether the upright frame of a yarn turns about it by more than `most`, in turns, within an
+/// interval of `points`, against a frame that is carried along.
 pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: f32) -> bool {
     intervals(points, closed).any(|interval| {
         let window = window(points, closed, interval);
@@ -34,8 +37,9 @@ pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: 
 
 /// Whether the frame that stands by the up directions `ups` of a yarn's points would wring it.
 ///
-/// That of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a flattened one turns with its ups in any case, and
-/// its section goes along, so that its shape stays; but not where they turn over.
+/// That of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a flattened
+/// one turns with its ups in any case, and its section goes along, so that its shape stays; but not
+/// where they turn over.
 pub(crate) fn wrings(points: &[ControlPoint], closed: bool, ups: &[Vec3]) -> bool {
     let flat = is_flat(points);
     intervals(points, closed).any(|interval| {
@@ -56,11 +60,13 @@ pub(crate) fn is_flat(points: &[ControlPoint]) -> bool {
     points.iter().any(|point| !point.is_round())
 }
 
-/// Whether the yarn's direction in plan swings so little that no interval can turn by more than [`UPRIGHT_TURN`], however steep it is. Woven
-/// threads are told by this alone, in some thirty instructions a control point instead of 450.
+/// Whether the yarn's direction in plan swings so little that no interval can turn by more than
+/// [`UPRIGHT_TURN`], however steep it is. Woven threads are told by this alone, in some thirty
+/// instructions a control point instead of 450.
 ///
-/// It is the bound of [`turn_at_most`], with the tangent of the swing for the angle and 1 for the sine of the slope. In plan the middle one of
-/// an interval's Bézier velocities goes three times along the chord, less the two at its ends. Of a yarn that keeps to a plane it may go back, as it
+/// It is the bound of [`turn_at_most`], with the tangent of the swing for the angle and 1 for the
+/// sine of the slope. In plan the middle one of an interval's Bézier velocities goes three times
+/// along the chord, less the two at its ends. Of a yarn that keeps to a plane it may go back, as it
 /// does beside a chord that is much longer, as long as the velocity itself does not.
 pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
@@ -96,7 +102,8 @@ pub(crate) fn window(points: &[ControlPoint], closed: bool, interval: usize) -> 
     window
 }
 
-/// No less than the interval's turn, from its velocity's three Bézier points alone: infinite where they do not tell.
+/// No less than the interval's turn, from its velocity's three Bézier points alone: infinite where
+/// they do not tell.
 ///
 /// An upright frame turns by the sine of the yarn's slope for each turn of its direction in plan.
 fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
@@ -116,7 +123,8 @@ fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     4.0 * swing / TAU * highest / (highest * highest + least * least).sqrt()
 }
 
-/// The turns between places along the interval of a frame that stands so far, in turns, off the upright one, added up without regard to sign.
+/// The turns between places along the interval of a frame that stands so far, in turns, off the
+/// upright one, added up without regard to sign.
 fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     let mut here = lean(0.0);
     let steps = carried_steps(window).enumerate().map(|(place, step)| {
@@ -128,7 +136,8 @@ fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     steps.sum()
 }
 
-/// By how much a frame that is carried along turns against the upright one, from place to place along the interval.
+/// By how much a frame that is carried along turns against the upright one, from place to place
+/// along the interval.
 pub(crate) fn carried_steps(window: &[ControlPoint; 4]) -> impl Iterator<Item = Turn> {
     let segment = Segment::new(window, S);
     let mut here = segment.sample(0.0);
@@ -145,7 +154,8 @@ pub(crate) fn carried_steps(window: &[ControlPoint; 4]) -> impl Iterator<Item = 
 mod tests {
     use super::*;
 
-    /// What is told from chords alone is what the turns themselves say, on either side of the limit.
+    /// What is told from chords alone is what the turns themselves say, on either side of the
+    /// limit.
     #[test]
     fn no_yarn_that_runs_straight_is_steep() {
         let mut seed = 1_u32;

@@ -2,7 +2,8 @@
 
 use crate::{BackendError, BoundaryError, CrossingsError, Origin, SettlingError, YarnError};
 
-/// What of a cloth an error is about, in the words of whoever designed it. Numbers are counted from 1.
+/// What of a cloth an error is about, in the words of whoever designed it. Numbers are counted from
+/// 1.
 ///
 /// ```
 /// use texere_core::SettlingError;
@@ -81,7 +82,8 @@ pub enum Subject {
 // None of these has an arm for all others, so that whoever adds an error says what it is about.
 
 impl SettlingError {
-    /// What of the cloth it is about. None of memory, of settings that no design has, and of calls that don't fit the yarns.
+    /// What of the cloth it is about. None of memory, of settings that no design has, and of calls
+    /// that don't fit the yarns.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {
@@ -102,7 +104,8 @@ impl SettlingError {
 }
 
 impl CrossingsError {
-    /// What of the cloth it is about. None of memory, of settings that no design has, and of calls that don't fit the threads.
+    /// What of the cloth it is about. None of memory, of settings that no design has, and of calls
+    /// that don't fit the threads.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {

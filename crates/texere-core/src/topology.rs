@@ -15,17 +15,19 @@ pub enum Topology {
     /// Three `u32` indices a triangle, counted from the chunk's first vertex.
     #[default]
     Indexed,
-    /// One index pattern for all parts, drawn with a base vertex. Halves the bytes that have to be written.
+    /// One index pattern for all parts, drawn with a base vertex. Halves the bytes that have to be
+    /// written.
     Shared,
     /// No indices: for a caller who knows the pattern.
     None,
 }
 
-/// The most gaps between rings that the shared pattern covers; longer parts take several draws. With up to seven sides
-/// every index of it fits 16 bits.
+/// The most gaps between rings that the shared pattern covers; longer parts take several draws.
+/// With up to seven sides every index of it fits 16 bits.
 pub const SHARED_GAPS: u64 = 8192;
 
-/// The indices of the quads between a ring and the next, counted from the ring's first vertex: six for each side.
+/// The indices of the quads between a ring and the next, counted from the ring's first vertex: six
+/// for each side.
 ///
 /// ```
 /// let quad = &texere_core::definitions::index_pattern(6)[..6];

@@ -1,12 +1,14 @@
-//! Angles as fractions of a full turn, and the one sine, cosine and arctangent that every path uses.
+//! Angles as fractions of a full turn, and the one sine, cosine and arctangent that every path
+//! uses.
 //!
-//! A roll adds up over millions of rings. In `f32` radians it would lose digits as it grows, and a sum would depend
-//! on its order. As a `u32` fraction of a turn, addition wraps and is associative to the bit, so serial, parallel,
-//! chunked and GPU scans agree whatever their order.
+//! A roll adds up over millions of rings. In `f32` radians it would lose digits as it grows, and a
+//! sum would depend on its order. As a `u32` fraction of a turn, addition wraps and is associative
+//! to the bit, so serial, parallel, chunked and GPU scans agree whatever their order.
 //!
-//! The polynomials are those of Moshier's Cephes library (`sinf`, `cosf`, `atanf`, single precision, 1992), the
-//! arctangent's coefficients divided by 2π so that it answers in turns. They are written out here because a
-//! platform's own `sin` differs from the next platform's in the last bit.
+//! The polynomials are those of Moshier's Cephes library (`sinf`, `cosf`, `atanf`, single
+//! precision, 1992), the arctangent's coefficients divided by 2π so that it answers in turns. They
+//! are written out here because a platform's own `sin` differs from the next platform's in the last
+//! bit.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -50,7 +52,8 @@ impl Turn {
     #[must_use]
     #[inline]
     pub fn from_turns(turns: f32) -> Self {
-        // In [-1/2, 1/2]; the subtraction may round a hair below -1/2, which `max` takes back into range.
+        // In [-1/2, 1/2]; the subtraction may round a hair below -1/2, which `max` takes back into
+        // range.
         let wrapped = (turns - (turns + 0.5).floor()).max(-0.5);
         Self(((wrapped * Self::STEPS + 0.5).floor() as i32).cast_unsigned())
     }
@@ -72,7 +75,8 @@ impl Turn {
     #[must_use]
     #[inline]
     pub fn sin_cos(self) -> (f32, f32) {
-        // The nearest quarter turn, and what is left of it, at most an eighth either way: exact in integers.
+        // The nearest quarter turn, and what is left of it, at most an eighth either way: exact in
+        // integers.
         let quarter = self.0.wrapping_add(1 << 29) >> 30;
         let rest = self.0.wrapping_sub(quarter << 30).cast_signed();
         let x = rest as f32 * Self::RADIANS_PER_STEP;
@@ -85,7 +89,8 @@ impl Turn {
         (if quarter & 2 == 0 { sin } else { -sin }, if (quarter + 1) & 2 == 0 { cos } else { -cos })
     }
 
-    /// The turn scaled by `part / whole`, rounded to the nearest step: how a closed yarn spreads its whole turn.
+    /// The turn scaled by `part / whole`, rounded to the nearest step: how a closed yarn spreads
+    /// its whole turn.
     #[must_use]
     #[inline]
     pub fn share(self, part: u32, whole: u32) -> Self {
@@ -114,7 +119,8 @@ impl std::iter::Sum for Turn {
     }
 }
 
-/// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], within 3e-8 turns; 0 for (0, 0).
+/// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], within 3e-8
+/// turns; 0 for (0, 0).
 ///
 /// ```
 /// assert_eq!(texere_core::definitions::atan2_turns(1.0, 0.0), 0.25);

@@ -1,4 +1,5 @@
-//! How many rings twist needs: from the twist of yarns and how far apart their control points lie, before anything is made.
+//! How many rings twist needs: from the twist of yarns and how far apart their control points lie,
+//! before anything is made.
 
 use std::fmt;
 
@@ -9,26 +10,30 @@ use crate::backend::renew_virtual_ends;
 use crate::definitions::{SUBDIVISIONS_MAX, tangent_factor};
 use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 
-/// By how much twist turns a section from one ring to the next at most, radians, where it shows: 30 degrees.
+/// By how much twist turns a section from one ring to the next at most, radians, where it shows: 30
+/// degrees.
 ///
-/// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of what it is on them. At half a lobe's turn, 90 degrees of two
-/// plies, nobody can tell which way the plies lean; beyond that they lean the other way.
+/// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of what it is on them. At
+/// half a lobe's turn, 90 degrees of two plies, nobody can tell which way the plies lean; beyond
+/// that they lean the other way.
 pub const TWIST_STEP: f64 = std::f64::consts::FRAC_PI_6;
 
-/// The same of round yarns in a mesh, radians: 90 degrees. A circle looks the same however it is turned, so all that shows is that the tube
-/// gets narrower between rings, here to cos 45°, 0.71. It would be wrung, as `check` has it, from 120 degrees on.
+/// The same of round yarns in a mesh, radians: 90 degrees. A circle looks the same however it is
+/// turned, so all that shows is that the tube gets narrower between rings, here to cos 45°, 0.71.
+/// It would be wrung, as `check` has it, from 120 degrees on.
 const ROUND_STEP: f64 = std::f64::consts::FRAC_PI_2;
 
-/// The most subdivisions that twist alone leads to: 5.3 turns between two control points. A sewing thread of three plies with 1,200 turns a
-/// metre has that where its control points lie 4.4 mm apart, a woollen yarn of 300 turns a metre at 18 mm.
+/// The most subdivisions that twist alone leads to: 5.3 turns between two control points. A sewing
+/// thread of three plies with 1,200 turns a metre has that where its control points lie 4.4 mm
+/// apart, a woollen yarn of 300 turns a metre at 18 mm.
 pub const TWIST_SUBDIVISIONS_MAX: u32 = 63;
 
-/// The most rings that twist alone leads to in a whole fabric: of six sides 600 MB of mesh. Hostile twist would else make gigabytes of
-/// any cloth of a few hundred threads.
+/// The most rings that twist alone leads to in a whole fabric: of six sides 600 MB of mesh. Hostile
+/// twist would else make gigabytes of any cloth of a few hundred threads.
 const TWIST_RINGS_MAX: u64 = 1 << 21;
 
-/// A yarn whose twist the rings of a mesh are too far apart for, so that its plies lean the wrong way or its tube is wrung. Written out, it
-/// is a warning of one line.
+/// A yarn whose twist the rings of a mesh are too far apart for, so that its plies lean the wrong
+/// way or its tube is wrung. Written out, it is a warning of one line.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Pipeline, Section, Settings, Undersampled, Yarn, Yarns};
@@ -54,7 +59,8 @@ pub struct Undersampled {
     pub origin: Origin,
     /// By how much twist turns it from one ring to the next, radians.
     pub step: f64,
-    /// How much at most is drawn as it is, radians: [`TWIST_STEP`], and three times that for round yarns.
+    /// How much at most is drawn as it is, radians: [`TWIST_STEP`], and three times that for round
+    /// yarns.
     pub step_max: f64,
     /// The fewest subdivisions that do. There may be more than a mesh can have.
     pub needed: u64,
@@ -93,8 +99,9 @@ impl fmt::Display for Undersampled {
 }
 
 impl Settings {
-    /// The usual settings for a mesh of `yarns`: [`Settings::default`], but as many subdivisions as [their twist needs](Settings::following), and as
-    /// many sides as a polygon has [corners](crate::Layout::corners).
+    /// The usual settings for a mesh of `yarns`: [`Settings::default`], but as many subdivisions as
+    /// [their twist needs](Settings::following), and as many sides as a polygon has
+    /// [corners](crate::Layout::corners).
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
         Self::sided(yarns).following(yarns)
@@ -106,18 +113,20 @@ impl Settings {
         Self { sides: yarns.layout().corners().unwrap_or(usual.sides), ..usual }
     }
 
-    /// The same with so many subdivisions that rings follow the twist of all `yarns`: it turns none by more than [`TWIST_STEP`] from one ring
-    /// to the next, and no round yarn, of which twist hardly shows, by more than 90 degrees.
+    /// The same with so many subdivisions that rings follow the twist of all `yarns`: it turns none
+    /// by more than [`TWIST_STEP`] from one ring to the next, and no round yarn, of which twist
+    /// hardly shows, by more than 90 degrees.
     ///
-    /// There are never fewer than before, and never more than [`TWIST_SUBDIVISIONS_MAX`] or than make two million rings in all, unless there
-    /// were before. What is left then is told by [`Undersampled::of`].
+    /// There are never fewer than before, and never more than [`TWIST_SUBDIVISIONS_MAX`] or than
+    /// make two million rings in all, unless there were before. What is left then is told by
+    /// [`Undersampled::of`].
     #[must_use]
     pub fn following(self, yarns: &Yarns) -> Self {
         self.with_steps(yarns, Turning::most(yarns, step_of_outline))
     }
 
-    /// The same for pictures, which show fibres, and so the twist of round yarns too: no yarn is turned by more than [`TWIST_STEP`], within
-    /// the same bounds.
+    /// The same for pictures, which show fibres, and so the twist of round yarns too: no yarn is
+    /// turned by more than [`TWIST_STEP`], within the same bounds.
     #[must_use]
     pub fn following_fibres(self, yarns: &Yarns) -> Self {
         self.with_steps(yarns, Turning::most(yarns, |_| TWIST_STEP))
@@ -132,7 +141,8 @@ impl Settings {
     }
 }
 
-/// By how much a section may be turned from one ring to the next so that its outline is drawn as it is, radians.
+/// By how much a section may be turned from one ring to the next so that its outline is drawn as it
+/// is, radians.
 fn step_of_outline(section: &Section) -> f64 {
     if *section == Section::Circle { ROUND_STEP } else { TWIST_STEP }
 }
@@ -141,8 +151,8 @@ fn step_of_outline(section: &Section) -> f64 {
 #[derive(Debug, Clone, Copy)]
 struct Turning {
     yarn: usize,
-    /// Radians in the interval between two control points in which that is most, if its rings lay there as densely as where they lie furthest
-    /// apart.
+    /// Radians in the interval between two control points in which that is most, if its rings lay
+    /// there as densely as where they lie furthest apart.
     interval: f64,
     /// Radians that it may be from ring to ring.
     step_max: f64,
@@ -186,8 +196,9 @@ fn turn_of_interval(yarn: &Yarn, points: &[ControlPoint], tension: f32) -> f64 {
     f64::from(yarn.twist.abs()) * fastest + closing
 }
 
-/// No less than the spline's greatest speed between the middle two of four points, mm an interval, and no more than rings that lie evenly in
-/// it need by much: a cubic's velocity lies in the hull of its three Bézier points, here of those of either half.
+/// No less than the spline's greatest speed between the middle two of four points, mm an interval,
+/// and no more than rings that lie evenly in it need by much: a cubic's velocity lies in the hull
+/// of its three Bézier points, here of those of either half.
 fn fastest(window: &[ControlPoint], s: f64) -> f64 {
     let at = |point: usize| window[point].position().as_dvec3();
     let (span, first, last) = (at(2) - at(1), (at(2) - at(0)) * s, (at(3) - at(1)) * s);

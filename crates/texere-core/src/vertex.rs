@@ -4,7 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 /// A vertex of a tube.
 ///
-/// **Shape**: six `f32`, 24 bytes. **Units**: mm; the normal is a unit vector that points out of the yarn.
+/// **Shape**: six `f32`, 24 bytes. **Units**: mm; the normal is a unit vector that points out of
+/// the yarn.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Vertex {

@@ -28,7 +28,8 @@ pub enum Origin {
     End(u32),
     /// A weft yarn: the pick's number from the first one woven.
     Pick(u32),
-    /// A weft-knitted yarn: the first course that it knits, counted in the repeat, so that copies of a course share a number.
+    /// A weft-knitted yarn: the first course that it knits, counted in the repeat, so that copies
+    /// of a course share a number.
     Course(u32),
     /// A weft-knitted yarn: its carrier.
     Carrier(u32),
@@ -76,7 +77,8 @@ impl Yarn {
     }
 }
 
-/// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest sewing thread.
+/// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest
+/// sewing thread.
 pub const TWIST_LIMIT: f32 = 1e3;
 
 /// Everything about the yarns that decides counts and offsets, and how their splines run between
@@ -98,9 +100,9 @@ impl Layout {
     /// A layout of `yarns`, `offsets` (where each yarn's control points start, and their total
     /// last) and `sections`. The [tension](Layout::tension) of their splines is 0.
     ///
-    /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer than two control
-    /// points (three when closed), an unknown section, a twist that is not finite or beyond [`TWIST_LIMIT`], a section
-    /// with invalid parameters.
+    /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer
+    /// than two control points (three when closed), an unknown section, a twist that is not finite
+    /// or beyond [`TWIST_LIMIT`], a section with invalid parameters.
     pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
         if yarns.is_empty() {
             return Err(YarnError::NoYarns);
@@ -180,7 +182,8 @@ impl Layout {
         };
     }
 
-    /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1 values.
+    /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1
+    /// values.
     #[must_use]
     pub fn offsets(&self) -> &[u64] {
         &self.offsets
@@ -197,8 +200,8 @@ impl Layout {
         yarns_before(points.start + 1) - 1..yarns_before(end)
     }
 
-    /// Where a range of control points meets one of [its yarns](Layout::yarns_of): counted from the yarn's first point, and
-    /// from the range's first.
+    /// Where a range of control points meets one of [its yarns](Layout::yarns_of): counted from the
+    /// yarn's first point, and from the range's first.
     ///
     /// **Panics** past the last yarn, and for a yarn that the range does not touch.
     #[must_use]
@@ -220,7 +223,8 @@ impl Layout {
         &self.sections
     }
 
-    /// How many corners the first polygon among the sections has, if any is one: tubes of a polygon have as many [sides](crate::Settings::sides).
+    /// How many corners the first polygon among the sections has, if any is one: tubes of a polygon
+    /// have as many [sides](crate::Settings::sides).
     #[must_use]
     pub fn corners(&self) -> Option<u32> {
         self.sections.iter().find_map(|section| match section {
@@ -229,9 +233,11 @@ impl Layout {
         })
     }
 
-    /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more than [`UPRIGHT_TURN`](crate::definitions::UPRIGHT_TURN)
-    /// within a control interval. [`Yarns::new`] finds it out; a layout without control points has no steep yarns. A flattened yarn gets
-    /// [ups](Layout::ups) instead, and is steep only where ups turn over from one control point to the next.
+    /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more
+    /// than [`UPRIGHT_TURN`](crate::definitions::UPRIGHT_TURN) within a control interval.
+    /// [`Yarns::new`] finds it out; a layout without control points has no steep yarns. A flattened
+    /// yarn gets [ups](Layout::ups) instead, and is steep only where ups turn over from one control
+    /// point to the next.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -245,10 +251,11 @@ impl Layout {
         !self.leaning.is_empty()
     }
 
-    /// The up directions that the control points of `yarn` stand by, of length 1: [their own](Yarns::with_ups), or those that a flattened yarn gets
-    /// whose upright frame would turn about it by more than 15 degrees within a control interval. These hold to the upright frame where that turns
-    /// slowly, and are carried along near the vertical. None of a yarn that stands upright, or that is round and has no own ones, and past
-    /// the last yarn.
+    /// The up directions that the control points of `yarn` stand by, of length 1: [their
+    /// own](Yarns::with_ups), or those that a flattened yarn gets whose upright frame would turn
+    /// about it by more than 15 degrees within a control interval. These hold to the upright frame
+    /// where that turns slowly, and are carried along near the vertical. None of a yarn that stands
+    /// upright, or that is round and has no own ones, and past the last yarn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -312,10 +319,13 @@ impl Yarns {
         YarnsBuilder::default()
     }
 
-    /// Yarns of a layout, its materials and its control points (as many as the layout says, yarn after yarn).
+    /// Yarns of a layout, its materials and its control points (as many as the layout says, yarn
+    /// after yarn).
     ///
-    /// **Errors**: [`YarnError`] for a wrong number of points or materials, a hairiness outside \[0, [`HAIRINESS_LIMIT`]\], and for the first control point that is not
-    /// finite, lies beyond [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
+    /// **Errors**: [`YarnError`] for a wrong number of points or materials, a hairiness outside
+    /// \[0, [`HAIRINESS_LIMIT`]\], and for the first control point that is not finite, lies beyond
+    /// [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`],
+    /// [`RADIUS_MAX`]\].
     pub fn new(
         mut layout: Layout,
         materials: Vec<Material>,
@@ -338,9 +348,11 @@ impl Yarns {
         Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, ups: None, sources: None })
     }
 
-    /// Adds where each control point comes from (a crossing, a stitch, a source line): one `u32` per control point.
+    /// Adds where each control point comes from (a crossing, a stitch, a source line): one `u32`
+    /// per control point.
     ///
-    /// **Errors**: [`YarnError::SourceCount`] when their number differs from that of the control points.
+    /// **Errors**: [`YarnError::SourceCount`] when their number differs from that of the control
+    /// points.
     pub fn with_sources(mut self, sources: Vec<u32>) -> Result<Self, YarnError> {
         if sources.len() != self.points.len() {
             return Err(YarnError::SourceCount { sources: sources.len(), points: self.points.len() });
@@ -374,8 +386,9 @@ impl Yarns {
         Ok(self)
     }
 
-    /// Gives each control point an up direction: where the yarn's height points there, instead of along z. A cloth that was bent out of its plane
-    /// has them along its surface's normals, as [`Yarns::mapped`] gives them. What of it lies along the yarn does not count. Between two
+    /// Gives each control point an up direction: where the yarn's height points there, instead of
+    /// along z. A cloth that was bent out of its plane has them along its surface's normals, as
+    /// [`Yarns::mapped`] gives them. What of it lies along the yarn does not count. Between two
     /// points they go over into one another ([`up_between`](crate::definitions::up_between)).
     ///
     /// ```
@@ -389,19 +402,22 @@ impl Yarns {
     /// # Ok::<(), texere_core::YarnError>(())
     /// ```
     ///
-    /// **Errors**: [`YarnError::UpCount`] for another number than that of the control points, [`YarnError::Up`] for one that has no direction.
+    /// **Errors**: [`YarnError::UpCount`] for another number than that of the control points,
+    /// [`YarnError::Up`] for one that has no direction.
     pub fn with_ups(mut self, ups: Vec<[f32; 3]>) -> Result<Self, YarnError> {
         if ups.len() != self.points.len() {
             return Err(YarnError::UpCount { ups: ups.len(), points: self.points.len() });
         }
         let unit = |(point, up): (usize, &[f32; 3])| {
             let up = Vec3::from_array(*up);
-            // One of length 1 but for rounding stays as it is, so that ups which were read are the same to the bit when they are given again.
+            // One of length 1 but for rounding stays as it is, so that ups which were read are the
+            // same to the bit when they are given again.
             let unit = |up: Vec3| {
                 let is_unit = (up.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
                 if is_unit { Some(up) } else { up.try_normalize() }
             };
-            // Once more, for the square of a very short one has few digits, and so its length is only about 1 at first.
+            // Once more, for the square of a very short one has few digits, and so its length is
+            // only about 1 at first.
             unit(up).and_then(unit).ok_or_else(|| {
                 let yarn = self.layout.offsets.partition_point(|&start| start <= point as u64) - 1;
                 YarnError::Up { yarn, point: point - self.layout.offsets[yarn] as usize, up: up.to_array() }
@@ -422,7 +438,8 @@ impl Yarns {
         Ok(self)
     }
 
-    /// The up direction of each control point, of length 1, where they have [their own](Yarns::with_ups).
+    /// The up direction of each control point, of length 1, where they have [their
+    /// own](Yarns::with_ups).
     #[must_use]
     pub fn ups(&self) -> Option<&[Vec3]> {
         self.ups.as_deref()
@@ -473,8 +490,8 @@ impl Yarns {
 
     /// Moves one yarn: replaces its control points by as many others.
     ///
-    /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or an invalid point; the yarns are then as
-    /// they were.
+    /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or an invalid
+    /// point; the yarns are then as they were.
     pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
         let range =
             self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: self.layout.yarns.len() })?;
@@ -493,7 +510,8 @@ impl Yarns {
 
     /// Replaces the materials: a change of colour that leaves all geometry as it is.
     ///
-    /// **Errors**: [`YarnError::UnknownMaterial`] when a yarn refers to one that is missing, [`YarnError::Hairiness`].
+    /// **Errors**: [`YarnError::UnknownMaterial`] when a yarn refers to one that is missing,
+    /// [`YarnError::Hairiness`].
     pub fn set_materials(&mut self, materials: Vec<Material>) -> Result<(), YarnError> {
         check_materials(&self.layout, &materials)?;
         self.materials = materials.into();
@@ -626,7 +644,8 @@ impl YarnsBuilder {
         self
     }
 
-    /// Checks everything and gives the yarns. Where no section was added there is the circle, where no material undyed yarn.
+    /// Checks everything and gives the yarns. Where no section was added there is the circle, where
+    /// no material undyed yarn.
     ///
     /// **Errors**: those of [`Layout::new`], [`Layout::with_tension`] and [`Yarns::new`].
     pub fn build(mut self) -> Result<Yarns, YarnError> {

@@ -9,7 +9,8 @@ use texere_core::{ArcLength, Attribute};
 use crate::engine::Work;
 use crate::rolls::block_number;
 
-/// How long `yarn` is from the first ring of its block number `block` to that of the next one, or to its last ring.
+/// How long `yarn` is from the first ring of its block number `block` to that of the next one, or
+/// to its last ring.
 pub(crate) fn block_length(plan: &Plan, points: &PaddedPoints, yarn: usize, block: u32) -> ArcLength {
     let (padded, first) = (points.yarn(plan, yarn), block * BLOCK_RINGS);
     let end = (first + BLOCK_RINGS).min(plan.rings(yarn) - 1);

@@ -59,8 +59,9 @@ impl SerialBackend {
 }
 
 impl ParallelBackend {
-    /// Opens the parallel backend, which works on rayon's global pool, with the vectors that the environment variable
-    /// `TEXERE_SIMD` names (`portable`, `avx2` or `avx512`) or, without it, the widest ones that the processor has.
+    /// Opens the parallel backend, which works on rayon's global pool, with the vectors that the
+    /// environment variable `TEXERE_SIMD` names (`portable`, `avx2` or `avx512`) or, without it,
+    /// the widest ones that the processor has.
     ///
     /// ```
     /// use texere_core::Backend;
@@ -69,13 +70,15 @@ impl ParallelBackend {
     /// # Ok::<(), texere_core::BackendError>(())
     /// ```
     ///
-    /// **Errors**: [`BackendError::NoInstructionSet`] where `TEXERE_SIMD` names no vectors of this processor.
+    /// **Errors**: [`BackendError::NoInstructionSet`] where `TEXERE_SIMD` names no vectors of this
+    /// processor.
     pub fn open() -> Result<Self, BackendError> {
         Ok(Self::with("cpu", Parallel::new()?))
     }
 
-    /// Opens it once for each kind of vectors that the processor has, the widest ones last, whatever `TEXERE_SIMD` says: for
-    /// tests that all kinds give the same. Each one's name says which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
+    /// Opens it once for each kind of vectors that the processor has, the widest ones last,
+    /// whatever `TEXERE_SIMD` says: for tests that all kinds give the same. Each one's name says
+    /// which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
     ///
     /// ```
     /// use texere_core::Backend;

@@ -5,7 +5,8 @@ use texere_core::{Cap, End, Topology, Vertex};
 
 use crate::engine::Work;
 
-/// Writes the caps of `chunk` once its tube vertices stand: the end ring's positions again, with the end's own normal.
+/// Writes the caps of `chunk` once its tube vertices stand: the end ring's positions again, with
+/// the end's own normal.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
     let plan = &work.plan;
     let sides = plan.settings().sides as usize;

@@ -43,7 +43,8 @@ impl Extent {
     }
 }
 
-/// Cells over x and y, numbered row by row. A chord's neighbours lie in its own cell or one beside it.
+/// Cells over x and y, numbered row by row. A chord's neighbours lie in its own cell or one beside
+/// it.
 #[derive(Debug)]
 pub(crate) struct Grid {
     /// Where it begins, units; 0 along an axis that repeats.
@@ -56,8 +57,8 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Of cells that are as large as `growth` asks, and no more of them than there are chords: a cloth may lie scattered over a
-    /// large field.
+    /// Of cells that are as large as `growth` asks, and no more of them than there are chords: a
+    /// cloth may lie scattered over a large field.
     pub(crate) fn new(plan: &SettlingPlan, growth: f32, extent: &Extent) -> Self {
         let most = (plan.counts().chords as i64).max(64);
         let mut size =
@@ -98,7 +99,8 @@ impl Grid {
         cell[1] * self.count[0] + cell[0]
     }
 
-    /// The cells beside one and itself, none of them twice: ranges of their numbers, some of them empty.
+    /// The cells beside one and itself, none of them twice: ranges of their numbers, some of them
+    /// empty.
     #[inline]
     pub(crate) fn beside(&self, cell: u32) -> [Range<u32>; 6] {
         let [width, height] = self.count;

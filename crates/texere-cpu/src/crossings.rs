@@ -37,7 +37,8 @@ impl CrossingsMemory {
     }
 }
 
-/// Crossing `number` makes its step of a pass, where all were `found`, and goes on to where the `next` pass finds it.
+/// Crossing `number` makes its step of a pass, where all were `found`, and goes on to where the
+/// `next` pass finds it.
 pub(crate) fn step(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,

@@ -6,7 +6,8 @@ use texere_core::backend::Chunk;
 use crate::caps::end_normal;
 use crate::engine::Work;
 
-/// Makes those of caps once those of tubes stand: the end ring's positions again, with the end's own normal.
+/// Makes those of caps once those of tubes stand: the end ring's positions again, with the end's
+/// own normal.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: &mut [PackedVertex]) {
     let sides = work.plan.settings().sides as usize;
     for cap in chunk.caps() {

@@ -6,10 +6,11 @@ use texere_core::definitions::Turn;
 /// The result of a scan.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rolls {
-    /// The roll at each block's first ring, before a closed yarn's whole turn is spread. Empty where no yarn turns.
+    /// The roll at each block's first ring, before a closed yarn's whole turn is spread. Empty
+    /// where no yarn turns.
     pub(crate) at_block: Vec<Turn>,
-    /// The steps from a block's first ring to each ring, added up, yarn after yarn. Empty where no yarn turns, and where the
-    /// stages add them up again.
+    /// The steps from a block's first ring to each ring, added up, yarn after yarn. Empty where no
+    /// yarn turns, and where the stages add them up again.
     pub(crate) in_block: Vec<Turn>,
     /// The whole turn of each yarn. Empty where no yarn turns.
     pub(crate) whole: Vec<Turn>,
@@ -21,8 +22,8 @@ impl Rolls {
         self.at_block.get(block as usize).copied().unwrap_or(Turn::ZERO)
     }
 
-    /// The roll of ring `ring` of `yarn` whose steps so far add up to `sum`: a closed yarn gives back its share of the
-    /// whole turn, so that its last ring meets its first.
+    /// The roll of ring `ring` of `yarn` whose steps so far add up to `sum`: a closed yarn gives
+    /// back its share of the whole turn, so that its last ring meets its first.
     pub(crate) fn closed_up(&self, plan: &Plan, yarn: usize, ring: u32, sum: Turn) -> Turn {
         if !plan.yarn(yarn).closed {
             return sum;

@@ -1,4 +1,5 @@
-//! Yarns that flatten, in lanes: the same bits as the reference, whatever instructions the processor has.
+//! Yarns that flatten, in lanes: the same bits as the reference, whatever instructions the
+//! processor has.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use texere_core::definitions::Ring;
@@ -130,7 +131,8 @@ fn flattened_yarns_have_the_bits_of_the_reference() {
 
 #[test]
 fn a_yarn_may_flatten_right_after_a_run_of_rings_ends() {
-    // A run has 2,048 rings: with one inserted, the last lies half-way from point 1,023 on, and depends on point 1,025.
+    // A run has 2,048 rings: with one inserted, the last lies half-way from point 1,023 on, and
+    // depends on point 1,025.
     for last_round in 1020..1028 {
         let points = (0..1100u16).map(|k| {
             let point = ControlPoint::new(k.into(), 0.0, 0.0, 0.25);

@@ -1,4 +1,5 @@
-//! Yarns in planes of constant x or y, for which the scan has a short way: the same bits as the reference.
+//! Yarns in planes of constant x or y, for which the scan has a short way: the same bits as the
+//! reference.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -15,8 +16,9 @@ impl Dice {
     }
 }
 
-/// A yarn of `count` points in the plane, on a coarse grid: it goes straight on for a while, and here and there it turns back,
-/// climbs straight up or stays where it is. Where `bulges`, it leaves the plane once.
+/// A yarn of `count` points in the plane, on a coarse grid: it goes straight on for a while, and
+/// here and there it turns back, climbs straight up or stays where it is. Where `bulges`, it leaves
+/// the plane once.
 fn walk(dice: &mut Dice, count: usize, swapped: bool, bulges: bool) -> Vec<ControlPoint> {
     let (mut along, mut z) = (0.0, 0.0);
     let mut forward = 1.0;
@@ -39,8 +41,9 @@ fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn Backend) -> Mesh {
 
 #[test]
 fn the_last_ring_of_a_closed_yarn_stands_still_where_what_follows_is_far_away() {
-    // All goes on along y from ring 64, where a block starts, to the last ring, which is ring 0 again. But the point after the
-    // next one is so far out that by its measure the first ring, and the last, have no velocity.
+    // All goes on along y from ring 64, where a block starts, to the last ring, which is ring 0
+    // again. But the point after the next one is so far out that by its measure the first ring, and
+    // the last, have no velocity.
     let mut points: Vec<_> = (0..80).map(|k| [0.0, 0.001 * (k as f32 - 80.0), 0.0]).collect();
     (points[0], points[1], points[2]) = ([0.0; 3], [0.0, 0.001, 0.0], [2000.0, 0.0, 2000.0]);
     for (k, point) in points.iter_mut().enumerate().take(63).skip(3) {

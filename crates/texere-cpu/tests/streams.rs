@@ -1,4 +1,5 @@
-//! Outputs too large for the caches go past them, in whole lines: the same bits, wherever they start in a line.
+//! Outputs too large for the caches go past them, in whole lines: the same bits, wherever they
+//! start in a line.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::sync::Arc;
@@ -7,7 +8,8 @@ use texere_core::backend::{MeshMut, Plan, Session};
 use texere_core::{Backend, ControlPoint, Frame, Limits, Pipeline, Settings, Topology, Vertex, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Two short coils, a long one, one with a growing radius and a closed one: 60,000 rings with one point inserted.
+/// Two short coils, a long one, one with a growing radius and a closed one: 60,000 rings with one
+/// point inserted.
 fn yarns() -> Yarns {
     let coil = |count: usize, growth: f32| -> Vec<_> {
         let point = |k: usize| {
@@ -26,7 +28,8 @@ fn yarns() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Vertices and indices written from place `skew` of larger buffers on, which must stay as they were elsewhere.
+/// Vertices and indices written from place `skew` of larger buffers on, which must stay as they
+/// were elsewhere.
 fn mesh(device: &ParallelBackend, yarns: &Yarns, settings: Settings, skew: usize) -> (Vec<u32>, Vec<u32>) {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
     let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();

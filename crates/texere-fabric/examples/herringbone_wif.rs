@@ -17,8 +17,9 @@ const STRIPE: usize = 16;
 /// The warp's colours, stripe by stripe: charcoal 1, grey 2, rust 3.
 const COLOURS: [usize; 6] = [1, 1, 1, 3, 2, 2];
 
-/// A 2/2 twill that reverses every [`STRIPE`] ends. At each reversal the end that follows is on the shaft that is down
-/// when the one before is up: the clean cut that tells a herringbone from a point twill, whose floats grow longer there.
+/// A 2/2 twill that reverses every [`STRIPE`] ends. At each reversal the end that follows is on the
+/// shaft that is down when the one before is up: the clean cut that tells a herringbone from a
+/// point twill, whose floats grow longer there.
 pub(crate) fn draft() -> Draft {
     let forth = [1, 2, 3, 4];
     let back = [2, 1, 4, 3];
@@ -71,7 +72,8 @@ pub(crate) fn wif() -> Result<String, std::fmt::Error> {
     wif += "\n[COLOR PALETTE]\nEntries=4\nRange=0,255\n";
     wif += "\n[COLOR TABLE]\n1=58,61,66\n2=151,153,150\n3=168,76,43\n4=232,226,212\n";
     wif += "\n[WEAVING]\nShafts=4\nTreadles=4\nRising Shed=true\n";
-    // 1 mm from thread to thread and 0.45 mm thick: room enough for the threads that cross to pass between.
+    // 1 mm from thread to thread and 0.45 mm thick: room enough for the threads that cross to pass
+    // between.
     for (set, colour) in [("WARP", 1), ("WEFT", 4)] {
         writeln!(wif, "\n[{set}]\nThreads={THREADS}\nColor={colour}\nUnits=Centimeters")?;
         writeln!(wif, "Spacing=0.1\nThickness=0.045")?;

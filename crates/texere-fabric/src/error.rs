@@ -9,7 +9,8 @@ use crate::weft::WeftError;
 use crate::woven::WovenError;
 use crate::yarn_check::ThreadError;
 
-/// A structure that can't be taken, or whose yarns can't be made or measured. What only one kind of structure can have wrong is that kind's.
+/// A structure that can't be taken, or whose yarns can't be made or measured. What only one kind of
+/// structure can have wrong is that kind's.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FabricError {

@@ -12,13 +12,15 @@ use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
 use crate::{FabricError, Thread, Woven, tex_from_cotton_count};
 
-/// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a cubic, whose turning
-/// points are met to 1/64 of an interval, and its height to the square of that.
+/// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a
+/// cubic, whose turning points are met to 1/64 of an interval, and its height to the square of
+/// that.
 const SAMPLES: u32 = 32;
 
 /// A cotton yarn of count Ne 1 is 1/28 inch thick.
 ///
-/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
+/// 1937.
 const PEIRCE: f64 = 28.0;
 
 /// What is known of a cloth once its yarns are laid.
@@ -38,10 +40,12 @@ const PEIRCE: f64 = 28.0;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measures {
-    /// Length of yarn of each material, mm, in the materials' order. Ends that hang out of a knit do not count.
+    /// Length of yarn of each material, mm, in the materials' order. Ends that hang out of a knit
+    /// do not count.
     pub length_mm: Vec<f64>,
-    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1, in whole repeats. Turns at a selvedge count as
-    /// weft; of a cloth whose weft turns it is what the mill has to wind, not the wave of a pick alone.
+    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1, in whole
+    /// repeats. Turns at a selvedge count as weft; of a cloth whose weft turns it is what the mill
+    /// has to wind, not the wave of a pick alone.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define it so.
     ///
@@ -51,9 +55,11 @@ pub struct Measures {
     pub cover: Option<Cover>,
     /// What only knits have.
     pub knit: Option<KnitMeasures>,
-    /// Weight, g/m², where every material that is used has a tex: length × tex over the cloth's area.
+    /// Weight, g/m², where every material that is used has a tex: length × tex over the cloth's
+    /// area.
     pub areal_weight: Option<f64>,
-    /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the highest.
+    /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the
+    /// highest.
     pub thickness_mm: f64,
 }
 
@@ -70,29 +76,32 @@ pub struct KnitMeasures {
     pub stitch_density: f64,
     /// √tex over the loop length in cm, where every yarn that is used has a tex and it is the same.
     ///
-    /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11 to 17, 14 to 15 as a rule.
+    /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11
+    /// to 17, 14 to 15 as a rule.
     pub tightness: Option<f64>,
 }
 
 /// How much of the cloth its threads cover, seen from the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
-    /// Peirce's cover factors of the warp and the weft: threads to the inch over √Ne, that is 28 times the share of
-    /// width that round cotton yarns of the threads' weight take. It needs the tex of every material that is used.
+    /// Peirce's cover factors of the warp and the weft: threads to the inch over √Ne, that is 28
+    /// times the share of width that round cotton yarns of the threads' weight take. It needs the
+    /// tex of every material that is used.
     ///
     /// **Source**: Peirce 1937 (K = n/√N; at 28 cotton threads lie side by side).
     pub factor: Option<[f64; 2]>,
     /// Peirce's K₁ + K₂ - K₁ K₂ / 28.
     pub cloth_factor: Option<f64>,
-    /// Share of the width that ends take, of the length that picks take: widths of sections over spacings; 1 at most.
+    /// Share of the width that ends take, of the length that picks take: widths of sections over
+    /// spacings; 1 at most.
     pub fraction: [f64; 2],
     /// Share of the area that either covers: c₁ + c₂ - c₁ c₂.
     pub cloth: f64,
 }
 
 impl Measures {
-    /// What is measured of a knit of so many loops, so many wales and courses, and so many mm of width and height. `own` is what of each
-    /// yarn is the cloth's.
+    /// What is measured of a knit of so many loops, so many wales and courses, and so many mm of
+    /// width and height. `own` is what of each yarn is the cloth's.
     pub(crate) fn of_knit(
         yarns: &Yarns,
         own: impl Fn(usize) -> Own + Sync,
@@ -126,7 +135,8 @@ impl Measures {
     /// What depends on tex is measured in repeats of the weave and of the yarns' tex, or in the
     /// whole cloth where that is no longer.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
+    /// the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         let ratios = Sample::new(cloth, yarns)?.ratios();
@@ -163,20 +173,23 @@ impl Measures {
 impl Cover {
     /// The cover of `cloth` by `yarns`, from their mean widths and its threads' spacings.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
+    /// the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         Ok(Self::of(cloth, yarns, cloth.whole(), cloth.whole_by_weight()))
     }
 
-    /// The cover, measured in so many threads of either set as [`Woven::whole`] and [`Woven::whole_by_weight`] say.
+    /// The cover, measured in so many threads of either set as [`Woven::whole`] and
+    /// [`Woven::whole_by_weight`] say.
     fn of(cloth: &Woven, yarns: &Yarns, whole: [(usize, f64); 2], by_weight: [(usize, f64); 2]) -> Self {
         let sets = [(cloth.warp(), whole[0]), (cloth.weft(), whole[1])]
             .map(|(set, (count, mm))| (&set[..count], mm));
         let turns = |threads: &[Thread], section: usize| {
             threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
         };
-        // Level, and in the mean of all directions: a twisted thread shows one side after the other.
+        // Level, and in the mean of all directions: a twisted thread shows one side after the
+        // other.
         let widths: Vec<[f32; 2]> = (0..)
             .zip(cloth.sections())
             .map(|(number, section)| {
@@ -251,8 +264,9 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
     used.map(|(length, material)| Some(length * 1e-6 * f64::from(material.tex?))).sum()
 }
 
-/// From the lowest point of the yarns' surfaces to the highest, mm: centrelines and, above and below, half the height of
-/// the upright sections, or of twisted ones, which turn through every direction, the furthest that they reach.
+/// From the lowest point of the yarns' surfaces to the highest, mm: centrelines and, above and
+/// below, half the height of the upright sections, or of twisted ones, which turn through every
+/// direction, the furthest that they reach.
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns) -> f64 {
     thickness_within(yarns, |_| 0..usize::MAX)
@@ -273,7 +287,8 @@ fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -
         let own = own(yarn);
         for first in own.start..own.end.min(intervals) {
             let four = neighbours(points, what.closed, first);
-            // Nothing lies beyond the Bézier polygon: most intervals can't be the lowest or the highest.
+            // Nothing lies beyond the Bézier polygon: most intervals can't be the lowest or the
+            // highest.
             let heights = bezier(&four.map(|point| point.z), s);
             let thickest = bezier(&four.map(|point| point.half_height()), s).into_iter().fold(0.0, f32::max);
             let lowest = heights.into_iter().fold(f32::INFINITY, f32::min) - thickest * below;

@@ -5,12 +5,14 @@ use std::ops::Range;
 use texere_contact::{part_length_mm, round_length_mm};
 use texere_core::{ControlPoint, Yarns};
 
-/// What of a yarn is the cloth's: what lies beyond is cut off where a sample ends, and another sample would have it elsewhere.
+/// What of a yarn is the cloth's: what lies beyond is cut off where a sample ends, and another
+/// sample would have it elsewhere.
 #[derive(Debug, Clone)]
 pub(crate) struct Own {
     /// The control points.
     pub(crate) points: Range<usize>,
-    /// How far its next round lies from this one, mm, where it goes on for ever; the last point leads to that one's first.
+    /// How far its next round lies from this one, mm, where it goes on for ever; the last point
+    /// leads to that one's first.
     pub(crate) onward: Option<[f64; 2]>,
 }
 

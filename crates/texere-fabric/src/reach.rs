@@ -17,7 +17,8 @@ pub(crate) struct Reach {
     pub(crate) heights: [f32; 2],
     /// In the furthest of all directions: twist turns it to every side.
     pub(crate) furthest: f32,
-    /// By how much the ellipse of this width and height has to grow to hold the section: 1 but for boxy ones.
+    /// By how much the ellipse of this width and height has to grow to hold the section: 1 but for
+    /// boxy ones.
     boxiness: f32,
 }
 
@@ -38,8 +39,8 @@ impl Reach {
         }
     }
 
-    /// Half width and half height of the ellipse, or of the circle that a twisted section turns in, that threads which cross
-    /// make room for.
+    /// Half width and half height of the ellipse, or of the circle that a twisted section turns in,
+    /// that threads which cross make room for.
     pub(crate) fn room(&self, twist: f32) -> [f32; 2] {
         if twist != 0.0 {
             return [self.furthest; 2];
@@ -48,7 +49,8 @@ impl Reach {
     }
 }
 
-/// The mean of how far a section reaches in each direction: its hull's perimeter over a full turn (Cauchy 1832).
+/// The mean of how far a section reaches in each direction: its hull's perimeter over a full turn
+/// (Cauchy 1832).
 pub(crate) fn mean_reach(section: &Section) -> f32 {
     let outline = section.outline(POINTS);
     let reach = |k: u32| {

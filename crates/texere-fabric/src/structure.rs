@@ -66,7 +66,8 @@ impl Structure {
 
     /// The yarns of the fabric.
     ///
-    /// **Errors**: [`FabricError`] where they can't be made: see [`Woven::yarns`](crate::Woven::yarns) and [`Knitted::yarns`].
+    /// **Errors**: [`FabricError`] where they can't be made: see
+    /// [`Woven::yarns`](crate::Woven::yarns) and [`Knitted::yarns`].
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().yarns(),
@@ -75,8 +76,9 @@ impl Structure {
         }
     }
 
-    /// What settles by contact, and how often it lies in the fabric: one repeat of a knit that has any (see [`Knitted::repeat`] and
-    /// [`WarpKnitted::repeat`]); else the whole fabric, once. Woven cloth has its crossings, and does not need it: its piece is for
+    /// What settles by contact, and how often it lies in the fabric: one repeat of a knit that has
+    /// any (see [`Knitted::repeat`] and [`WarpKnitted::repeat`]); else the whole fabric, once.
+    /// Woven cloth has its crossings, and does not need it: its piece is for
     /// [`settle`](crate::settle), cut off at its edges and held there.
     ///
     /// **Errors**: those of [`Structure::yarns`].
@@ -88,7 +90,8 @@ impl Structure {
         }
     }
 
-    /// The fabric's yarns from those of its `repeat`, settled or not: copies side by side, cut off as [`Structure::settle`] has them.
+    /// The fabric's yarns from those of its `repeat`, settled or not: copies side by side, cut off
+    /// as [`Structure::settle`] has them.
     ///
     /// **Errors**: those of [`Repeat::laid`].
     pub fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
@@ -99,8 +102,8 @@ impl Structure {
         }
     }
 
-    /// `finish` with what becomes of the lengths of [`Structure::repeat`], where it does not say: see [`Knitted::finish_of`] and
-    /// [`WarpKnitted::finish_of`].
+    /// `finish` with what becomes of the lengths of [`Structure::repeat`], where it does not say:
+    /// see [`Knitted::finish_of`] and [`WarpKnitted::finish_of`].
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         match self {
@@ -110,11 +113,12 @@ impl Structure {
         }
     }
 
-    /// Lets the fabric come to rest: woven cloth by its crossings ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact
-    /// ([`Knitted::settle`], [`WarpKnitted::settle`]). `tension` is that of the splines of all
-    /// yarns, from 0 to below 1.
+    /// Lets the fabric come to rest: woven cloth by its crossings
+    /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
+    /// [`WarpKnitted::settle`]). `tension` is that of the splines of all yarns, from 0 to below 1.
     ///
-    /// **Errors**: those of these; [`FinishError::Woven`] where `finish` asks of woven cloth for a length, a press or a course.
+    /// **Errors**: those of these; [`FinishError::Woven`] where `finish` asks of woven cloth for a
+    /// length, a press or a course.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -148,10 +152,12 @@ impl Structure {
         }
     }
 
-    /// Stretches woven cloth along one set of its threads, all of which keep their length: see [`Woven::stretched`](crate::Woven::stretched). Gives
-    /// `finish` with the tensions that go with it, for [`Structure::settle`]. A knit stays as it is.
+    /// Stretches woven cloth along one set of its threads, all of which keep their length: see
+    /// [`Woven::stretched`](crate::Woven::stretched). Gives `finish` with the tensions that go with
+    /// it, for [`Structure::settle`]. A knit stays as it is.
     ///
-    /// **Errors**: those of [`Woven::stretched`](crate::Woven::stretched); the cloth is then as it was.
+    /// **Errors**: those of [`Woven::stretched`](crate::Woven::stretched); the cloth is then as it
+    /// was.
     pub fn stretch(
         &mut self,
         finish: &Finish,
@@ -166,8 +172,9 @@ impl Structure {
         Ok(finish)
     }
 
-    /// A place on one of the structure's yarns as a designer finds it: by thread and crossing, or by wale and course. `yarns` are the structure's own,
-    /// settled or not. Takes time that grows with the stitches of a knit's repeat.
+    /// A place on one of the structure's yarns as a designer finds it: by thread and crossing, or
+    /// by wale and course. `yarns` are the structure's own, settled or not. Takes time that grows
+    /// with the stitches of a knit's repeat.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -211,10 +218,11 @@ impl Structure {
         }
     }
 
-    /// Gives every yarn the same section. Where the design says what to do about jammed threads, that is done again.
+    /// Gives every yarn the same section. Where the design says what to do about jammed threads,
+    /// that is done again.
     ///
-    /// **Errors**: [`FabricError`] where the section is not sound, or threads can't be thinned so far; the structure is then
-    /// as it was.
+    /// **Errors**: [`FabricError`] where the section is not sound, or threads can't be thinned so
+    /// far; the structure is then as it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         match self {
             Self::Woven(design) => design.set_section(section),
@@ -223,8 +231,8 @@ impl Structure {
         }
     }
 
-    /// What a designer should know of the fabric as its structure puts it, before its yarns settle. Of what has come to rest
-    /// [`Finished::warnings`] says more.
+    /// What a designer should know of the fabric as its structure puts it, before its yarns settle.
+    /// Of what has come to rest [`Finished::warnings`] says more.
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
@@ -236,7 +244,8 @@ impl Structure {
     /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops.
     /// `yarns` are the structure's own.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the structure's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
+    /// the structure's yarns.
     pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns),
@@ -245,8 +254,8 @@ impl Structure {
         }
     }
 
-    /// How near yarns come to one another and how tightly they bend, at places that a designer can find: see
-    /// [`Woven::clearance`](crate::Woven::clearance).
+    /// How near yarns come to one another and how tightly they bend, at places that a designer can
+    /// find: see [`Woven::clearance`](crate::Woven::clearance).
     ///
     /// **Errors**: those of [`clearance_with_progress`](texere_contact::clearance_with_progress).
     pub fn clearance(
@@ -270,8 +279,10 @@ impl Structure {
         }
     }
 
-    /// Into how many pieces the fabric falls, which of its yarns nothing holds, and which needles of a knit never have a loop. Woven cloth may
-    /// fall into layers ([`Drawdown::layers`](crate::Drawdown::layers)), knits into yarns whose loops are not drawn through one another.
+    /// Into how many pieces the fabric falls, which of its yarns nothing holds, and which needles
+    /// of a knit never have a loop. Woven cloth may fall into layers
+    /// ([`Drawdown::layers`](crate::Drawdown::layers)), knits into yarns whose loops are not drawn
+    /// through one another.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         match self {
@@ -281,7 +292,8 @@ impl Structure {
         }
     }
 
-    /// What is wrong with the fabric before it settles: see [`Woven::diagnose`](crate::Woven::diagnose).
+    /// What is wrong with the fabric before it settles: see
+    /// [`Woven::diagnose`](crate::Woven::diagnose).
     ///
     /// **Errors**: those of [`Structure::yarns`] and of [`Structure::clearance`].
     pub fn diagnose(
@@ -316,8 +328,8 @@ impl Structure {
         Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
     }
 
-    /// Single changes that were tried and help against the faults of `diagnosis`: see [`WovenDesign::cures`]. There are none
-    /// for knits.
+    /// Single changes that were tried and help against the faults of `diagnosis`: see
+    /// [`WovenDesign::cures`]. There are none for knits.
     pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
         match self {
             Self::Woven(design) => design.cures(diagnosis, progress),

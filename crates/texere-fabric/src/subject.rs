@@ -9,8 +9,8 @@ use crate::{FabricError, FinishError, ThreadError, WovenError};
 // As in the core, none has an arm for all others.
 
 impl FabricError {
-    /// What of the cloth it is about. None of memory, of somebody who asked to stop, of what no design says, and of calls that don't fit the
-    /// cloth.
+    /// What of the cloth it is about. None of memory, of somebody who asked to stop, of what no
+    /// design says, and of calls that don't fit the cloth.
     ///
     /// ```
     /// use texere_core::{Origin, Subject};
@@ -116,7 +116,8 @@ impl ThreadError {
 }
 
 impl FinishError {
-    /// What of the cloth it is about: that of what it holds. None of devices, and of what no design says.
+    /// What of the cloth it is about: that of what it holds. None of devices, and of what no design
+    /// says.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         match self {

@@ -4,11 +4,13 @@ use std::fmt;
 
 use texere_core::Origin;
 
-/// Something that looks unintended. There is at most one of a kind for the ends and one for the picks.
+/// Something that looks unintended. There is at most one of a kind for the ends and one for the
+/// picks.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FabricWarning {
-    /// Threads that lie closer to the thread before them than both are thick: side by side they pierce one another.
+    /// Threads that lie closer to the thread before them than both are thick: side by side they
+    /// pierce one another.
     Crowded {
         /// How many do.
         count: usize,
@@ -21,8 +23,8 @@ pub enum FabricWarning {
         /// The worst one's spacing, mm.
         spacing_mm: f64,
     },
-    /// Threads too close to the thread before them for those that cross to pass in between: warp and weft pierce one
-    /// another. [`Woven::relieve`](crate::Woven::relieve) can help.
+    /// Threads too close to the thread before them for those that cross to pass in between: warp
+    /// and weft pierce one another. [`Woven::relieve`](crate::Woven::relieve) can help.
     Jammed {
         /// How many are.
         count: usize,

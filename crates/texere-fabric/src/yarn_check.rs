@@ -67,8 +67,8 @@ pub(crate) fn sections(sections: &[Section]) -> Result<(), ThreadError> {
     Ok(())
 }
 
-/// Whether a yarn's radius (mm) and twist are taken, and whether there are a material and a section of its numbers. Errors name it
-/// by its origin.
+/// Whether a yarn's radius (mm) and twist are taken, and whether there are a material and a section
+/// of its numbers. Errors name it by its origin.
 pub(crate) fn yarn(
     yarn: &Yarn,
     radius_mm: f32,

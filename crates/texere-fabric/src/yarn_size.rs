@@ -1,7 +1,8 @@
 //! How thick a yarn of known weight is, and the other way round; its twist by the metre.
 //!
-//! A yarn's *count* says how heavy a length of it is. Its diameter follows from how densely its fibres lie: the density
-//! meant here is that of the yarn with the air in it, not that of the fibre.
+//! A yarn's *count* says how heavy a length of it is. Its diameter follows from how densely its
+//! fibres lie: the density meant here is that of the yarn with the air in it, not that of the
+//! fibre.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,13 +11,15 @@ pub(crate) const INCH_MM: f64 = 25.4;
 
 /// Density of a cotton yarn, g/cm³: a specific volume of 1.1 cm³/g.
 ///
-/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
+/// 1937.
 pub const COTTON_DENSITY: f64 = 1.0 / 1.1;
 
 /// Diameter (mm) of a round yarn of `tex` (g/km) and `density` (g/cm³).
 ///
-/// A length of 1 km weighs `tex` g and fills `π d²/4` mm² × 1 km, so that d = √(4 tex / (1000 π density)), or
-/// 0.0357 √(tex / density). With [`COTTON_DENSITY`] it is Peirce's d = 1 / (28 √Ne) inch.
+/// A length of 1 km weighs `tex` g and fills `π d²/4` mm² × 1 km, so that d = √(4 tex / (1000 π
+/// density)), or 0.0357 √(tex / density). With [`COTTON_DENSITY`] it is Peirce's d = 1 / (28 √Ne)
+/// inch.
 ///
 /// ```
 /// use texere_fabric::{COTTON_DENSITY, diameter_mm};
@@ -27,7 +30,8 @@ pub fn diameter_mm(tex: f64, density: f64) -> f64 {
     (4.0 * tex / (1000.0 * PI * density)).sqrt()
 }
 
-/// Linear density (tex, g/km) of a round yarn of `diameter_mm` and `density` (g/cm³): the inverse of [`diameter_mm`].
+/// Linear density (tex, g/km) of a round yarn of `diameter_mm` and `density` (g/cm³): the inverse
+/// of [`diameter_mm`].
 ///
 /// ```
 /// use texere_fabric::{COTTON_DENSITY, diameter_mm, tex_from_diameter};
@@ -70,7 +74,8 @@ pub fn tex_from_denier(denier: f64) -> f64 {
     denier / 9.0
 }
 
-/// The twist (rad per mm, as yarns and threads have it) of so many turns per metre, as mills and design files say it.
+/// The twist (rad per mm, as yarns and threads have it) of so many turns per metre, as mills and
+/// design files say it.
 ///
 /// ```
 /// use texere_fabric::{Thread, twist_from_turns_per_m};

@@ -11,8 +11,8 @@ use texere_fabric::{Crimp, Drawdown, Shape, Thread, Woven};
 use cloths::{cloth, jam, random_bits, random_weave, weave, weaves};
 use oracle::{pierce, round_clearance};
 
-/// Samples of an interval. At the widest pitch tested they lie 1/8 of a diameter apart, which hides 2e-3 of a diameter
-/// of a nearest approach at most.
+/// Samples of an interval. At the widest pitch tested they lie 1/8 of a diameter apart, which hides
+/// 2e-3 of a diameter of a nearest approach at most.
 const SAMPLES: usize = 32;
 
 #[test]
@@ -62,7 +62,8 @@ fn unequal_threads_stay_clear_at_every_crimp() {
 
 #[test]
 fn threads_of_all_sizes_and_spacings_stay_clear() {
-    // Thick and thin by turns, wide apart where the drawdown's bits say so, all with the room that the thickest need.
+    // Thick and thin by turns, wide apart where the drawdown's bits say so, all with the room that
+    // the thickest need.
     for seed in 1..=3 {
         let mut bits = random_bits(seed + 100);
         let mut threads = || -> Vec<Thread> {

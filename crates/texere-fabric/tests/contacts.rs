@@ -34,10 +34,11 @@ fn cloth(section: Section) -> Yarns {
     cloth.yarns().unwrap()
 }
 
-/// Yarns of random points in a box of 4 mm, thick and thin by turns or each of its own thickness: they come near one
-/// another, pierce, and bend sharply.
+/// Yarns of random points in a box of 4 mm, thick and thin by turns or each of its own thickness:
+/// they come near one another, pierce, and bend sharply.
 fn tangles() -> impl Strategy<Value = Yarns> {
-    // The lower bound is a power of two: proptest 1.12 fails an assertion of its own, rarely, where one has digits finer than the upper bound.
+    // The lower bound is a power of two: proptest 1.12 fails an assertion of its own, rarely, where
+    // one has digits finer than the upper bound.
     let point = [0.0..4.0f32, 0.0..4.0f32, 0.0..4.0f32, 0.125..0.25f32];
     let yarn = (any::<bool>(), any::<bool>(), prop::collection::vec(point, 3..7));
     prop::collection::vec(yarn, 2..6).prop_map(|each| {
@@ -52,7 +53,8 @@ fn tangles() -> impl Strategy<Value = Yarns> {
     })
 }
 
-/// Even yarns of many points, each a step of a few radii from the one before: most intervals that meet pass by.
+/// Even yarns of many points, each a step of a few radii from the one before: most intervals that
+/// meet pass by.
 fn even_tangles() -> impl Strategy<Value = Yarns> {
     let step = [-0.4..0.4f32, -0.4..0.4f32, -0.4..0.4f32];
     let yarn = (any::<bool>(), [0.0..1.0f32, 0.0..1.0f32, 0.0..1.0f32], prop::collection::vec(step, 8..20));
@@ -79,7 +81,8 @@ fn four(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint
     std::array::from_fn(|k| at(interval as isize + k as isize - 1))
 }
 
-/// A yarn's centreline and radius `at` so many intervals from its first point, by the Catmull-Rom spline's own polynomials.
+/// A yarn's centreline and radius `at` so many intervals from its first point, by the Catmull-Rom
+/// spline's own polynomials.
 fn place(tangle: &Yarns, yarn: usize, at: f64) -> (DVec3, f64) {
     let (points, closed) = (tangle.yarn_points(yarn).unwrap(), tangle.layout().yarns()[yarn].closed);
     let count = points.len() - usize::from(!closed);
@@ -93,8 +96,8 @@ fn place(tangle: &Yarns, yarn: usize, at: f64) -> (DVec3, f64) {
     (place.xyz(), place.w)
 }
 
-/// Where the way downhill from a contact of a like tangle ends in this one: the ratio there. None where that is so near along one yarn
-/// that it is no contact, or nearly.
+/// Where the way downhill from a contact of a like tangle ends in this one: the ratio there. None
+/// where that is so near along one yarn that it is no contact, or nearly.
 fn downhill(tangle: &Yarns, from: &Contact) -> Option<f64> {
     let [one, other] = from.places.each_ref().map(|place| place.yarn);
     let ratio = |[s, t]: [f64; 2]| {
@@ -116,7 +119,8 @@ fn downhill(tangle: &Yarns, from: &Contact) -> Option<f64> {
             step /= 2.0;
         }
     }
-    // The way along the yarn, by the chords between its points, and round the other way where it is closed.
+    // The way along the yarn, by the chords between its points, and round the other way where it is
+    // closed.
     let way = |[s, t]: [f64; 2]| -> f64 {
         let knots = (s as usize + 1..t.ceil() as usize).map(|knot| knot as f64);
         let places: Vec<_> =
@@ -152,7 +156,8 @@ proptest! {
         let brute = refined_clearance(&tangle, 60);
         match between {
             Some(contact) => {
-                // Nothing is nearer than what is reported, and that is there: brute force may see less.
+                // Nothing is nearer than what is reported, and that is there: brute force may see
+                // less.
                 prop_assert!(contact.ratio < brute + CLEARANCE_ACCURACY, "{} but {brute}", contact.ratio);
                 let there = contact.places.map(|place| {
                     let points = tangle.yarn_points(place.yarn).unwrap();
@@ -169,7 +174,8 @@ proptest! {
 
     #[test]
     fn no_contact_is_lost_where_even_yarns_pass_by(tangle in even_tangles()) {
-        // The least step of a size, a thousandth, makes a yarn uneven, so that nothing is left out beforehand.
+        // The least step of a size, a thousandth, makes a yarn uneven, so that nothing is left out
+        // beforehand.
         let mut uneven = tangle.clone();
         for yarn in 0..tangle.layout().yarns().len() {
             let mut points = tangle.yarn_points(yarn).unwrap().to_vec();
@@ -178,7 +184,8 @@ proptest! {
             uneven.set_points(yarn, &points).unwrap();
         }
         let [left_out, whole] = [&tangle, &uneven].map(|yarns| clearance(yarns, &Settings::default()).unwrap());
-        // Of each two yarns the worst contact is compared with where the other tangle's contacts lead.
+        // Of each two yarns the worst contact is compared with where the other tangle's contacts
+        // lead.
         for (tangle, own, others) in [(&tangle, &left_out, &whole), (&uneven, &whole, &left_out)] {
             if own.worst.len().max(others.worst.len()) == CONTACTS_LISTED {
                 continue;
@@ -220,7 +227,8 @@ fn every_crossing_of_a_cloth_is_a_contact() {
     let (warp, weft) = (vec![thread; 20], vec![thread; 16]);
     let mut cloth =
         Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
-    // Steep between its crossings, a round thread comes near those that it crosses there a second time.
+    // Steep between its crossings, a round thread comes near those that it crosses there a second
+    // time.
     cloth.set_shape(Shape::Crossing);
     let yarns = cloth.yarns().unwrap();
     let report = clearance(&yarns, &Settings::default()).unwrap();
@@ -272,7 +280,8 @@ fn a_yarn_that_comes_back_to_itself_is_found() {
 
 #[test]
 fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
-    // A circle of 96 points and radius 2, the yarn 0.5: the radius of curvature is four times the yarn's.
+    // A circle of 96 points and radius 2, the yarn 0.5: the radius of curvature is four times the
+    // yarn's.
     let ring = |radius: f32| -> Vec<[f32; 4]> {
         let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
         (0..96).map(|k| [2.0 * angle(k).cos(), 2.0 * angle(k).sin(), 0.0, radius]).collect()
@@ -286,8 +295,8 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
-/// A section beside its axis folds where it reaches into the bend, and nowhere else. The side of a ring that is counter-clockwise
-/// points to its middle.
+/// A section beside its axis folds where it reaches into the bend, and nowhere else. The side of a
+/// ring that is counter-clockwise points to its middle.
 #[test]
 fn a_polygon_on_the_outer_side_of_a_bend_does_not_fold() {
     let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
@@ -361,14 +370,16 @@ fn flattened_yarns_are_measured_by_their_surfaces() {
     assert!((crossing - 1.05).abs() < 1e-4, "{crossing}");
     let beside = measured(along, [[-3.0, 0.9, 0.0, 0.5, 0.125], [3.0, 0.9, 0.0, 0.5, 0.125]]);
     assert!((beside - 0.9).abs() < 1e-3, "{beside}");
-    // Half way between a flat end and a round one the other yarn, which stays as it is, meets their mean.
+    // Half way between a flat end and a round one the other yarn, which stays as it is, meets their
+    // mean.
     let changing = [[-3.0, 0.0, 0.0, 0.5, 0.125], [3.0, 0.0, 0.0, 0.25, 0.25]];
     let middle = measured(changing, [[0.0, -3.0, 0.25, 0.5, 0.125], [0.0, 3.0, 0.25, 0.5, 0.125]]);
     let slope = 0.125 / 6.0;
     assert!((middle - 0.25 / (0.1875 + 0.125)).abs() < slope, "{middle}");
 }
 
-/// Two ellipses that are alike touch where their centres lie twice as far apart as one of them reaches.
+/// Two ellipses that are alike touch where their centres lie twice as far apart as one of them
+/// reaches.
 #[test]
 fn flattened_yarns_beside_and_above_one_another() {
     let [half_width, half_height] = [0.25f32, 0.125];
@@ -389,7 +400,8 @@ fn flattened_yarns_beside_and_above_one_another() {
     }
 }
 
-/// A plied yarn with a slub, in a coil that comes near itself: which end it is seen from makes no difference.
+/// A plied yarn with a slub, in a coil that comes near itself: which end it is seen from makes no
+/// difference.
 #[test]
 fn a_plied_yarn_meets_itself_from_either_end() {
     let coil = |reversed: bool| {
@@ -481,8 +493,8 @@ fn yarns_of_one_place_and_of_all_sizes_are_measured() {
     assert!(report.min < 1e-3 && !report.min.is_nan());
 }
 
-/// Two neighbouring ends that are drawn up and down round other picks: their tangent tubes have no one place to touch in, and the yarns
-/// are far apart.
+/// Two neighbouring ends that are drawn up and down round other picks: their tangent tubes have no
+/// one place to touch in, and the yarns are far apart.
 #[test]
 fn neighbours_that_wave_otherwise_do_not_touch() {
     let ends: [&[[f32; 5]]; 2] = [
@@ -516,7 +528,8 @@ fn neighbours_that_wave_otherwise_do_not_touch() {
     assert!(found.min > 1.05, "{:?}", found.worst);
 }
 
-/// A pick that touches an end beside one of its control points: the tubes touch on one side of the point, the surfaces on the other.
+/// A pick that touches an end beside one of its control points: the tubes touch on one side of the
+/// point, the surfaces on the other.
 #[test]
 fn a_touch_beside_a_control_point_is_found() {
     let threads: [&[[f32; 5]]; 2] = [
@@ -579,7 +592,8 @@ fn the_nearer_of_two_approaches_in_a_valley_is_found() {
     assert!((found.min - 0.26994).abs() < CLEARANCE_ACCURACY, "{}", found.min);
 }
 
-/// A yarn that is a single point has no length to go along. The other yarn's nearest place to it is found.
+/// A yarn that is a single point has no length to go along. The other yarn's nearest place to it is
+/// found.
 #[test]
 fn a_yarn_without_length_is_met_where_it_lies() {
     let point = vec![[0.0, 0.0, 0.0, 0.1]; 8];
@@ -592,7 +606,8 @@ fn a_yarn_without_length_is_met_where_it_lies() {
     assert!((found.min - nearest).abs() < CLEARANCE_ACCURACY, "{} but {nearest}", found.min);
 }
 
-/// A yarn comes nearest to itself within a millionth of an interval before a knot, where it turns back sharply.
+/// A yarn comes nearest to itself within a millionth of an interval before a knot, where it turns
+/// back sharply.
 #[test]
 fn a_contact_just_before_a_knot_is_found() {
     let points = [
@@ -615,8 +630,8 @@ fn a_contact_just_before_a_knot_is_found() {
     assert!(found.min < 0.162, "{}", found.min);
 }
 
-/// Two yarns cross just where each has a control point, and are symmetric about it: of the four pairs of intervals one has the contact, whatever
-/// rounding says.
+/// Two yarns cross just where each has a control point, and are symmetric about it: of the four
+/// pairs of intervals one has the contact, whatever rounding says.
 #[test]
 fn a_crossing_on_a_control_point_is_one_contact() {
     let mut state = 1_u64;
@@ -629,7 +644,8 @@ fn a_crossing_on_a_control_point_is_one_contact() {
         let out = |point: [f32; 3]| {
             [[-point[0], -point[1], point[2], 0.125], [point[0], point[1], point[2], 0.125]]
         };
-        // The first falls to both sides, the other rises or falls; they cross at any angle but a flat one.
+        // The first falls to both sides, the other rises or falls; they cross at any angle but a
+        // flat one.
         let turn = random(0.6, 2.5);
         let [near, far] = [random(0.3, 0.7), random(0.8, 1.5)];
         let height = random(0.1, 0.24);

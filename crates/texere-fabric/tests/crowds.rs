@@ -1,5 +1,5 @@
-//! How much work clearance takes: it is counted, grows with the control points, and is bounded whatever the yarns. Yarns
-//! thicker than several pitches are told as such.
+//! How much work clearance takes: it is counted, grows with the control points, and is bounded
+//! whatever the yarns. Yarns thicker than several pitches are told as such.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -19,7 +19,8 @@ use texere_fabric::{Shape, Thread};
 use cloths::{cloth, weave, weaves};
 use oracle::round_clearance;
 
-/// Pairs a control point that cloth may take whose yarns are clear of one another; a small cloth in one cell takes most.
+/// Pairs a control point that cloth may take whose yarns are clear of one another; a small cloth in
+/// one cell takes most.
 const SANE: u64 = 128;
 
 /// Plain cloth of `size` ends and picks, 0.75 mm apart.
@@ -184,7 +185,8 @@ fn a_yarn_coiled_on_itself_ends() {
 
 #[test]
 fn points_in_one_place_end() {
-    // So many that the way along the yarn from one to another must not be gone point by point; a few beside them.
+    // So many that the way along the yarn from one to another must not be gone point by point; a
+    // few beside them.
     for count in [200, 300, 1000, 1500, 200_000] {
         let still = std::iter::repeat_n([1.0, 1.0, 1.0, 0.1], count);
         let beside = (0..250).map(|k| [1.0 + 1e-3 * k as f32, 1.0, 1.0, 0.1]);
@@ -268,7 +270,8 @@ proptest! {
     }
 }
 
-/// Two lines 1.10019 times 0.04 mm apart, and 1.09995 times what two radii of 0.02 mm come to as half floats.
+/// Two lines 1.10019 times 0.04 mm apart, and 1.09995 times what two radii of 0.02 mm come to as
+/// half floats.
 #[test]
 fn a_radius_counts_as_the_points_hold_it() {
     let pair = [
@@ -287,15 +290,18 @@ fn straight(ends: &[[[f32; 3]; 2]]) -> Yarns {
     yarns(ends.iter().map(|ends| (false, ends.iter().map(|[x, y, z]| [*x, *y, *z, THIN]).collect())))
 }
 
-/// The radius of [`straight`] yarns, mm, before points round it to a half float, by 2 parts in 10,000.
+/// The radius of [`straight`] yarns, mm, before points round it to a half float, by 2 parts in
+/// 10,000.
 const THIN: f32 = 0.02;
 
-/// How far apart the middle lines of two [`straight`] yarns are that touch, mm: the points' own radii count.
+/// How far apart the middle lines of two [`straight`] yarns are that touch, mm: the points' own
+/// radii count.
 fn touching() -> f64 {
     2.0 * f64::from(ControlPoint::new(0.0, 0.0, 0.0, THIN).half_width())
 }
 
-/// Distance of two straight lines between their ends, by halving the way on the one: it is convex along it.
+/// Distance of two straight lines between their ends, by halving the way on the one: it is convex
+/// along it.
 fn segments_apart(one: &[[f32; 3]; 2], other: &[[f32; 3]; 2]) -> f64 {
     let [a, b] = one.map(|point| glam::Vec3::from(point).as_dvec3());
     let [p, q] = other.map(|point| glam::Vec3::from(point).as_dvec3());

@@ -5,7 +5,8 @@
 use proptest::prelude::*;
 use texere_fabric::{Draft, FabricError, Shedding, WovenError};
 
-/// Whether the draft's definition puts the warp up: an end's shaft is among those lifted, or not, with a sinking shed.
+/// Whether the draft's definition puts the warp up: an end's shaft is among those lifted, or not,
+/// with a sinking shed.
 fn up(draft: &Draft, end: usize, pick: usize) -> bool {
     let lifted: Vec<u32> = match &draft.shedding {
         Shedding::LiftPlan(lifts) => lifts[pick].clone(),

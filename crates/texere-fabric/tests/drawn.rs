@@ -1,4 +1,5 @@
-//! Which tubes of polygons a mesh draws inside out: those bent tighter than their section reaches inwards, whatever its shape.
+//! Which tubes of polygons a mesh draws inside out: those bent tighter than their section reaches
+//! inwards, whatever its shape.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use texere_contact::{Drawn, drawn};
@@ -29,7 +30,8 @@ fn moved(outline: &[[f32; 2]], by: [f32; 2]) -> Vec<[f32; 2]> {
     outline.iter().map(|corner| [corner[0] + by[0], corner[1] + by[1]]).collect()
 }
 
-/// A yarn of this section along a third of a circle about the z axis, which it goes round to the left, or to the right.
+/// A yarn of this section along a third of a circle about the z axis, which it goes round to the
+/// left, or to the right.
 fn bent(outline: &[[f32; 2]], bend_mm: f32, left: bool, twist: f32) -> Drawn {
     let side = if left { 1.0 } else { -1.0 };
     let point = |number: u8| {
@@ -64,8 +66,8 @@ fn sound_polygons_of_a_gently_bent_yarn_face_outwards() {
     }
 }
 
-/// A section that reaches to one side of the axis alone: bent to that side it turns inside out where it reaches further than the bend's
-/// middle, bent to the other it never does.
+/// A section that reaches to one side of the axis alone: bent to that side it turns inside out
+/// where it reaches further than the bend's middle, bent to the other it never does.
 #[test]
 fn a_bend_tighter_than_the_section_reaches_is_inside_out() {
     // Triangles from 2 to 3 radii beside the axis.

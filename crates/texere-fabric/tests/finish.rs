@@ -1,5 +1,5 @@
-//! Yarns of a structure come to rest: cloth that pierces itself, what must not be made worse, cancelling, refusals; and repeats that
-//! are laid side by side.
+//! Yarns of a structure come to rest: cloth that pierces itself, what must not be made worse,
+//! cancelling, refusals; and repeats that are laid side by side.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
@@ -18,7 +18,8 @@ use texere_fabric::{
     WovenDesign, settle,
 };
 
-/// A plain weave of 8 ends and picks of 0.3 mm, of every three two `pitch` diameters apart. The third is 2.6 from both.
+/// A plain weave of 8 ends and picks of 0.3 mm, of every three two `pitch` diameters apart. The
+/// third is 2.6 from both.
 fn plain(pitch: f64) -> Structure {
     let spacing = |number| 0.3 * if number % 3 == 2 { 2.0 * 2.6 - pitch } else { pitch };
     let threads: Vec<_> = (0..8).map(|number| Thread::new(spacing(number), 0.15)).collect();
@@ -188,7 +189,8 @@ fn a_backend_without_a_settler_and_senseless_finishes_are_refused_by_name() {
     assert_eq!(refused(given, &cpu()), "the length is 3, not between 0.5 and 2");
 }
 
-/// A repeat of 2 by 1 mm: a thread that goes on along x, one that leads back down from the upper edge, a ring, and a piece.
+/// A repeat of 2 by 1 mm: a thread that goes on along x, one that leads back down from the upper
+/// edge, a ring, and a piece.
 fn repeat(copies: [u32; 2]) -> Repeat {
     let mut yarns = Yarns::builder();
     let points =
@@ -242,7 +244,8 @@ fn copies_that_can_not_be_are_refused() {
     assert!(matches!(one.laid(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
 }
 
-/// What was settled as a repeat is settled as a cloth: a plain weave's repeat, copied, has the repeat's clearance at its seams.
+/// What was settled as a repeat is settled as a cloth: a plain weave's repeat, copied, has the
+/// repeat's clearance at its seams.
 #[test]
 fn a_settled_repeat_fits_its_copies() {
     let mut yarns = Yarns::builder();
@@ -272,7 +275,8 @@ fn a_settled_repeat_fits_its_copies() {
     let cloth = repeat.laid(&settled.yarns).unwrap();
     let found = clearance(&cloth, &Settings::default()).unwrap();
     assert!(settled.rest.start.clearance < 0.9 && settled.rest.at_rest, "{:?}", settled.rest);
-    // The first and the last interval of a yarn that is cut off lack a neighbour, and lie otherwise than in the repeat.
+    // The first and the last interval of a yarn that is cut off lack a neighbour, and lie otherwise
+    // than in the repeat.
     let is_cut = |place: &YarnPlace| {
         let intervals = cloth.yarn_points(place.yarn).unwrap().len() - 1;
         place.interval == 0 || place.interval + 1 == intervals

@@ -90,7 +90,8 @@ fn even_cells_have_twelve_points_each() {
     }
 }
 
-/// A whole piece turns at its edges. What holds it stays where it is: its ends, its first feet and the heads on needles.
+/// A whole piece turns at its edges. What holds it stays where it is: its ends, its first feet and
+/// the heads on needles.
 #[test]
 fn a_whole_piece_settles_with_its_edges_held() {
     let knit = knit(flat(6, 6), [1, 1]).unwrap();

@@ -49,7 +49,8 @@ fn layers_are_what_can_be_lifted_off() {
         for upto in 1..layers.len() {
             assert!(all.contains(&sum(upto)), "{layers:?} {all:?}");
         }
-        // All else that can be lifted off is some of a layer's threads of one set: those of both sets hang together.
+        // All else that can be lifted off is some of a layer's threads of one set: those of both
+        // sets hang together.
         for size in &all {
             let within = |upto: usize| {
                 let layer = layers[upto];

@@ -69,7 +69,8 @@ fn layers_are_found_in_any_order() {
         |end, pick| (end + 640 - pick) % 4 < 2,
         |end, pick| !(end + 640 - 3 * (pick % 8)).is_multiple_of(8),
     ];
-    // Levels of a repeat's threads: by turns, two of the face to one of the back, in pairs, three layers.
+    // Levels of a repeat's threads: by turns, two of the face to one of the back, in pairs, three
+    // layers.
     for order in [&[1, 0][..], &[0, 1], &[1, 1, 0], &[1, 1, 1, 0], &[1, 1, 0, 0], &[2, 1, 0], &[0, 2, 1]] {
         for weave in weaves {
             let layer = |thread: usize| order[thread % order.len()];

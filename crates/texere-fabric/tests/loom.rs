@@ -1,4 +1,5 @@
-//! Cloth whose lifts are edited: each yarn is that of the whole cloth woven anew, and no other yarn changes.
+//! Cloth whose lifts are edited: each yarn is that of the whole cloth woven anew, and no other yarn
+//! changes.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use proptest::prelude::*;
@@ -63,7 +64,8 @@ proptest! {
     }
 }
 
-/// A lift that is there already changes nothing, and one that is taken back leaves the cloth as it was.
+/// A lift that is there already changes nothing, and one that is taken back leaves the cloth as it
+/// was.
 #[test]
 fn a_lift_back_and_forth_changes_nothing() {
     let mut loom = Loom::new(cloth(&[true, false, false], [9, 7], false, Shape::Round));

@@ -39,7 +39,8 @@ fn straight_ends_have_no_crimp_and_the_weft_has_it_all() {
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
     let [warp, weft] = measures(&cloth).crimp.unwrap();
     assert!(warp.abs() < 1e-6, "{warp}");
-    // Peirce: h = 4/3 p √c. The wave is twice 0.22 mm high, its pitch 1 mm: c = (0.75 × 0.44)² = 0.109.
+    // Peirce: h = 4/3 p √c. The wave is twice 0.22 mm high, its pitch 1 mm: c = (0.75 × 0.44)² =
+    // 0.109.
     assert!((weft / 0.109 - 1.0).abs() < 0.1, "{weft}");
 }
 
@@ -68,7 +69,8 @@ fn weight_needs_the_tex_of_what_is_used() {
 #[test]
 fn cover_is_peirces() {
     let measures = measures(&cloth([Some(19.6836), Some(29.5253)]));
-    // Widths are half floats, good to 2.5e-4. Diameters over spacings: 0.2/0.4 and 0.24/0.5, together 0.5 + 0.48 - 0.24.
+    // Widths are half floats, good to 2.5e-4. Diameters over spacings: 0.2/0.4 and 0.24/0.5,
+    // together 0.5 + 0.48 - 0.24.
     let cover = measures.cover.unwrap();
     assert!(
         (cover.fraction[0] / 0.5 - 1.0).abs() < 2.5e-4 && (cover.fraction[1] / 0.48 - 1.0).abs() < 2.5e-4
@@ -93,7 +95,8 @@ fn threads_wider_than_their_spacing_cover_everything() {
 
 #[test]
 fn thickness_is_from_surface_to_surface() {
-    // Plain cloth, 0.2 and 0.24 mm thick, half the crimp each: centrelines at ±0.11, the picks reach 0.12 further.
+    // Plain cloth, 0.2 and 0.24 mm thick, half the crimp each: centrelines at ±0.11, the picks
+    // reach 0.12 further.
     let mut cloth = cloth([None; 2]);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
     assert!((measures(&cloth).thickness_mm - 2.0 * (0.11 + 0.12)).abs() < 2e-3);

@@ -4,7 +4,8 @@
 
 use texere_fabric::{Weave, WovenError};
 
-/// Checks a weave against a drawing: `#` warp up, first pick at the bottom, over as many repeats as it shows.
+/// Checks a weave against a drawing: `#` warp up, first pick at the bottom, over as many repeats as
+/// it shows.
 #[track_caller]
 fn draws(text: &str, repeat: (usize, usize), drawing: &[&str]) {
     let weave: Weave = text.parse().unwrap();
@@ -110,7 +111,8 @@ fn matts_by_name() {
 
 #[test]
 fn herringbones() {
-    // Drawn from their threading, by what each pick lifts: 12, 23, 34, 41. Here it is 123412 432143.
+    // Drawn from their threading, by what each pick lifts: 12, 23, 34, 41. Here it is 123412
+    // 432143.
     draws("herringbone 2/2(6)", (12, 4), &["#..##.#..##.", "..##..##..##", ".##..#.##..#", "##..##..##.."]);
     // 1234 2143.
     draws("herringbone 2/2(4)", (8, 4), &["#..#.##.", "..##..##", ".##.#..#", "##..##.."]);
@@ -134,7 +136,8 @@ fn honeycomb() {
         (8, 8),
         &[".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."],
     );
-    // Its longest floats, of which the Britannica tells: five of warp, seven of weft, round a plain hollow.
+    // Its longest floats, of which the Britannica tells: five of warp, seven of weft, round a plain
+    // hollow.
     let weave = Weave::parse("honeycomb").unwrap();
     let longest = |up: bool, along_pick: bool| {
         let float = |thread: usize| {
@@ -151,7 +154,8 @@ fn honeycomb() {
 fn crepe() {
     let weave = Weave::parse("crepe").unwrap();
     assert_eq!(weave.repeat(), (8, 8));
-    // Every third end of the twill; no end floats over three picks, no pick over more than three ends.
+    // Every third end of the twill; no end floats over three picks, no pick over more than three
+    // ends.
     let twill = Weave::parse("2/2*1/1*1/1").unwrap();
     for pick in 0..8 {
         for end in 0..8 {
@@ -364,7 +368,8 @@ fn an_unknown_name_is_told_which_there_are() {
     }
 }
 
-/// In an irregular satin of 6 each pick binds one end and each end one pick, none beside that of the pick before.
+/// In an irregular satin of 6 each pick binds one end and each end one pick, none beside that of
+/// the pick before.
 #[test]
 fn an_irregular_satin_is_drawn_by_its_binding_points() {
     for (ends, order) in [(6, "1 3 5 2 6 4"), (4, "1 2 4 3")] {

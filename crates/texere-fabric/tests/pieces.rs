@@ -1,4 +1,5 @@
-//! Into how many pieces knits fall, which yarns are loose, which needles stay empty: by hand, and against loops painted one by one.
+//! Into how many pieces knits fall, which yarns are loose, which needles stay empty: by hand, and
+//! against loops painted one by one.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -37,7 +38,8 @@ fn pillars_are_joined_by_what_crosses_them_alone() {
     assert_eq!(found(vec![pillar()], 2, 2, [3, 5]), (6, 0, vec![]));
     assert_eq!(found(vec![bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![pillar(), bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
-    // Laid in behind the pillars' loops and in front of their own way up: behind a front bar it is held, in front of all it is not.
+    // Laid in behind the pillars' loops and in front of their own way up: behind a front bar it is
+    // held, in front of all it is not.
     assert_eq!(found(vec![pillar(), bar("0-0/3-3//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![bar("0-0/3-3//", FULL), pillar()], 4, 6, [1, 1]), (8, 4, vec![]));
     // One that stays in its space is held by underlaps that pass it, and joins nothing more.
@@ -144,7 +146,8 @@ fn weft_knits_fall_into_what_no_loop_joins() {
     assert_eq!(said(knit(&[&[front(0), front(2)]], Some(4), [2, 2])), (1, 0, vec![1, 3, 5, 7]));
 }
 
-/// Pieces and loose yarns of a whole warp knit that goes on to both sides, every loop painted with its yarn's colour.
+/// Pieces and loose yarns of a whole warp knit that goes on to both sides, every loop painted with
+/// its yarn's colour.
 fn painted(cloth: &WarpKnitted, laid: &[Laid]) -> (u64, u64) {
     let [wales, courses] = cloth.laid_size();
     let copies = i64::from(cloth.copies()[0]) + 40;

@@ -1,6 +1,7 @@
 //! Threads that bend round one another stay clear at every pitch, by the clearance report.
 //!
-//! The report itself is held against brute force in `contacts.rs`; some of these cloths are in `clearance.rs`.
+//! The report itself is held against brute force in `contacts.rs`; some of these cloths are in
+//! `clearance.rs`.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -31,8 +32,8 @@ const FLAT: Pair = Pair {
 };
 
 impl Pair {
-    /// Spacings of ends and picks, `ratio` of the least pitch, which each set has by the other's share of the crimp; but no
-    /// set lies closer than side by side.
+    /// Spacings of ends and picks, `ratio` of the least pitch, which each set has by the other's
+    /// share of the crimp; but no set lies closer than side by side.
     fn threads(&self, share: f32, ratio: f64) -> [Thread; 2] {
         let [wide, high] = self.half;
         let radius = self.radius.map(f64::from);
@@ -42,7 +43,8 @@ impl Pair {
         })
     }
 
-    /// The least clearance of `drawdown` at this share and ratio, or none where a pitch is beyond [`FURTHEST`].
+    /// The least clearance of `drawdown` at this share and ratio, or none where a pitch is beyond
+    /// [`FURTHEST`].
     fn clearance(&self, drawdown: &Drawdown, share: f32, ratio: f64) -> Option<f64> {
         let threads = self.threads(share, ratio);
         let furthest = FURTHEST * 2.0 * f64::from(self.radius[0]);
@@ -86,7 +88,8 @@ fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
 
 #[test]
 fn a_figure_in_twill_stays_clear_with_one_point_a_crossing() {
-    // The paper's figure 7a in small: warp-faced twill on weft-faced, three diameters from thread to thread.
+    // The paper's figure 7a in small: warp-faced twill on weft-faced, three diameters from thread
+    // to thread.
     let [figure, ground] = ["3/1", "1/3"].map(|name| Weave::parse(name).unwrap());
     let inside = |end: usize, pick: usize| (end as f64 - 50.0).hypot(pick as f64 - 40.0) < 30.0;
     let up = |end, pick| if inside(end, pick) { figure.up(end, pick) } else { ground.up(end, pick) };

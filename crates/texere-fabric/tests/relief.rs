@@ -24,7 +24,8 @@ fn dense(weave: &str, ends: f64, picks: f64) -> Woven {
 
 #[test]
 fn the_least_pitch_is_peirces() {
-    // Two sets of round threads alike: √3 diameters, whatever the weave. A pick of 0.6 ends: 1.386 ends both ways.
+    // Two sets of round threads alike: √3 diameters, whatever the weave. A pick of 0.6 ends: 1.386
+    // ends both ways.
     let report = dense("3/1", 3.0, 1.5).relieve(Relief::Report).unwrap();
     for set in report.before {
         assert!((set.pitch_min_mm / 0.2 - 3f64.sqrt()).abs() < 1e-6, "{set:?}");

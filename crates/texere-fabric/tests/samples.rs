@@ -71,7 +71,8 @@ fn a_small_cloth_has_the_crimp_of_a_large_one_at_any_tension() {
 
 #[test]
 fn straight_threads_weigh_what_they_are() {
-    // All ends on the face: 20 ends of 30 tex and 10 picks of 20 tex to the cm, none of them crimped.
+    // All ends on the face: 20 ends of 30 tex and 10 picks of 20 tex to the cm, none of them
+    // crimped.
     for size in [1, 2, 3, 7] {
         let mut cloth = woven("plain", [size; 2], &[0.5], &[1]);
         let drawdown = Drawdown::from_fn(size, size, |_, _| true).unwrap();
@@ -95,7 +96,8 @@ fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
     assert!(close(one, more, 1e-5), "{one} {more}");
 }
 
-/// Straight ends of yarns in this order over and over again, 2 to the mm, below straight picks of 20 tex, 1 to the mm.
+/// Straight ends of yarns in this order over and over again, 2 to the mm, below straight picks of
+/// 20 tex, 1 to the mm.
 fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
     let materials = [20.0].iter().chain(tex).map(|tex| Material { tex: Some(*tex), ..Material::default() });
     let warp =
@@ -113,7 +115,8 @@ fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
 
 #[test]
 fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat() {
-    // The mean tex of an end, 2 ends to the mm, beside the picks. Peirce's cover factor: ends to the inch over √Ne, with Ne = 590.5 / tex.
+    // The mean tex of an end, 2 ends to the mm, beside the picks. Peirce's cover factor: ends to
+    // the inch over √Ne, with Ne = 590.5 / tex.
     let factor = |tex: f64| 50.8 * (tex / 590.5).sqrt();
     let orders: [(&[u32], f64, f64); 3] = [
         (&[0, 1, 2], 40.0, (factor(10.0) + factor(30.0) + factor(80.0)) / 3.0),
@@ -133,7 +136,8 @@ fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat(
 
 #[test]
 fn flat_threads_among_round_ones_are_part_of_the_repeat() {
-    // Threads of one radius, every third of them three times as wide as high: it rises less than the others and passes them lower.
+    // Threads of one radius, every third of them three times as wide as high: it rises less than
+    // the others and passes them lower.
     let cloth = |size: usize| {
         let thread = |number: usize| Thread {
             flatness: if number.is_multiple_of(3) { 3.0 } else { 1.0 },
@@ -265,7 +269,8 @@ fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
 
 #[test]
 fn stripes_of_a_knit_count_by_their_own_courses() {
-    // Two courses of 20 tex, one of 30: loops are alike, so that they weigh as if all were of the mean, 70/3 tex.
+    // Two courses of 20 tex, one of 30: loops are alike, so that they weigh as if all were of the
+    // mean, 70/3 tex.
     let knit = |yarns: Vec<u32>, copies: [u32; 2]| {
         let chart = Chart::parse("k", Beds::One).unwrap().with_yarns(&yarns).unwrap();
         let program = chart.program().unwrap();

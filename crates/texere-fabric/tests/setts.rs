@@ -20,8 +20,8 @@ fn greatest_per_inch(cloth: &Woven) -> f64 {
     2.54 * cloth.setts()[0].greatest_per_cm
 }
 
-/// "Ashenhurst's formula", <http://www.faena.medievaltextiles.org/ash.html>: 8/2 cotton has 52 diameters to the inch, 26 ends in plain weave and
-/// 34 in 2/2 twill.
+/// "Ashenhurst's formula", <http://www.faena.medievaltextiles.org/ash.html>: 8/2 cotton has 52
+/// diameters to the inch, 26 ends in plain weave and 34 in 2/2 twill.
 #[test]
 fn ashenhursts_example_of_two_ply_cotton() {
     assert!((greatest_per_inch(&cloth(&[1, 1], 20.0, 52.0)) - 26.0).abs() < 1e-3);
@@ -29,8 +29,9 @@ fn ashenhursts_example_of_two_ply_cotton() {
     assert!((twill - 52.0 * 4.0 / 6.0).abs() < 1e-3 && (34.0..35.0).contains(&twill), "{twill}");
 }
 
-/// J. T. Taylor, "Cotton weaving and designing", 6th edition, "The firmness of cloth": from 103 threads of a plain cloth to 137 1/3 of a 2/2
-/// twill, and from 137 of that to a twill of 5 up, 2 down, 1 up, 2 down by 40 + 16 to 40 + 20.
+/// J. T. Taylor, "Cotton weaving and designing", 6th edition, "The firmness of cloth": from 103
+/// threads of a plain cloth to 137 1/3 of a 2/2 twill, and from 137 of that to a twill of 5 up, 2
+/// down, 1 up, 2 down by 40 + 16 to 40 + 20.
 #[test]
 fn taylors_examples_of_cloths_as_firm() {
     let plain = greatest_per_inch(&cloth(&[1, 1], 20.0, 206.0));
@@ -51,7 +52,8 @@ fn plain(end: usize, pick: usize) -> bool {
     (end + pick).is_multiple_of(2)
 }
 
-/// "Fabric geometry", "Square cloth - jammed structure", <http://business.vsnl.com/balasubramanian/YarnCloth.html>: θ = 60°, p/D = 0.866 with D the sum
+/// "Fabric geometry", "Square cloth - jammed structure",
+/// <http://business.vsnl.com/balasubramanian/YarnCloth.html>: θ = 60°, p/D = 0.866 with D the sum
 /// of both diameters.
 #[test]
 fn peirces_square_cloth_jams_where_the_textbook_has_it() {

@@ -1,4 +1,5 @@
-//! Warp knits: notation, lappings by name, which laps guides make, Jacquards, copies, run-ins, and what is refused.
+//! Warp knits: notation, lappings by name, which laps guides make, Jacquards, copies, run-ins, and
+//! what is refused.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
@@ -24,7 +25,8 @@ fn knit(bars: Vec<Bar>, size: [u32; 2], copies: [u32; 2]) -> Result<WarpKnitted,
     WarpKnitted::new(bars, Gauge::new(1.0, 0.75), size[0], size[1], yarns, materials, sections, copies)
 }
 
-/// Of guide 0, course by course: the needle of its loop, whether it is open, and the underlap after it.
+/// Of guide 0, course by course: the needle of its loop, whether it is open, and the underlap after
+/// it.
 fn laps(name: &str) -> Vec<(i32, bool, i32)> {
     let chain = Chain::named(name).unwrap();
     let lap = |course: usize| (chain.lap(course).needle(), chain.is_open(course), chain.underlap(course));
@@ -36,7 +38,8 @@ fn lappings_are_what_their_names_say() {
     assert_eq!(laps("pillar"), [(0, true, 0), (0, true, 0)]);
     assert_eq!(laps("closed pillar"), [(0, false, -1), (0, false, -1)]);
     for (name, needles) in [("tricot", 1), ("cord", 2), ("satin", 3), ("velvet", 4)] {
-        // The loop lies on needle 0 and then so many further; a closed lap's underlap goes back beyond its own needle.
+        // The loop lies on needle 0 and then so many further; a closed lap's underlap goes back
+        // beyond its own needle.
         assert_eq!(laps(name), [(0, false, needles), (needles, false, -needles)], "{name}");
         let open = format!("open {name}");
         assert_eq!(laps(&open), [(0, true, needles), (needles, true, -needles)], "{open}");

@@ -38,7 +38,8 @@ fn cloths() -> impl Strategy<Value = Woven> {
     })
 }
 
-/// Where the threads lie, by the definition: in the middle of their columns, which lie side by side.
+/// Where the threads lie, by the definition: in the middle of their columns, which lie side by
+/// side.
 fn places(threads: &[Thread]) -> Vec<f64> {
     (0..threads.len())
         .map(|own| {
@@ -76,8 +77,8 @@ proptest! {
                 }
                 let (upper, lower) = if cloth.drawdown().up(end, pick) { (warp, weft) } else { (weft, warp) };
                 prop_assert!(upper.z > 0.0 && lower.z < 0.0);
-                // Far enough apart for both sections: an ellipse of aspect 2 is 1/√2 of its radius high, and √2 where twist
-                // turns it on edge.
+                // Far enough apart for both sections: an ellipse of aspect 2 is 1/√2 of its radius
+                // high, and √2 where twist turns it on edge.
                 let height = |thread: &Thread| match (thread.section, thread.twist) {
                     (1, 0.0) => thread.radius_mm * 0.5f32.sqrt(),
                     (1, _) => thread.radius_mm * 2.0f32.sqrt(),
@@ -157,7 +158,8 @@ fn thick_and_thin_ends_lie_in_the_middle_of_their_columns() {
     let middles: Vec<_> = (0..12).map(|end| 0.5 + 1.5 * f64::from(end)).collect();
     assert_eq!(cloth.middles_mm()[0], middles);
     assert!(cloth.pitches()[0].iter().all(|gap| gap.pitch_mm == 1.5));
-    // Side by side the two need half their diameters together, 0.85 mm, and room for the weft between them.
+    // Side by side the two need half their diameters together, 0.85 mm, and room for the weft
+    // between them.
     assert_eq!(cloth.warnings(), []);
 }
 
@@ -257,7 +259,8 @@ fn cloth_at_the_edge_of_what_is_taken_gives_sound_yarns() {
 
 #[test]
 fn threads_in_one_place_give_sound_yarns() {
-    // A kilometre from the edge a nanometre is nothing in single precision: ends 2 to 5 lie where end 1 does.
+    // A kilometre from the edge a nanometre is nothing in single precision: ends 2 to 5 lie where
+    // end 1 does.
     let mut warp = vec![Thread::new(1e-6, 0.1); 6];
     (warp[0].spacing_mm, warp[5].spacing_mm) = (1e6, 1e6);
     let weft = vec![Thread::new(1.0, 0.1); 3];
@@ -298,7 +301,8 @@ fn one_warning_stands_for_all_threads_alike() {
     let warnings = woven(plain(1000, 5), warp, vec![Thread::new(10.0, 0.1); 5]).unwrap().warnings();
     let crowded: Vec<_> =
         warnings.iter().filter(|warning| matches!(warning, FabricWarning::Crowded { .. })).collect();
-    // End 100 pierces the ends on both its sides, end 501 likewise; each pair counts for its second thread.
+    // End 100 pierces the ends on both its sides, end 501 likewise; each pair counts for its second
+    // thread.
     assert_eq!(crowded.len(), 1);
     assert_eq!(
         crowded[0].to_string(),

@@ -1,13 +1,15 @@
-//! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields, lozenges for a knit, a stitched double cloth.
+//! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields,
+//! lozenges for a knit, a stitched double cloth.
 //!
-//! `cargo run -p texere-formats --example draw_motifs` writes them where they belong. Nothing but sums, products and
-//! square roots goes into them, so that every machine draws the same.
+//! `cargo run -p texere-formats --example draw_motifs` writes them where they belong. Nothing but
+//! sums, products and square roots goes into them, so that every machine draws the same.
 
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-/// A point of the ornament, drawn on a repeat of 240 by 320 with the origin in the middle of a fruit, y upwards.
+/// A point of the ornament, drawn on a repeat of 240 by 320 with the origin in the middle of a
+/// fruit, y upwards.
 type Point = [f64; 2];
 
 /// The size of a repeat as drawn.
@@ -63,7 +65,8 @@ impl Paper {
         Self { size, pixels: vec![Tone::Ground; size[0] * size[1]] }
     }
 
-    /// Paints a disc of `radius` round `centre`, once in the middle of the repeat and once half a repeat off each way.
+    /// Paints a disc of `radius` round `centre`, once in the middle of the repeat and once half a
+    /// repeat off each way.
     fn disc(&mut self, centre: Point, radius: f64, tone: Tone) {
         let scale = [self.size[0] as f64 / REPEAT[0], self.size[1] as f64 / REPEAT[1]];
         let radius = radius * scale[0];
@@ -83,7 +86,8 @@ impl Paper {
         }
     }
 
-    /// Paints a stroke along a Bézier curve, `width` to either side where it is widest, and its mirror image.
+    /// Paints a stroke along a Bézier curve, `width` to either side where it is widest, and its
+    /// mirror image.
     fn stroke(&mut self, spine: [Point; 4], width: f64, profile: Profile, tone: Tone) {
         for step in 0..=STEPS {
             let t = step as f64 / STEPS as f64;
@@ -141,7 +145,8 @@ fn ornament(size: [usize; 2]) -> Paper {
     use Tone::{Figure, Ground, Shade};
     let mut paper = Paper::new(size);
 
-    // The lattice: two vines that part above a rosette, and meet those of the next fields beside it.
+    // The lattice: two vines that part above a rosette, and meet those of the next fields beside
+    // it.
     let vine = [[0.0, -160.0], [12.0, -108.0], [108.0, -52.0], [120.0, 0.0]];
     for t in [0.24, 0.42, 0.60] {
         let [x, y] = bezier(vine, t);
@@ -184,7 +189,8 @@ fn ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
-/// Nested lozenges of two colours, both in each row, for a knitted Jacquard: no colour runs on for more than five wales.
+/// Nested lozenges of two colours, both in each row, for a knitted Jacquard: no colour runs on for
+/// more than five wales.
 fn lozenges([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
@@ -212,8 +218,8 @@ fn rings([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
-/// The ornament for a knitted Jacquard: in figure and ground alike each fifth wale is of the other colour, shifted from row to row, so
-/// that no yarn floats on for long.
+/// The ornament for a knitted Jacquard: in figure and ground alike each fifth wale is of the other
+/// colour, shifted from row to row, so that no yarn floats on for long.
 fn bound_ornament(size: [usize; 2]) -> Paper {
     let mut paper = ornament(size);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
@@ -223,8 +229,9 @@ fn bound_ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
-/// Every crossing of a double cloth: a 2/2 twill over another one, their ends and picks by turns, the face's first. An end of the back is lifted
-/// over a pick of the face where the ends beside it float over that, and it lies over the picks beside it: so stitches show little.
+/// Every crossing of a double cloth: a 2/2 twill over another one, their ends and picks by turns,
+/// the face's first. An end of the back is lifted over a pick of the face where the ends beside it
+/// float over that, and it lies over the picks beside it: so stitches show little.
 fn double_twill([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {

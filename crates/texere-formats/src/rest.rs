@@ -1,4 +1,5 @@
-//! From a design to its cloth: its yarns are placed as its structure says, and come to rest as its finish says.
+//! From a design to its cloth: its yarns are placed as its structure says, and come to rest as its
+//! finish says.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -11,7 +12,8 @@ use crate::{Design, Refusal};
 /// The share of the progress at which cloth that is stretched has been, and begins to come to rest.
 const STRETCHED: f64 = 0.5;
 
-/// A cloth: a design and its yarns, at rest or as near to it as they came. [`Design::rest`] makes it.
+/// A cloth: a design and its yarns, at rest or as near to it as they came. [`Design::rest`] makes
+/// it.
 #[derive(Debug)]
 pub struct Cloth {
     design: Design,
@@ -58,8 +60,8 @@ impl RestReport {
 }
 
 impl Cloth {
-    /// The design. Once its cloth was stretched the structure is the stretched one, [`Design::stretch`] is none, and [`Design::finish`] has the
-    /// tensions that go with it.
+    /// The design. Once its cloth was stretched the structure is the stretched one,
+    /// [`Design::stretch`] is none, and [`Design::finish`] has the tensions that go with it.
     #[must_use]
     pub const fn design(&self) -> &Design {
         &self.design
@@ -90,8 +92,9 @@ impl Cloth {
         (self.design, yarns)
     }
 
-    /// What a designer should know of the cloth: the reader's [remarks](Design::remarks), what the structure lacked before where the yarns are
-    /// not at rest, and what the finish asks for and did not reach.
+    /// What a designer should know of the cloth: the reader's [remarks](Design::remarks), what the
+    /// structure lacked before where the yarns are not at rest, and what the finish asks for and
+    /// did not reach.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let before = match &self.report {
@@ -119,8 +122,8 @@ impl fmt::Debug for Resting<'_> {
 }
 
 impl Design {
-    /// The cloth of the design, for [`Resting::run`] to make on `device`: its yarns are placed, stretched, and come to rest, as its `settle`,
-    /// `stretch` and `finish` say.
+    /// The cloth of the design, for [`Resting::run`] to make on `device`: its yarns are placed,
+    /// stretched, and come to rest, as its `settle`, `stretch` and `finish` say.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -161,15 +164,18 @@ impl<'a> Resting<'a> {
         Self { tension, ..self }
     }
 
-    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends it within one pass.
+    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends it
+    /// within one pass.
     pub fn progress(self, progress: impl FnMut(f64) -> ControlFlow<()> + Send + 'a) -> Self {
         Self { progress: Box::new(progress), ..self }
     }
 
-    /// Makes the cloth. Where yarns can't come to rest they are as the structure places them, and [`Cloth::report`] says why.
+    /// Makes the cloth. Where yarns can't come to rest they are as the structure places them, and
+    /// [`Cloth::report`] says why.
     ///
-    /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish that its structure does not have, where a device
-    /// fails, where `progress` asked to stop, and for a [tension](Resting::tension) out of range.
+    /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish
+    /// that its structure does not have, where a device fails, where `progress` asked to stop, and
+    /// for a [tension](Resting::tension) out of range.
     pub fn run(self) -> Result<Cloth, Refusal> {
         let Self { mut design, device, tension, mut progress } = self;
         let placed = |design: &Design| {

@@ -1,4 +1,5 @@
-//! What a program that is about to end leaves behind: in a process of its own, since nothing is written after it.
+//! What a program that is about to end leaves behind: in a process of its own, since nothing is
+//! written after it.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs;

@@ -199,7 +199,8 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
     }
 }
 
-/// What makes room in cloth as it is woven is refused in cloth at rest, and what counts for nothing there is said.
+/// What makes room in cloth as it is woven is refused in cloth at rest, and what counts for nothing
+/// there is said.
 #[test]
 fn cloth_at_rest_gives_way_by_itself() {
     for jam in ["flatten", "shrink"] {

@@ -1,4 +1,5 @@
-//! Files that ask for more than they hold: each is read, or refused, in time and memory that grow with the file alone.
+//! Files that ask for more than they hold: each is read, or refused, in time and memory that grow
+//! with the file alone.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;

@@ -1,5 +1,5 @@
-//! What an image shows is what is woven: transparency, palettes, orientation; what can't be shown is refused by name. The bytes of
-//! TIFF files are put together here, by TIFF 6.0.
+//! What an image shows is what is woven: transparency, palettes, orientation; what can't be shown
+//! is refused by name. The bytes of TIFF files are put together here, by TIFF 6.0.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -53,8 +53,8 @@ fn is_dark(column: usize, row: usize) -> bool {
 /// The tags of a page and their values.
 type Tags = Vec<(u16, Vec<u32>)>;
 
-/// A TIFF file: its order of bytes, the tags of its pages with all values as SHORT or LONG, and the pixels of each page, in one strip
-/// or tile.
+/// A TIFF file: its order of bytes, the tags of its pages with all values as SHORT or LONG, and the
+/// pixels of each page, in one strip or tile.
 struct Tiff {
     big_endian: bool,
     pages: Vec<(Tags, Vec<u8>)>,
@@ -85,7 +85,8 @@ impl Tiff {
         let mut file = if self.big_endian { b"MM".to_vec() } else { b"II".to_vec() };
         file.extend(self.short(42));
         for (tags, data) in &self.pages {
-            // The place of this directory goes where the one before ends, which is the end of the file so far.
+            // The place of this directory goes where the one before ends, which is the end of the
+            // file so far.
             let next = file.len() as u32 + 4 + data.len() as u32 + (data.len() % 2) as u32;
             file.extend(self.long(next));
             let strip = file.len() as u32;
@@ -258,7 +259,8 @@ fn an_indexed_tiff_may_be_compressed_tiled_and_in_planes() {
         tiled.pages[0].1 = packed(bits, false, &tile);
         assert_eq!(woven("a.tif", &tiled.bytes()), SHOWN, "{bits}");
     }
-    // With opacity: beside each number, and in a plane of its own. What is dark is seen, what is light is not there.
+    // With opacity: beside each number, and in a plane of its own. What is dark is seen, what is
+    // light is not there.
     let number = |column, row| if (column + row) % 2 == 0 { 200 } else { 7 };
     let alpha = |column, row| if is_dark(column, row) { 255 } else { 0 };
     let both = indexed(8, [200, 7])
@@ -337,7 +339,8 @@ fn a_tiff_that_can_not_be_shown_is_refused_by_name() {
 
 #[test]
 fn planes_of_tiles_are_refused_by_name() {
-    // Grey and opacity, red and green and blue, numbers of a palette and opacity, in a tile of 16 by 16 each.
+    // Grey and opacity, red and green and blue, numbers of a palette and opacity, in a tile of 16
+    // by 16 each.
     for (photometric, samples) in [(1, 2), (2, 3), (3, 2)] {
         let planes = Tiff::one(
             &[
@@ -378,7 +381,8 @@ fn a_bigtiff_is_a_tiff() {
     assert_eq!(woven("a.tif", file.get_ref()), SHOWN);
 }
 
-/// What is shown where a file holds `held` and names this orientation, by the words of TIFF 6.0: where row 0 and column 0 are.
+/// What is shown where a file holds `held` and names this orientation, by the words of TIFF 6.0:
+/// where row 0 and column 0 are.
 fn turned(held: &[&str], orientation: u32) -> Vec<String> {
     let rows = || held.iter().map(|row| row.chars().collect::<Vec<_>>());
     let columns = || (0..held[0].len()).map(|column| rows().map(|row| row[column]).collect::<Vec<_>>());

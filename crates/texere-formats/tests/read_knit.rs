@@ -254,7 +254,8 @@ fn what_is_wrong_is_named_with_its_line() {
     }
 }
 
-/// What can't be knitted is named by its line or its place in the picture, not by a number that nobody sees.
+/// What can't be knitted is named by its line or its place in the picture, not by a number that
+/// nobody sees.
 #[test]
 fn what_no_machine_takes_is_named_by_its_place() {
     let folder = TempDir::new().unwrap();

@@ -1,5 +1,5 @@
-//! Images of palette numbers: each pixel has the colour of its number, and a number that the palette has no colour for is refused by
-//! name. The bytes of the pixels are put together here.
+//! Images of palette numbers: each pixel has the colour of its number, and a number that the
+//! palette has no colour for is refused by name. The bytes of the pixels are put together here.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 use std::error::Error;
@@ -45,7 +45,8 @@ fn refuses(name: &str, bytes: &[u8], number: usize, colors: &str) {
     assert!(told.contains(name) && told.contains(&why), "\"{told}\" lacks \"{name}\" or \"{why}\"");
 }
 
-/// A row of numbers of so many bits. What is left of its last byte is all ones, which are no pixels.
+/// A row of numbers of so many bits. What is left of its last byte is all ones, which are no
+/// pixels.
 fn packed(bits: usize, row: &[usize]) -> Vec<u8> {
     let mut line = vec![0u8; (row.len() * bits).div_ceil(8)];
     for place in 0..line.len() * 8 / bits {
@@ -85,7 +86,8 @@ fn png(bits: usize, colors: usize, interlaced: bool, number: impl Fn(usize, usiz
     bytes
 }
 
-/// How the pixels of a BMP are written: rows of numbers from the bottom or the top, or runs and lists of numbers (RLE).
+/// How the pixels of a BMP are written: rows of numbers from the bottom or the top, or runs and
+/// lists of numbers (RLE).
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Bmp {
     Upward,

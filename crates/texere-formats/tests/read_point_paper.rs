@@ -1,4 +1,5 @@
-//! Design files whose weave is an image: what each pixel becomes, and that each fault is named with its place.
+//! Design files whose weave is an image: what each pixel becomes, and that each fault is named with
+//! its place.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;

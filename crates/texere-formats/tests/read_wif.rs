@@ -240,7 +240,8 @@ fn a_loom_has_what_is_set_up_on_it() {
     warned(&TWILL.replace("Shafts=4", "Shafts=2"), &["[WEAVING] Shafts is 2", "[THREADING] goes up to 4"]);
     warned(&TWILL.replace("Treadles=4", "Treadles=2"), &["[WEAVING] Treadles is 2", "[TIEUP] goes up to 4"]);
     assert_eq!(drawdown(&TWILL.replace("Shafts=4", "Shafts=2")), TWILL_DRAWDOWN);
-    // A shaft that is lifted, and a treadle that is pressed, but that is neither counted nor set up.
+    // A shaft that is lifted, and a treadle that is pressed, but that is neither counted nor set
+    // up.
     let [lifted, pressed] = [("[TIEUP]\n1=1,2", "[TIEUP]\n1=1,5"), ("[TREADLING]\n1=1", "[TREADLING]\n1=5")]
         .map(|(from, to)| TWILL.replace(from, to));
     refused(&lifted, &["[TIEUP] 1 is 5, outside 0 to 4"]);
@@ -300,7 +301,8 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     near(&diameters(&stated("Spacing=.2\nThickness=.19", "Spacing=.3\nThickness=.19", ""))[0], &[1.9]);
 }
 
-/// Spacings that weavers use beside one another, in drafts of every kind: whatever is scaled comes out clear.
+/// Spacings that weavers use beside one another, in drafts of every kind: whatever is scaled comes
+/// out clear.
 #[test]
 fn what_is_given_room_does_not_pierce() {
     let tie_ups = [
@@ -338,14 +340,16 @@ fn what_is_given_room_does_not_pierce() {
                 let design = read_text(format!("{warp}{weft}{draft}")).unwrap();
                 let clearance =
                     texere_contact::clearance(&design.yarns().unwrap(), &Settings::default()).unwrap().min;
-                // Of threads that touch by construction the spline between control points comes to 0.99.
+                // Of threads that touch by construction the spline between control points comes to
+                // 0.99.
                 assert!(clearance > 0.985, "{clearance}: {warp}{weft}{draft}");
             }
         }
     }
 }
 
-/// Thick and thin ends by turns, in columns as wide as they are drawn: those that are three times as thick stay so.
+/// Thick and thin ends by turns, in columns as wide as they are drawn: those that are three times
+/// as thick stay so.
 #[test]
 fn thick_and_thin_drafts_keep_their_thick_threads() {
     let own = |what: &str, thick: &str| format!("[WARP {what}]\n2={thick}\n4={thick}\n");
@@ -363,7 +367,8 @@ fn thick_and_thin_drafts_keep_their_thick_threads() {
     }
 }
 
-/// Ends 1 mm and 2 mm wide by turns, as thick-and-thin drafts have them: 1.5 mm from each to both neighbours.
+/// Ends 1 mm and 2 mm wide by turns, as thick-and-thin drafts have them: 1.5 mm from each to both
+/// neighbours.
 #[test]
 fn threads_lie_in_the_middle_of_their_columns() {
     let own = "[WARP SPACING]\n2=0.2\n4=0.2\n[WARP THICKNESS]\n2=0.12\n4=0.12\n";
@@ -377,7 +382,8 @@ fn threads_lie_in_the_middle_of_their_columns() {
     assert!(woven.warnings().is_empty());
 }
 
-/// The same file with a comment behind every value of every section, but that the title keeps its semicolon.
+/// The same file with a comment behind every value of every section, but that the title keeps its
+/// semicolon.
 #[test]
 fn a_semicolon_behind_any_value_begins_a_comment() {
     let full = TWILL.to_owned()
@@ -420,7 +426,8 @@ fn a_loom_without_treadles_is_woven_by_its_lift_plan() {
     let odd = none.replace("4=4,1\n[TREADLING]", "4=99,1\n[TREADLING]") + LIFT_PLAN;
     assert_eq!(drawdown(&odd), TWILL_DRAWDOWN);
     assert!(read_text(&odd).unwrap().warnings()[0].contains("Treadles is 0; the lift plan is taken"));
-    // Nothing else says what is lifted: the treadles that the tie-up has are taken, as where fewer are declared.
+    // Nothing else says what is lifted: the treadles that the tie-up has are taken, as where fewer
+    // are declared.
     assert_eq!(drawdown(&none), TWILL_DRAWDOWN);
     assert!(read_text(&none).unwrap().warnings()[0].contains("Treadles is 0, but [TIEUP] goes up to 4"));
     // So are shafts; and no more than none where no end is on one.
@@ -444,14 +451,16 @@ fn a_file_that_counts_from_0_is_told_so() {
     let shafts =
         shafts.replace("[TIEUP]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n", "[TIEUP]\n1=0,1\n2=1,2\n3=2,3\n4=3,0\n");
     refused(&shafts, &["[THREADING] 1 is \"0\"", "shafts are counted from 1", "from 0"]);
-    // A loom of more shafts, or of nobody knows how many: an end may well be on no shaft, and a treadle tied to none.
+    // A loom of more shafts, or of nobody knows how many: an end may well be on no shaft, and a
+    // treadle tied to none.
     for weaving in ["Shafts=8\n", ""] {
         let design = read_text(shafts.replace("Shafts=4\n", weaving)).unwrap();
         let told =
             |warning: &String| warning.contains("[THREADING] 1 is shaft 0") && warning.contains("from 1");
         assert!(design.warnings().iter().any(told), "{weaving:?}: {:?}", design.warnings());
     }
-    // Treadles in both lists; and in the treadling alone, where the tie-up has no row 0 to be pressed.
+    // Treadles in both lists; and in the treadling alone, where the tie-up has no row 0 to be
+    // pressed.
     let pressed = treadles.replace("[TREADLING]\n1=1\n2=2\n3=3\n4=4\n", "[TREADLING]\n1=0\n2=1\n3=2\n4=3\n");
     refused(&pressed, &["counts from 0"]);
     // A line too many that says nothing is left out.

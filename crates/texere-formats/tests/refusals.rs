@@ -1,4 +1,5 @@
-//! Cloth that can't be made or can't come to rest is refused with file, line and key, whatever found that out.
+//! Cloth that can't be made or can't come to rest is refused with file, line and key, whatever
+//! found that out.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -161,7 +162,8 @@ fn a_yarn_that_goes_too_far_names_its_line() {
     assert!(said.contains("design.k, line 7") && said.contains("yarns pass"), "{said}");
 }
 
-/// A cable of 40 loops over 40: the lines that knit its crossing are named, whether the file is a design or a design names it.
+/// A cable of 40 loops over 40: the lines that knit its crossing are named, whether the file is a
+/// design or a design names it.
 #[test]
 fn a_knitout_file_that_is_too_crowded_to_settle_names_its_line() {
     let row = |way: char| {

@@ -1,4 +1,5 @@
-//! Tables of crossings. They go to a device as they are, and what passes have seen comes back in them.
+//! Tables of crossings. They go to a device as they are, and what passes have seen comes back in
+//! them.
 
 use std::ops::ControlFlow;
 
@@ -147,7 +148,8 @@ impl CrossingsSeenRow {
     }
 }
 
-/// Has a device `run` passes, so many between two waits as it may, and hands over what each has seen until `watch` breaks off: what
+/// Has a device `run` passes, so many between two waits as it may, and hands over what each has
+/// seen until `watch` breaks off: what
 /// [`CrossingsSettler::passes`](texere_core::crossings::CrossingsSettler::passes) is on a GPU.
 ///
 /// **Errors**: those of `run`.
@@ -178,8 +180,9 @@ pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
     ups
 }
 
-/// Bytes of device memory that a pass of `plan` moves at least: each crossing as others find it is read, as it is read and written, and as
-/// others will find it written, and a bit for which thread lies on top; what neighbours read again is not counted.
+/// Bytes of device memory that a pass of `plan` moves at least: each crossing as others find it is
+/// read, as it is read and written, and as others will find it written, and a bit for which thread
+/// lies on top; what neighbours read again is not counted.
 #[must_use]
 pub fn crossings_pass_bytes(plan: &CrossingsPlan) -> u64 {
     let crossings = plan.crossings() as u64;

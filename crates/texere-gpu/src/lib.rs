@@ -1,4 +1,5 @@
-//! What the GPU backends of texere share and the core has no need of. No GPU interface is used here.
+//! What the GPU backends of texere share and the core has no need of. No GPU interface is used
+//! here.
 //!
 //! | what a GPU backend needs | here |
 //! |---|---|

@@ -5,8 +5,9 @@ use texere_core::backend::{Chunk, Plan, TablesId};
 
 /// The chunk whose tables lie in a slot of an engine.
 ///
-/// Kernels check no bounds: their tables come from chunks, and what a chunk says is what its plan counted. So an engine
-/// makes sure that it runs them on a chunk of its own plan, and on the one that it has loaded, whoever calls it.
+/// Kernels check no bounds: their tables come from chunks, and what a chunk says is what its plan
+/// counted. So an engine makes sure that it runs them on a chunk of its own plan, and on the one
+/// that it has loaded, whoever calls it.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -29,7 +30,8 @@ pub struct LoadedChunk {
 }
 
 impl LoadedChunk {
-    /// Takes the place of what was loaded: `send` sends the tables of `chunk`. Nothing is loaded if it fails.
+    /// Takes the place of what was loaded: `send` sends the tables of `chunk`. Nothing is loaded if
+    /// it fails.
     ///
     /// **Errors**: [`BackendError::NotLoaded`] for a chunk of another plan, and what `send` says.
     pub fn load<T>(
@@ -47,7 +49,8 @@ impl LoadedChunk {
         Ok(sent)
     }
 
-    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
+    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are
+    /// here.
     pub fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         if plan.owns(chunk) && self.tables.as_ref() == Some(chunk.tables()) {
             Ok(())

@@ -48,7 +48,8 @@ const fn integer(name: &'static str, value: u32) -> Constant {
     Constant { name, value: Value::Integer(value) }
 }
 
-/// All of them, each the core's of the same name. The numbers behind `SINE`, `COSINE` and `ARCTANGENT` are powers.
+/// All of them, each the core's of the same name. The numbers behind `SINE`, `COSINE` and
+/// `ARCTANGENT` are powers.
 pub const CONSTANTS: [Constant; 38] = [
     integer("BLOCK_RINGS", BLOCK_RINGS),
     float("TURN_STEPS", Turn::STEPS),
@@ -90,8 +91,8 @@ pub const CONSTANTS: [Constant; 38] = [
     float("NORMAL_STEPS", PackedVertex::NORMAL_STEPS),
 ];
 
-/// Those of settling, which stand before all sources, too. `UNSEEN` and the two flags are [`SettlingParams`]' own, all others the
-/// core's.
+/// Those of settling, which stand before all sources, too. `UNSEEN` and the two flags are
+/// [`SettlingParams`]' own, all others the core's.
 pub const SETTLING_CONSTANTS: [Constant; 41] = [
     float("MARGIN", settling::MARGIN),
     float("NEAR", settling::NEAR),
@@ -136,7 +137,8 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
     integer("PLATES", SettlingParams::PLATES),
 ];
 
-/// Those of crossings, which stand before all sources, too. The three flags are [`CrossingsParams`]' own, all others the core's.
+/// Those of crossings, which stand before all sources, too. The three flags are
+/// [`CrossingsParams`]' own, all others the core's.
 pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     float("CROSSINGS_ASPECT", crossings::ASPECT),
     float("CROSSINGS_SHAPE", crossings::SHAPE),
@@ -167,11 +169,12 @@ pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     integer("LAYERED", CrossingsParams::LAYERED),
 ];
 
-/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`], [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are
-/// as short as give the same bits again.
+/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`],
+/// [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are as short as
+/// give the same bits again.
 ///
-/// Where `flattened` is false the program is for round yarns alone, as wide as high at each control point: it takes no account of
-/// half heights, and is faster by that. The other does all yarns.
+/// Where `flattened` is false the program is for round yarns alone, as wide as high at each control
+/// point: it takes no account of half heights, and is faster by that. The other does all yarns.
 ///
 /// ```
 /// use texere_gpu::{Language, prelude};

@@ -18,7 +18,8 @@ pub struct SettledRow {
     pub first_point: u32,
     /// 1 where it is closed, else 0.
     pub closed: u32,
-    /// Both halves of its virtual start, bits of two half floats: yarns don't change their thickness while they settle.
+    /// Both halves of its virtual start, bits of two half floats: yarns don't change their
+    /// thickness while they settle.
     pub start_halves: u32,
     /// And of its virtual end.
     pub end_halves: u32,
@@ -81,7 +82,8 @@ impl BoundsRow {
 }
 
 impl SettledRow {
-    /// All yarns, as `settling` has their places and `plan` their control points. Both have the same yarns.
+    /// All yarns, as `settling` has their places and `plan` their control points. Both have the
+    /// same yarns.
     #[must_use]
     pub fn all(settling: &SettlingPlan, plan: &Plan) -> Vec<Self> {
         let rows = settling.strands().iter().enumerate().map(|(yarn, strand)| {

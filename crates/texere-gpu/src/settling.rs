@@ -1,4 +1,5 @@
-//! Tables of a settling. They go to a device as they are, and what devices found comes back in them.
+//! Tables of a settling. They go to a device as they are, and what devices found comes back in
+//! them.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::Ends;
@@ -15,7 +16,8 @@ const CELLS: u64 = 64;
 
 /// What is known of a place that settles, beside where it is.
 ///
-/// **Shape**: four 4-byte values, 16 bytes. A table has one row more than places: its `first_chord` ends the last interval.
+/// **Shape**: four 4-byte values, 16 bytes. A table has one row more than places: its `first_chord`
+/// ends the last interval.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct PlaceRow {
@@ -63,7 +65,8 @@ const _: () = assert!(size_of::<StrandRow>() == 32 && std::mem::offset_of!(Stran
 pub struct ChordRow {
     /// The place of its interval.
     pub place: u32,
-    /// How far along its yarn it begins, in units of [`Spans::along`](texere_core::settling::Spans::along).
+    /// How far along its yarn it begins, in units of
+    /// [`Spans::along`](texere_core::settling::Spans::along).
     pub from: u32,
     /// And where it ends.
     pub to: u32,
@@ -274,8 +277,9 @@ impl SettlingParams {
         Self { growth, ease, momentum, tension, ..self }
     }
 
-    /// The same with the cells that chords are sorted into at a growth, where `rows` say how far they reach: as large that a
-    /// chord's neighbours lie in its own cell or one beside it, and no more of them than chords.
+    /// The same with the cells that chords are sorted into at a growth, where `rows` say how far
+    /// they reach: as large that a chord's neighbours lie in its own cell or one beside it, and no
+    /// more of them than chords.
     #[must_use]
     pub fn with_cells(self, plan: &SettlingPlan, growth: f32, rows: &[ExtentRow]) -> Self {
         let fold = |of: fn(&ExtentRow) -> i32, better: fn(i32, i32) -> i32| {
@@ -337,12 +341,14 @@ pub fn settles_flattened(plan: &SettlingPlan) -> bool {
     plan.places().iter().any(|place| place.halves.width() != place.halves.height())
 }
 
-/// Bytes of device memory that a pass of `plan` in the weighted form moves, where chords have `neighbours` in all: every table
-/// once, what is written and read again twice, and for each neighbour its number and its chord.
+/// Bytes of device memory that a pass of `plan` in the weighted form moves, where chords have
+/// `neighbours` in all: every table once, what is written and read again twice, and for each
+/// neighbour its number and its chord.
 #[must_use]
 pub fn settling_pass_bytes(plan: &SettlingPlan, neighbours: u64) -> u64 {
-    // Of a place: where it is and where it goes, what is known of it, its length, its last step, and what pulls at its
-    // interval (four slots of eight numbers, its length's way and arc, the least distance and clearance), with what is read again.
+    // Of a place: where it is and where it goes, what is known of it, its length, its last step,
+    // and what pulls at its interval (four slots of eight numbers, its length's way and arc, the
+    // least distance and clearance), with what is read again.
     const PLACE: u64 = 3 * 16 + 16 + 2 * 16 + 4 + 2 * 16 + 2 * 4 * (4 * 8 + 6);
     // Of a chord: its row, where it lies, written and read, and where its neighbours begin.
     const CHORD: u64 = 16 + 2 * 32 + 4;

@@ -40,7 +40,8 @@ pub struct CapRow {
     pub yarn: u32,
     /// 0 at the yarn's start, 1 at its finish.
     pub end: u32,
-    /// Padded control point `P[j-1]` of the interval that the end belongs to, from the start of the chunk's window.
+    /// Padded control point `P[j-1]` of the interval that the end belongs to, from the start of the
+    /// chunk's window.
     pub first_point: u32,
     /// The first vertex of the ring that the cap closes.
     pub ring_vertex: u32,
@@ -167,8 +168,9 @@ impl Params {
     }
 }
 
-/// Where the leans of `yarns` begin in the lean table, which kernels read behind the rolls of blocks, and what is there: the lean of each ring,
-/// [`BLOCK_RINGS`] for each block of those yarns, zero where a yarn does not lean. Nothing where no yarn of `plan` does.
+/// Where the leans of `yarns` begin in the lean table, which kernels read behind the rolls of
+/// blocks, and what is there: the lean of each ring, [`BLOCK_RINGS`] for each block of those yarns,
+/// zero where a yarn does not lean. Nothing where no yarn of `plan` does.
 ///
 /// **Panics** past the last yarn.
 #[must_use]
@@ -193,8 +195,9 @@ pub fn lean_count(plan: &Plan) -> u64 {
     if plan.layout().leans() { plan.block_count() * u64::from(BLOCK_RINGS) } else { 0 }
 }
 
-/// The block table of `chunk`, one of `plan`'s, for a schedule with a lane a part: one row a part, or a few where it has
-/// more than `most_rings`. Such a row is consecutive rings of a yarn, from any ring on and of any number.
+/// The block table of `chunk`, one of `plan`'s, for a schedule with a lane a part: one row a part,
+/// or a few where it has more than `most_rings`. Such a row is consecutive rings of a yarn, from
+/// any ring on and of any number.
 #[must_use]
 pub fn part_rows(plan: &Plan, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
     joined_rows(plan, chunk.blocks(), most_rings)
@@ -224,8 +227,8 @@ fn joined_rows(plan: &Plan, blocks: &[Block], most_rings: u32) -> Vec<Block> {
     rows
 }
 
-/// Cap indices numbered from the cap's first vertex: for each section of `plan` those of its start cap,
-/// `3 (sides - 2)` values, and as many of its finish cap. Empty where there are no caps.
+/// Cap indices numbered from the cap's first vertex: for each section of `plan` those of its start
+/// cap, `3 (sides - 2)` values, and as many of its finish cap. Empty where there are no caps.
 #[must_use]
 pub fn cap_pattern(plan: &Plan) -> Vec<u32> {
     let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };
@@ -286,8 +289,8 @@ mod tests {
         });
     }
 
-    /// The plan's own blocks are rows of 64 rings: these come out again, also from rows of fewer, and no row is longer
-    /// than asked for.
+    /// The plan's own blocks are rows of 64 rings: these come out again, also from rows of fewer,
+    /// and no row is longer than asked for.
     #[test]
     fn rows_of_any_length_say_what_the_blocks_say() {
         chunks(|plan, chunk| {

@@ -1,4 +1,5 @@
-//! Uploads to padded control points that lie elsewhere, such as on a GPU: what to write there, without a copy here.
+//! Uploads to padded control points that lie elsewhere, such as on a GPU: what to write there,
+//! without a copy here.
 
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -7,13 +8,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use texere_core::backend::{Plan, renew_virtual_ends, zeroed};
 use texere_core::{BackendError, ControlPoint};
 
-/// A yarn's first three and last two points: those that virtual ends come from. Of a short yarn some are the same.
+/// A yarn's first three and last two points: those that virtual ends come from. Of a short yarn
+/// some are the same.
 pub(crate) type Ends = [ControlPoint; 5];
 
-/// The ends of all yarns as last uploaded, so that virtual ends are right also after an upload of the other end alone.
+/// The ends of all yarns as last uploaded, so that virtual ends are right also after an upload of
+/// the other end alone.
 ///
-/// Together with the padded points themselves, which start as zeros, this does what [`PaddedPoints`](texere_core::backend::PaddedPoints)
-/// does.
+/// Together with the padded points themselves, which start as zeros, this does what
+/// [`PaddedPoints`](texere_core::backend::PaddedPoints) does.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -46,8 +49,8 @@ impl YarnEnds {
         Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)?, known: true, flattened: false })
     }
 
-    /// What an upload of `points`, the first of which is number `first` of the fabric, has to write. Points past the fabric's
-    /// last are left out.
+    /// What an upload of `points`, the first of which is number `first` of the fabric, has to
+    /// write. Points past the fabric's last are left out.
     ///
     /// **Panics** for another plan that has more yarns.
     #[must_use]
@@ -67,7 +70,8 @@ impl YarnEnds {
         upload
     }
 
-    /// Whether a control point that was kept was not round, as wide as high; so it stays, even where that point is round again.
+    /// Whether a control point that was kept was not round, as wide as high; so it stays, even
+    /// where that point is round again.
     #[must_use]
     pub fn flattened(&self) -> bool {
         self.flattened
@@ -84,22 +88,23 @@ impl YarnEnds {
         self.flattened = upload.flattened.load(Ordering::Relaxed);
     }
 
-    /// Forgets all ends, for the device has other control points now that never were here. `flattened` says whether one of
-    /// them is not round.
+    /// Forgets all ends, for the device has other control points now that never were here.
+    /// `flattened` says whether one of them is not round.
     pub fn forget(&mut self, flattened: bool) {
         self.known = false;
         self.ends.fill(Ends::default());
         self.flattened |= flattened;
     }
 
-    /// Whether the device's control points have to be read before so many are uploaded, the first of which is number `first`:
-    /// virtual ends may hang on points that were forgotten.
+    /// Whether the device's control points have to be read before so many are uploaded, the first
+    /// of which is number `first`: virtual ends may hang on points that were forgotten.
     #[must_use]
     pub fn are_missing(&self, plan: &Plan, first: u64, count: usize) -> bool {
         !self.known && (first > 0 || (count as u64) < plan.layout().point_count())
     }
 
-    /// Takes all ends from the device's control points, padded as [`Plan::padded_offsets`] of `plan` says.
+    /// Takes all ends from the device's control points, padded as [`Plan::padded_offsets`] of
+    /// `plan` says.
     ///
     /// **Panics** for fewer points, and for another plan that has more yarns.
     pub fn renew(&mut self, plan: &Plan, padded: &[ControlPoint]) {
@@ -115,8 +120,8 @@ impl YarnEnds {
     }
 }
 
-/// Control points on their way to where they lie padded, as [`Plan::padded_offsets`] says. Several threads may write pieces
-/// of it at once.
+/// Control points on their way to where they lie padded, as [`Plan::padded_offsets`] says. Several
+/// threads may write pieces of it at once.
 #[derive(Debug)]
 pub struct PaddedUpload<'a> {
     plan: &'a Plan,
@@ -125,13 +130,15 @@ pub struct PaddedUpload<'a> {
     yarns: Range<usize>,
     /// Of the first yarn and the last, of which only a part may be sent.
     cut: [Ends; 2],
-    /// Whether a point that was lent, or sent before, is not round. Found while the points are in a core's cache anyway.
+    /// Whether a point that was lent, or sent before, is not round. Found while the points are in a
+    /// core's cache anyway.
     flattened: AtomicBool,
 }
 
 impl PaddedUpload<'_> {
-    /// The ranges of padded points that are to be written, in order: the points sent, with the virtual ends between them,
-    /// and the first yarn's start and the last one's end where they hang on what was sent. Any may be empty.
+    /// The ranges of padded points that are to be written, in order: the points sent, with the
+    /// virtual ends between them, and the first yarn's start and the last one's end where they hang
+    /// on what was sent. Any may be empty.
     #[must_use]
     pub fn ranges(&self) -> [Range<u64>; 3] {
         let Some(last) = self.yarns.clone().last() else { return [0..0, 0..0, 0..0] };
@@ -139,7 +146,8 @@ impl PaddedUpload<'_> {
         let ([_, last_inner, back], [to, _]) = (self.places(last), self.overlap(last));
         let (start, end) = (inner.start + from.start as u64, last_inner.start + to.end as u64);
         let ([of_front, _], [_, of_back]) = (self.origins(self.yarns.start), self.origins(last));
-        // With the first of a yarn's points goes what lies before it, with the last what lies behind.
+        // With the first of a yarn's points goes what lies before it, with the last what lies
+        // behind.
         let (from_first, to_last) = (start == front.end, end == back.start);
         let start = if from_first { front.start } else { start };
         let end = if to_last { back.end } else { end };
@@ -151,8 +159,9 @@ impl PaddedUpload<'_> {
         ]
     }
 
-    /// Lends the padded points of `range`, a part of one of [`PaddedUpload::ranges`], run by run: the caller's own points
-    /// where they lie, and virtual ends. Of another range it lends what it knows.
+    /// Lends the padded points of `range`, a part of one of [`PaddedUpload::ranges`], run by run:
+    /// the caller's own points where they lie, and virtual ends. Of another range it lends what it
+    /// knows.
     pub fn runs(&self, range: Range<u64>, mut take: impl FnMut(&[ControlPoint])) {
         let offsets = self.plan.padded_offsets();
         let before = offsets.partition_point(|&start| start <= range.start).saturating_sub(1);

@@ -28,7 +28,8 @@ pub(crate) struct Attributes {
 impl Attributes {
     /// Compiles the kernels if no engine has before, and takes memory.
     ///
-    /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn, [`BackendError::OutOfMemory`], [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn,
+    /// [`BackendError::OutOfMemory`], [`BackendError::Compile`].
     pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
         if opened.schedule != Schedule::PerRing {
             return Err(BackendError::NoAttributes);
@@ -53,8 +54,9 @@ impl Attributes {
     ) -> Result<Launches, BackendError> {
         let (params, window) = (Params::new(work.plan, chunk), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&self.lengths)]].concat();
-        // SAFETY: the arguments are those of `block_lengths`; a group reads its row of the chunk's table and what that names, and writes its
-        // block's length: the plan counted all blocks. A repeated ring's is the next chunk's first.
+        // SAFETY: the arguments are those of `block_lengths`; a group reads its row of the chunk's
+        // table and what that names, and writes its block's length: the plan counted all blocks. A
+        // repeated ring's is the next chunk's first.
         unsafe { self.block_lengths.run(work.opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
@@ -65,8 +67,8 @@ impl Attributes {
         yarns: Range<usize>,
     ) -> Result<Launches, BackendError> {
         let args = in_memory([&work.tables.yarns, &self.lengths]);
-        // SAFETY: the arguments are those of `yarn_lengths`; a group reads its yarn's row, and reads and writes the lengths of the yarn's
-        // blocks: the plan counted all of them.
+        // SAFETY: the arguments are those of `yarn_lengths`; a group reads its yarn's row, and
+        // reads and writes the lengths of the yarn's blocks: the plan counted all of them.
         unsafe { self.yarn_lengths.run(work.opened, &args, yarns, None) }
     }
 
@@ -81,14 +83,16 @@ impl Attributes {
         let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let outputs = in_memory([&self.lengths, &memory.attributes]);
         let args = [&work.inputs(&params, &window, memory)[..5], &outputs].concat();
-        // SAFETY: the arguments are those of `attributes`; a group reads its row of the chunk's table and what that names, and writes the
-        // attributes of the row's vertices, for all of which there is room.
+        // SAFETY: the arguments are those of `attributes`; a group reads its row of the chunk's
+        // table and what that names, and writes the attributes of the row's vertices, for all of
+        // which there is room.
         let tubes = unsafe { self.of_tubes.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let caps = in_memory([&memory.caps, &memory.attributes]);
         let args = [&[Arg::Value(bytes_of(&params))][..], &caps].concat();
         let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `cap_attributes`; a lane reads its cap's row and an attribute of the ring that this names, and
-        // writes one, for all of which there is room. Lanes past the last do nothing.
+        // SAFETY: the arguments are those of `cap_attributes`; a lane reads its cap's row and an
+        // attribute of the ring that this names, and writes one, for all of which there is room.
+        // Lanes past the last do nothing.
         let caps = unsafe { self.of_caps.run(opened, &args, 0..lanes.div_ceil(self.of_caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

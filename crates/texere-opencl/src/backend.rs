@@ -49,19 +49,21 @@ pub struct OpenClBackend {
 const LARGEST_GROUP: usize = 256;
 
 impl OpenClBackend {
-    /// All devices of all platforms, in the order that [`OpenClBackend::open`] counts them. Nothing is opened.
+    /// All devices of all platforms, in the order that [`OpenClBackend::open`] counts them. Nothing
+    /// is opened.
     ///
-    /// **Errors**: [`BackendError::Driver`] with an [`OpenClError`](crate::OpenClError) as its source where there is no
-    /// loader or no platform.
+    /// **Errors**: [`BackendError::Driver`] with an [`OpenClError`](crate::OpenClError) as its
+    /// source where there is no loader or no platform.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
         Ok(listed(Schedule::PerRing)?.into_iter().map(|device| device.info).collect())
     }
 
-    /// Opens device number `index` of [`OpenClBackend::devices`] and compiles the kernels of `schedule` for it.
+    /// Opens device number `index` of [`OpenClBackend::devices`] and compiles the kernels of
+    /// `schedule` for it.
     ///
     /// **Errors**: those of [`OpenClBackend::devices`]; [`BackendError::NoDevice`] past the last;
-    /// [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`] for a device without workgroups of
-    /// 256, and for [`Schedule::Serial`].
+    /// [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`] for a device
+    /// without workgroups of 256, and for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let mut devices = listed(schedule)?;
         if index >= devices.len() {
@@ -80,12 +82,13 @@ impl OpenClBackend {
         Self::with(chosen.id, context, queue, chosen.info)
     }
 
-    /// Works on a queue of the caller's, in its context and on its device, under the name `opencl` or `opencl/per-yarn`.
-    /// Queue and context are retained for as long as the backend or a session of it lives. Kernels and uploads go to
-    /// this queue in the order of the calls; results are read through a queue of our own.
+    /// Works on a queue of the caller's, in its context and on its device, under the name `opencl`
+    /// or `opencl/per-yarn`. Queue and context are retained for as long as the backend or a session
+    /// of it lives. Kernels and uploads go to this queue in the order of the calls; results are
+    /// read through a queue of our own.
     ///
-    /// A queue without profiling does not time its commands: each stage is then waited for, and timed by the host's
-    /// clock.
+    /// A queue without profiling does not time its commands: each stage is then waited for, and
+    /// timed by the host's clock.
     ///
     /// **Errors**: [`BackendError::Unsupported`] for a queue that runs out of order, and those of
     /// [`OpenClBackend::open`].
@@ -158,7 +161,8 @@ impl OpenClBackend {
         self
     }
 
-    /// Starts work on a plan in a session that lends its memory: see [`OpenClSession::device_mesh`].
+    /// Starts work on a plan in a session that lends its memory: see
+    /// [`OpenClSession::device_mesh`].
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], also where the control points exceed one buffer;
     /// [`BackendError::Unsupported`] for what [`Schedule::PerYarn`] does not do.

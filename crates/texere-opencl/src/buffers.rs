@@ -40,9 +40,9 @@ impl Buffer {
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
-        // Drivers may allocate at the first use only: a write makes them report now that there is no memory. Not
-        // clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads call that on one queue.
-        // SAFETY: a blocking write.
+        // Drivers may allocate at the first use only: a write makes them report now that there is
+        // no memory. Not clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads
+        // call that on one queue. SAFETY: a blocking write.
         let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
         claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)
@@ -59,7 +59,8 @@ impl Buffer {
     pub(crate) fn clear(&mut self, opened: &Opened) -> Result<(), BackendError> {
         if self.bytes > 0 {
             let zero = 0u32;
-            // SAFETY: the pattern is a u32 that the call copies; `bytes`, a multiple of 4, is all of the buffer.
+            // SAFETY: the pattern is a u32 that the call copies; `bytes`, a multiple of 4, is all
+            // of the buffer.
             let filled = unsafe {
                 let (queue, pattern) = (opened.queue.raw(), (&raw const zero).cast());
                 enqueue_fill_buffer(queue, self.raw(), pattern, 4, 0, self.bytes as usize, 0, ptr::null())
@@ -69,7 +70,8 @@ impl Buffer {
         Ok(())
     }
 
-    /// Takes on what `other`, another buffer of the same size, holds after what is in the queue of the kernels.
+    /// Takes on what `other`, another buffer of the same size, holds after what is in the queue of
+    /// the kernels.
     pub(crate) fn copy(&mut self, opened: &Opened, other: &Self) -> Result<(), BackendError> {
         debug_assert_eq!(self.bytes, other.bytes, "a copy of all of it");
         if self.bytes > 0 {
@@ -83,7 +85,8 @@ impl Buffer {
         Ok(())
     }
 
-    /// Reads from byte `offset` into `out`, after what is in the queue of the kernels, which is waited for.
+    /// Reads from byte `offset` into `out`, after what is in the queue of the kernels, which is
+    /// waited for.
     pub(crate) fn read_now<T: Pod>(
         &self,
         opened: &Opened,
@@ -94,7 +97,8 @@ impl Buffer {
             return Ok(());
         }
         let (offset, bytes, start) = (offset as usize, size_of_val(out), out.as_mut_ptr().cast());
-        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as `bytes` says.
+        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as
+        // long as `bytes` says.
         unsafe { self.enqueue_read(opened, &opened.queue, CL_BLOCKING, offset, bytes, start, None) }?;
         Ok(())
     }
@@ -110,8 +114,8 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// At least `bytes`, for a chunk that is larger than those before; what the buffer held is lost then. Commands that
-    /// still use the smaller memory keep it until they end.
+    /// At least `bytes`, for a chunk that is larger than those before; what the buffer held is lost
+    /// then. Commands that still use the smaller memory keep it until they end.
     pub(crate) fn reserve(
         &mut self,
         opened: &Opened,
@@ -135,8 +139,8 @@ impl Buffer {
         self.memory.as_ref().map_or(ptr::null_mut(), Handle::raw)
     }
 
-    /// Sends `data` to byte `offset` through `queue`, after `after`, and waits until `data` may change again. None where
-    /// there is nothing to send.
+    /// Sends `data` to byte `offset` through `queue`, after `after`, and waits until `data` may
+    /// change again. None where there is nothing to send.
     pub(crate) fn write<T: Pod>(
         &mut self,
         opened: &Opened,
@@ -169,8 +173,8 @@ impl Buffer {
     ) -> Result<Handle, i32> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        // SAFETY: the pointer is to `bytes` bytes, and this function's contract keeps them as they are. A range
-        // past the buffer's end comes back as an error.
+        // SAFETY: the pointer is to `bytes` bytes, and this function's contract keeps them as they
+        // are. A range past the buffer's end comes back as an error.
         Handle::event(unsafe {
             enqueue_write_buffer(
                 queue.raw(),
@@ -196,7 +200,8 @@ impl Buffer {
         if out.is_empty() {
             return Ok(());
         }
-        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as `bytes` says.
+        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as
+        // long as `bytes` says.
         let event = unsafe {
             self.enqueue_read(
                 opened,
@@ -214,7 +219,8 @@ impl Buffer {
 
     /// # Safety
     ///
-    /// `out` points at `bytes` bytes of writable memory, which nothing else touches until the command has ended.
+    /// `out` points at `bytes` bytes of writable memory, which nothing else touches until the
+    /// command has ended.
     #[allow(clippy::too_many_arguments, reason = "as many as clEnqueueReadBuffer has")]
     unsafe fn enqueue_read(
         &self,
@@ -236,8 +242,8 @@ impl Buffer {
     }
 }
 
-/// Bytes of a piece that a sink is lent: whole vertices (24 bytes) and rings (32), large enough that the transfer's
-/// start does not matter.
+/// Bytes of a piece that a sink is lent: whole vertices (24 bytes) and rings (32), large enough
+/// that the transfer's start does not matter.
 const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
 
 /// Two pieces of pinned memory: while the sink has one, the other is filled.
@@ -250,7 +256,8 @@ pub(crate) struct Staging {
 pub(crate) type Sink<'a, T> = &'a mut dyn FnMut(u32, &[T]) -> ControlFlow<()>;
 
 impl Staging {
-    /// Reads `count` values from the start of `buffer`, after `after`, and lends them piece by piece.
+    /// Reads `count` values from the start of `buffer`, after `after`, and lends them piece by
+    /// piece.
     pub(crate) fn read<T: Pod>(
         &mut self,
         opened: &Arc<Opened>,
@@ -271,8 +278,8 @@ impl Staging {
             };
             let start = pinned.start();
             *piece = Some(pinned);
-            // SAFETY: the pinned memory is large enough and, in order on the queue, not written by another command; it is
-            // not looked at before this command has ended.
+            // SAFETY: the pinned memory is large enough and, in order on the queue, not written by
+            // another command; it is not looked at before this command has ended.
             let event = unsafe {
                 buffer.enqueue_read(
                     opened,
@@ -295,7 +302,8 @@ impl Staging {
             running = if next < count { Some(launch(&mut self.pieces, next)?) } else { None };
             wait(opened, &event)?;
             if let Some(pinned) = &self.pieces[first / per_piece % 2] {
-                // SAFETY: the command that wrote this piece has ended, and the one that is running writes the other.
+                // SAFETY: the command that wrote this piece has ended, and the one that is running
+                // writes the other.
                 let values = unsafe { pinned.values(per_piece.min(count - first)) }?;
                 if sink(first as u32, values).is_break() {
                     return Ok(ControlFlow::Break(()));

@@ -37,12 +37,13 @@ impl ChunkMemory {
         [table, caps, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
-    /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
-    /// that work here.
+    /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in
+    /// flight but after those that work here.
     pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         let Self { loaded, table, caps, ready, .. } = self;
         self.rows = loaded.load(plan, chunk, || {
-            // Kept until the new tables are sent: commands that still use the old ones may be under way.
+            // Kept until the new tables are sent: commands that still use the old ones may be under
+            // way.
             let used = ready.clone();
             let parts;
             let rows = match opened.schedule {

@@ -38,7 +38,8 @@ impl Clock {
         self.note_all(stage, event, event);
     }
 
-    /// Counts the time from the start of `first`'s command to the end of `last`'s, a later one of the same queue.
+    /// Counts the time from the start of `first`'s command to the end of `last`'s, a later one of
+    /// the same queue.
     pub(crate) fn note_all(&mut self, stage: Stage, first: &Arc<Handle>, last: &Arc<Handle>) {
         self.pending.push((stage, [first.clone(), last.clone()]));
         if self.pending.len() >= PENDING {

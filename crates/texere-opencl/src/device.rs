@@ -20,8 +20,9 @@ pub(crate) struct Listed {
 
 /// All devices of all platforms, platform by platform.
 pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
-    // Loader and drivers set themselves up on the first call of each kind, and some fail if a second thread calls
-    // meanwhile: ocl-icd then answers that there is no platform, PoCL reads a device that is half made.
+    // Loader and drivers set themselves up on the first call of each kind, and some fail if a
+    // second thread calls meanwhile: ocl-icd then answers that there is no platform, PoCL reads a
+    // device that is half made.
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     let _alone = ONE_AT_A_TIME.lock();
     let mut devices = Vec::new();
@@ -83,8 +84,8 @@ pub(crate) fn info(
         memory_bytes: Some(memory),
         limits: Limits {
             binding_bytes: device.max_mem_alloc_size().map_err(ask("clGetDeviceInfo"))?,
-            // The driver, other programs and our small tables want some too; where the memory is the host's, so does
-            // the mesh that is read into it.
+            // The driver, other programs and our small tables want some too; where the memory is
+            // the host's, so does the mesh that is read into it.
             memory_bytes: if shared { memory / 2 } else { memory / 8 * 7 },
             ..Limits::NONE
         },

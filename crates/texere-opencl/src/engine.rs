@@ -71,13 +71,15 @@ impl OpenClEngine {
         &self.memory[slot.index()]
     }
 
-    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in `slot`.
+    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in
+    /// `slot`.
     fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
-    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its memory; none where that is on no device of OpenCL.
+    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its memory; none where
+    /// that is on no device of OpenCL.
     ///
     /// ```no_run
     /// # fn example(mesh: &texere_core::backend::LiveMesh) -> Option<()> {
@@ -93,7 +95,8 @@ impl OpenClEngine {
         (engine as &dyn Any).downcast_ref()
     }
 
-    /// The mesh of the chunk in `slot` where it lies on the device. None where nothing was made yet.
+    /// The mesh of the chunk in `slot` where it lies on the device. None where nothing was made
+    /// yet.
     #[must_use]
     pub fn device_mesh(&self, slot: Slot) -> Option<DeviceMesh<'_>> {
         Some(DeviceMesh::new(self.memory.get(slot.index())?))
@@ -115,7 +118,8 @@ impl OpenClEngine {
         Ok(())
     }
 
-    /// Starts the kernels of a stage, notes their time, and lets the memory of `slot` wait for them.
+    /// Starts the kernels of a stage, notes their time, and lets the memory of `slot` wait for
+    /// them.
     fn run(
         &mut self,
         stage: Stage,
@@ -151,7 +155,8 @@ impl OpenClEngine {
         launches: Result<Launches, BackendError>,
     ) -> Result<(), BackendError> {
         let launches = launches.inspect_err(|_| {
-            // Some kernels may be running, and nobody else would wait for them. An error of this wait adds nothing.
+            // Some kernels may be running, and nobody else would wait for them. An error of this
+            // wait adds nothing.
             let _ = finish(self.opened.queue.raw());
         })?;
         if self.opened.profiled {

@@ -12,10 +12,12 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum OpenClError {
-    /// The loader could not be loaded. Install the package `ocl-icd-libopencl1`, or your GPU's driver.
+    /// The loader could not be loaded. Install the package `ocl-icd-libopencl1`, or your GPU's
+    /// driver.
     #[error("no OpenCL loader (libOpenCL) is installed")]
     NoLoader,
-    /// The loader knows no platform. Install your GPU's driver, or `pocl-opencl-icd` to run on the CPU.
+    /// The loader knows no platform. Install your GPU's driver, or `pocl-opencl-icd` to run on the
+    /// CPU.
     #[error("no OpenCL platform is installed")]
     NoPlatform,
     /// Memory was mapped where no value can lie.

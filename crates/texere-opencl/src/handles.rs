@@ -1,7 +1,7 @@
 //! Owned OpenCL objects.
 //!
-//! opencl3's own types expect every release to succeed, so they panic after a lost device, perhaps while unwinding.
-//! Here a release that fails is ignored: there is nothing left to do about it.
+//! opencl3's own types expect every release to succeed, so they panic after a lost device, perhaps
+//! while unwinding. Here a release that fails is ignored: there is nothing left to do about it.
 
 use std::ffi::c_void;
 
@@ -17,8 +17,8 @@ pub(crate) struct Handle {
     release: Release,
 }
 
-// SAFETY: OpenCL objects may be used from any thread at any time, but for setting arguments on one kernel from two
-// threads at once; `Kernel::set` takes the kernel by `&mut`.
+// SAFETY: OpenCL objects may be used from any thread at any time, but for setting arguments on one
+// kernel from two threads at once; `Kernel::set` takes the kernel by `&mut`.
 unsafe impl Send for Handle {}
 // SAFETY: as above.
 unsafe impl Sync for Handle {}
@@ -61,7 +61,8 @@ impl Handle {
 
 impl Drop for Handle {
     fn drop(&mut self) {
-        // SAFETY: `raw` came with one reference, of the kind that `release` gives back, and this is where it ends.
+        // SAFETY: `raw` came with one reference, of the kind that `release` gives back, and this is
+        // where it ends.
         let _ = unsafe { (self.release)(self.raw) };
     }
 }

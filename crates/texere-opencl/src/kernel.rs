@@ -31,8 +31,8 @@ pub(crate) enum Arg<'a> {
     Value(&'a [u8]),
 }
 
-/// Workgroups of one launch at most: 16 million rings, a few milliseconds on a GPU, so that no launch of a large chunk
-/// runs into a watchdog.
+/// Workgroups of one launch at most: 16 million rings, a few milliseconds on a GPU, so that no
+/// launch of a large chunk runs into a watchdog.
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {
@@ -54,13 +54,14 @@ impl Kernel {
         self.group
     }
 
-    /// Sets all arguments, in the order of the source, and runs workgroups `groups` after what is in the queue and after
-    /// `after`; in several launches where they are many. Gives back the launches' events, in order.
+    /// Sets all arguments, in the order of the source, and runs workgroups `groups` after what is
+    /// in the queue and after `after`; in several launches where they are many. Gives back the
+    /// launches' events, in order.
     ///
     /// # Safety
     ///
-    /// `args` are those of the kernel's source, in order, and every buffer among them is as large as the kernel's reads
-    /// and writes of `groups` workgroups need.
+    /// `args` are those of the kernel's source, in order, and every buffer among them is as large
+    /// as the kernel's reads and writes of `groups` workgroups need.
     pub(crate) unsafe fn run(
         &mut self,
         opened: &Opened,
@@ -77,8 +78,8 @@ impl Kernel {
                 }
                 Arg::Value(value) => (value.len(), value.as_ptr().cast()),
             };
-            // SAFETY: `value` points at `bytes` bytes, which the call copies; that they suit the parameter is this
-            // function's contract.
+            // SAFETY: `value` points at `bytes` bytes, which the call copies; that they suit the
+            // parameter is this function's contract.
             unsafe { set_kernel_arg(self.handle.raw(), number as u32, bytes, value) }
                 .map_err(opened.failed("clSetKernelArg"))?;
         }
@@ -88,7 +89,8 @@ impl Kernel {
         for first in groups.clone().step_by(LAUNCH_GROUPS) {
             let offset = first * self.group;
             let lanes = (groups.end - first).min(LAUNCH_GROUPS) * self.group;
-            // SAFETY: one dimension, each pointer to one value; the event is alive; the rest is this function's contract.
+            // SAFETY: one dimension, each pointer to one value; the event is alive; the rest is
+            // this function's contract.
             let event = unsafe {
                 enqueue_nd_range_kernel(
                     opened.queue.raw(),

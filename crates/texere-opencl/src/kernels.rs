@@ -31,8 +31,8 @@ pub(crate) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// What the kernels that read a chunk's table begin with, in the order of the sources. Those that need no rolls leave
-    /// out the last two, `block_turns` the last.
+    /// What the kernels that read a chunk's table begin with, in the order of the sources. Those
+    /// that need no rolls leave out the last two, `block_turns` the last.
     pub(crate) fn inputs(
         &self,
         params: &'a Params,
@@ -65,8 +65,8 @@ pub(crate) fn kernels(
     })
 }
 
-/// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the chunk's tables, and room for what
-/// the stage writes.
+/// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the
+/// chunk's tables, and room for what the stage writes.
 pub(crate) trait Kernels: Debug + Send {
     /// Whether `mesh` reads the chunk's rings rather than work them out itself.
     fn mesh_reads_rings(&self) -> bool;
@@ -129,16 +129,17 @@ impl Kernels for PerRing {
         let Work { opened, plan, .. } = work;
         let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let args = &work.inputs(&params, &window, memory)[..6];
-        // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's table and what that
-        // names, and writes its block's roll: the plan counted all blocks. A repeated ring's is the next chunk's first.
+        // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's
+        // table and what that names, and writes its block's roll: the plan counted all blocks. A
+        // repeated ring's is the next chunk's first.
         unsafe { self.block_turns.run(opened, args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
     fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError> {
         let Work { opened, tables, .. } = work;
         let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.yarn_turns)];
-        // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and writes the yarn's
-        // rolls, and writes its whole turn: the plan counted all of them.
+        // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and
+        // writes the yarn's rolls, and writes its whole turn: the plan counted all of them.
         unsafe { self.yarn_rolls.run(opened, &args, yarns, None) }
     }
 
@@ -151,8 +152,8 @@ impl Kernels for PerRing {
         let Work { opened, plan, .. } = work;
         let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..], &[Arg::Memory(&memory.rings)]].concat();
-        // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's table and what that
-        // names, and writes its rings, for all of which there is room.
+        // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's
+        // table and what that names, and writes its rings, for all of which there is room.
         unsafe { self.trajectory.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
@@ -171,8 +172,9 @@ impl Kernels for PerRing {
             Arg::Memory(&memory.indices),
         ];
         let args = [&work.inputs(&params, &window, memory)[..], &outputs].concat();
-        // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and what that names, and
-        // writes the row's vertices and indices, for all of which there is room.
+        // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and
+        // what that names, and writes the row's vertices and indices, for all of which there is
+        // room.
         let tubes = unsafe { self.mesh.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let args = [
             Arg::Value(bytes_of(&params)),
@@ -184,8 +186,9 @@ impl Kernels for PerRing {
             Arg::Memory(&memory.indices),
         ];
         let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `caps`; a lane reads its cap's row and what that names, and writes a vertex
-        // and a triangle, for all of which there is room. Lanes past the last do nothing.
+        // SAFETY: the arguments are those of `caps`; a lane reads its cap's row and what that
+        // names, and writes a vertex and a triangle, for all of which there is room. Lanes past the
+        // last do nothing.
         let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

@@ -45,13 +45,15 @@ impl Packed {
         let inputs = work.inputs(&params, &window, memory);
         let outputs = [Arg::Memory(&tables.outlines), Arg::Memory(&memory.packed)];
         let args = [&inputs[..], &outputs].concat();
-        // SAFETY: the arguments are those of `packed`; a group reads its row of the chunk's table and what that names, and
-        // writes the row's packed vertices, for all of which there is room.
+        // SAFETY: the arguments are those of `packed`; a group reads its row of the chunk's table
+        // and what that names, and writes the row's packed vertices, for all of which there is
+        // room.
         let tubes = unsafe { self.tubes.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let args = [&inputs[..3], &[Arg::Memory(&memory.caps), Arg::Memory(&memory.packed)]].concat();
         let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `packed_caps`; a lane reads its cap's row, what that names and a packed vertex of
-        // the ring, and writes one, for all of which there is room. Lanes past the last do nothing.
+        // SAFETY: the arguments are those of `packed_caps`; a lane reads its cap's row, what that
+        // names and a packed vertex of the ring, and writes one, for all of which there is room.
+        // Lanes past the last do nothing.
         let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

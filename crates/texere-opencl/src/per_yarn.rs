@@ -58,8 +58,9 @@ impl Kernels for PerYarn {
         let (params, window) = (part_params(plan, chunk, memory), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&memory.rings)]].concat();
         let groups = memory.rows.div_ceil(self.trajectory.group());
-        // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what that names, and writes
-        // the part's rings, for which there is room. Lanes past the last part do nothing.
+        // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what
+        // that names, and writes the part's rings, for which there is room. Lanes past the last
+        // part do nothing.
         unsafe { self.trajectory.run(opened, &args, 0..groups, memory.ready.as_deref()) }
     }
 
@@ -82,8 +83,9 @@ impl Kernels for PerYarn {
             Arg::Memory(&memory.indices),
         ];
         let groups = memory.rows.div_ceil(self.mesh.group());
-        // SAFETY: the arguments are those of `mesh_per_yarn`; a lane reads its part and what that names, and writes the
-        // part's vertices and indices, for which there is room. Lanes past the last part do nothing.
+        // SAFETY: the arguments are those of `mesh_per_yarn`; a lane reads its part and what that
+        // names, and writes the part's vertices and indices, for which there is room. Lanes past
+        // the last part do nothing.
         unsafe { self.mesh.run(opened, &args, 0..groups, memory.ready.as_deref()) }
     }
 }

@@ -68,7 +68,8 @@ impl Pinned {
     ///
     /// No command that writes here is running, and `count` values fit.
     pub(crate) unsafe fn values<T: Pod>(&self, count: usize) -> Result<&[T], BackendError> {
-        // SAFETY: aligned, mapped for as long as `self`, of a type that takes any bits; the rest is the contract.
+        // SAFETY: aligned, mapped for as long as `self`, of a type that takes any bits; the rest is
+        // the contract.
         Ok(unsafe { std::slice::from_raw_parts(self.aligned()?, count) })
     }
 
@@ -85,8 +86,8 @@ impl Pinned {
 
 impl Drop for Pinned {
     fn drop(&mut self) {
-        // SAFETY: mapped once, in `new`, and no slice of it is left. In order, so after every read into it; writes from it
-        // have ended, as its users see to.
+        // SAFETY: mapped once, in `new`, and no slice of it is left. In order, so after every read
+        // into it; writes from it have ended, as its users see to.
         let unmapped = unsafe {
             enqueue_unmap_mem_object(
                 self.opened.transfers.raw(),

@@ -29,7 +29,8 @@ impl Room {
 
     /// `bytes` of zeros for `what`.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
+    /// them, may have.
     pub(crate) fn zeroed(
         &mut self,
         opened: &Opened,

@@ -13,7 +13,8 @@ use crate::handles::Handle;
 
 /// A [`Session`] that lends a chunk's mesh where it lies.
 ///
-/// Control points stay on the device whole; a chunk's results stay until a stage is run for the next chunk but one.
+/// Control points stay on the device whole; a chunk's results stay until a stage is run for the
+/// next chunk but one.
 ///
 /// ```no_run
 /// use std::sync::Arc;
@@ -36,16 +37,19 @@ use crate::handles::Handle;
 #[derive(Debug)]
 pub struct OpenClSession(pub(crate) Session<OpenClEngine>);
 
-/// A chunk's mesh in the device's memory. Valid as long as it is borrowed: until the session's next call.
+/// A chunk's mesh in the device's memory. Valid as long as it is borrowed: until the session's next
+/// call.
 #[derive(Debug)]
 pub struct DeviceMesh<'a> {
     /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
     pub vertices: *mut c_void,
     /// A `cl_mem` with the chunk's `u32` indices from its start; null where it has none.
     pub indices: *mut c_void,
-    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where none were made.
+    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where
+    /// none were made.
     pub attributes: *mut c_void,
-    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start; null where none were made.
+    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start;
+    /// null where none were made.
     pub packed: *mut c_void,
     /// The `cl_event` of the last command that writes them: wait for it, also in a queue.
     pub ready: *mut c_void,
@@ -66,26 +70,29 @@ impl<'a> DeviceMesh<'a> {
 }
 
 impl OpenClSession {
-    /// The mesh of `chunk` where it lies on the device, for a caller who draws it or works on with it there.
+    /// The mesh of `chunk` where it lies on the device, for a caller who draws it or works on with
+    /// it there.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::mesh`] has been called
-    /// for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
+    /// [`Session::mesh`] has been called for this chunk.
     pub fn device_mesh(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
         let mesh = DeviceMesh::new(self.0.engine().memory(slot));
         Ok(if chunk.indices() > 0 { mesh } else { DeviceMesh { indices: ptr::null_mut(), ..mesh } })
     }
 
-    /// The packed vertices of `chunk` where they lie on the device, likewise; whether there is a mesh beside them is not asked.
+    /// The packed vertices of `chunk` where they lie on the device, likewise; whether there is a
+    /// mesh beside them is not asked.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::packed`] has been called
-    /// for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
+    /// [`Session::packed`] has been called for this chunk.
     pub fn device_packed(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         Ok(DeviceMesh::new(self.0.engine().memory(self.0.slot_of_packed(chunk)?)))
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`device_buffers`](texere_gpu::device_buffers), and the rings where [`Session::trajectory`] was called.
+    /// [`device_buffers`](texere_gpu::device_buffers), and the rings where [`Session::trajectory`]
+    /// was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

@@ -26,7 +26,8 @@ pub(crate) struct Tables {
 }
 
 impl Tables {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for control points beyond what one buffer holds.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for control points beyond what one buffer
+    /// holds.
     pub(crate) fn new(opened: &Opened, limits: &Limits, plan: &Plan) -> Result<Self, BackendError> {
         let (what, bytes) = ("control points, all in one buffer", plan.resident_bytes());
         // The scan numbers points by u32.

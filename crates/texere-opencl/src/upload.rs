@@ -1,4 +1,5 @@
-//! Control points to the device: all cores pad them into pinned memory, piece by piece, while pieces before are sent.
+//! Control points to the device: all cores pad them into pinned memory, piece by piece, while
+//! pieces before are sent.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -18,21 +19,24 @@ use crate::pinned::Pinned;
 
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
-/// Up to so many points, such as an edited yarn's, go as they are: the driver's own way is as fast then.
+/// Up to so many points, such as an edited yarn's, go as they are: the driver's own way is as fast
+/// then.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// So do up to so many the first time: to make pinned memory takes longer than that way, and may not be wanted again.
+/// So do up to so many the first time: to make pinned memory takes longer than that way, and may
+/// not be wanted again.
 const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 
-/// Points of a piece, so many that what one transfer costs before and after does not count. The first are shorter, so that
-/// the bus starts early.
+/// Points of a piece, so many that what one transfer costs before and after does not count. The
+/// first are shorter, so that the bus starts early.
 const PIECE_POINTS: u64 = (8 << 20) / POINT_BYTES;
 const FIRST_PIECE_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
 /// Points that a core pads at a time. A multiple of them is a piece.
 const PART_POINTS: u64 = (32 << 10) / POINT_BYTES;
 
-/// Pieces that have room at once: one that is filled, one that is sent, and one that keeps either from waiting.
+/// Pieces that have room at once: one that is filled, one that is sent, and one that keeps either
+/// from waiting.
 const SLOTS: usize = 3;
 
 /// Pinned memory that control points are sent from, kept for the next upload.
@@ -46,7 +50,8 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// Sends `upload` to `target` by the queue of the kernels, and gives back the bytes of it. May return before it is there.
+    /// Sends `upload` to `target` by the queue of the kernels, and gives back the bytes of it. May
+    /// return before it is there.
     pub(crate) fn send(
         &mut self,
         opened: &Arc<Opened>,
@@ -153,8 +158,8 @@ impl Piece {
     }
 }
 
-/// An upload under way. Cores take parts in order, and whoever ends a piece sends it: there is no barrier between pieces, at
-/// which cores would fall asleep.
+/// An upload under way. Cores take parts in order, and whoever ends a piece sends it: there is no
+/// barrier between pieces, at which cores would fall asleep.
 struct Flight<'a> {
     opened: &'a Opened,
     upload: &'a PaddedUpload<'a>,
@@ -193,14 +198,15 @@ impl Flight<'_> {
             return Ok(());
         }
         let part = first..piece.range.end.min(first + PART_POINTS);
-        // SAFETY: a slot has room for any piece, is mapped for as long as it is there, and takes any bits. What was in it
-        // before has been sent, and no other core has this part.
+        // SAFETY: a slot has room for any piece, is mapped for as long as it is there, and takes
+        // any bits. What was in it before has been sent, and no other core has this part.
         let padded: &mut [ControlPoint] = unsafe {
             let start = slot.add((first - piece.range.start) as usize);
             std::slice::from_raw_parts_mut(start, (part.end - part.start) as usize)
         };
-        // Cores that fall asleep after the last pieces answer late for what their caches hold of them: reading those took the
-        // device up to four times as long. Past the caches with all pieces would keep it from the memory.
+        // Cores that fall asleep after the last pieces answer late for what their caches hold of
+        // them: reading those took the device up to four times as long. Past the caches with all
+        // pieces would keep it from the memory.
         pad(self.upload, part, padded, number + self.slots.len() >= self.pieces.len());
         if piece.left.fetch_sub(1, Ordering::AcqRel) == 1 {
             let count = (piece.range.end - piece.range.start) as usize;
@@ -210,8 +216,8 @@ impl Flight<'_> {
         Ok(())
     }
 
-    /// Waits until the slot of piece `number` may be written; the core with its first part waits for the device. False where
-    /// another core has failed.
+    /// Waits until the slot of piece `number` may be written; the core with its first part waits
+    /// for the device. False where another core has failed.
     fn wait_for_slot(&self, number: usize, first_part: bool) -> Result<bool, BackendError> {
         let piece = &self.pieces[number];
         if let (true, Some(before)) = (first_part, number.checked_sub(self.slots.len())) {
@@ -275,7 +281,8 @@ fn stream(run: &[ControlPoint], out: &mut [ControlPoint]) {
         use std::arch::x86_64::{__m128, _mm_loadu_ps, _mm_stream_ps};
         if out.as_ptr().cast::<__m128>().is_aligned() {
             for (from, to) in run.iter().zip(out) {
-                // SAFETY: every x86-64 processor has them; a point is four f32, and the first one's place is aligned.
+                // SAFETY: every x86-64 processor has them; a point is four f32, and the first one's
+                // place is aligned.
                 unsafe {
                     _mm_stream_ps(
                         std::ptr::from_mut(to).cast(),

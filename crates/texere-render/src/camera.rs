@@ -7,7 +7,8 @@ use crate::{Extent, RenderError};
 /// Room left round the cloth, as a share of it.
 const MARGIN: f32 = 0.05;
 
-/// How high the eye stands over the cloth's plane, radians: for the whole of it, and near a point of it.
+/// How high the eye stands over the cloth's plane, radians: for the whole of it, and near a point
+/// of it.
 const OBLIQUE_HEIGHT: f32 = 0.72;
 const CLOSE_HEIGHT: f32 = 0.95;
 
@@ -39,7 +40,8 @@ pub(crate) enum Projection {
     },
 }
 
-/// Where an eye is, and where it looks: what [`Camera::perspective`] and [`Camera::orthographic`] ask for.
+/// Where an eye is, and where it looks: what [`Camera::perspective`] and [`Camera::orthographic`]
+/// ask for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// The eye, mm.
@@ -50,8 +52,8 @@ pub struct Pose {
     pub up: [f32; 3],
 }
 
-/// A view of a fabric, made for pictures of a certain size: one of those that show a whole cloth or a place of it, or any
-/// [`Pose`].
+/// A view of a fabric, made for pictures of a certain size: one of those that show a whole cloth or
+/// a place of it, or any [`Pose`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -80,8 +82,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// From the picture's lower to its upper edge, radians, of cameras that nobody gave another: that of a portrait lens, which keeps threads parallel
-    /// to the eye.
+    /// From the picture's lower to its upper edge, radians, of cameras that nobody gave another:
+    /// that of a portrait lens, which keeps threads parallel to the eye.
     pub const FIELD_OF_VIEW: f32 = 0.42;
 
     /// The whole cloth from straight above its face, its threads along the picture's edges.
@@ -92,7 +94,8 @@ impl Camera {
         Self::straight(extent, size, height)
     }
 
-    /// The face at true scale: a pixel is `mm_per_pixel` each way, and the picture as large as that makes the cloth.
+    /// The face at true scale: a pixel is `mm_per_pixel` each way, and the picture as large as that
+    /// makes the cloth.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn true_scale(extent: &Extent, mm_per_pixel: f32) -> Result<Self, RenderError> {
@@ -115,8 +118,8 @@ impl Camera {
         }
     }
 
-    /// The whole cloth from above its lower edge, turned by `turn` radians about its middle: counter-clockwise as seen
-    /// from above.
+    /// The whole cloth from above its lower edge, turned by `turn` radians about its middle:
+    /// counter-clockwise as seen from above.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn oblique(extent: &Extent, turn: f32, size: [u32; 2]) -> Result<Self, RenderError> {
@@ -164,7 +167,8 @@ impl Camera {
         })
     }
 
-    /// A view from any point, as an eye has it. `field_of_view`: from the picture's lower to its upper edge, radians.
+    /// A view from any point, as an eye has it. `field_of_view`: from the picture's lower to its
+    /// upper edge, radians.
     ///
     /// Light comes from above the cloth where the eye is above the target, else from below it.
     ///
@@ -182,8 +186,8 @@ impl Camera {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// **Errors**: [`RenderError::Camera`] for an eye at the target, an up along the line of sight, a field of view that is not
-    /// between 0.0001 and 3.1, and numbers that are not finite.
+    /// **Errors**: [`RenderError::Camera`] for an eye at the target, an up along the line of sight,
+    /// a field of view that is not between 0.0001 and 3.1, and numbers that are not finite.
     pub fn perspective(
         extent: &Extent,
         pose: &Pose,
@@ -197,8 +201,8 @@ impl Camera {
         Self::posed(extent, pose, size, |distance| Projection::Perspective { distance, field_of_view })
     }
 
-    /// The same with parallel lines of sight. `height`: what the picture's height shows, mm. The whole depth of the cloth is in the picture,
-    /// however near the eye is.
+    /// The same with parallel lines of sight. `height`: what the picture's height shows, mm. The
+    /// whole depth of the cloth is in the picture, however near the eye is.
     ///
     /// **Errors**: [`RenderError::Camera`], as for [`Camera::perspective`].
     pub fn orthographic(
@@ -256,7 +260,8 @@ impl Camera {
         }
     }
 
-    /// The same view of the cloth turned over sideways, so that its back is seen and end 1 is at the right.
+    /// The same view of the cloth turned over sideways, so that its back is seen and end 1 is at
+    /// the right.
     #[must_use]
     pub fn turned_over(self) -> Self {
         let over = |v: Vec3| Vec3::new(-v.x, v.y, -v.z);

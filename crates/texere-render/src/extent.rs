@@ -65,8 +65,10 @@ impl Extent {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
     }
 
-    /// How far an eye in the direction `toward` from the cloth's middle has to be from it to see all of the cloth, mm, with `up` up in pictures of
-    /// `size`. `field_of_view`: from the picture's lower to its upper edge, radians. `margin`: room left round the cloth, as a share of it.
+    /// How far an eye in the direction `toward` from the cloth's middle has to be from it to see
+    /// all of the cloth, mm, with `up` up in pictures of `size`. `field_of_view`: from the
+    /// picture's lower to its upper edge, radians. `margin`: room left round the cloth, as a share
+    /// of it.
     ///
     /// ```
     /// use texere_render::Extent;
@@ -100,8 +102,8 @@ impl Extent {
         (Vec3::from(self.low) + Vec3::from(self.high)) * 0.5
     }
 
-    /// How far yarns may reach out of it: a spline leaves the box of its control points by up to an eighth of what that measures, where its tension is 0,
-    /// and sections have corners.
+    /// How far yarns may reach out of it: a spline leaves the box of its control points by up to an
+    /// eighth of what that measures, where its tension is 0, and sections have corners.
     pub(crate) fn spare(&self) -> Vec3 {
         (Vec3::from(self.high) - Vec3::from(self.low)) / 8.0 + self.radius
     }

@@ -34,7 +34,8 @@ pub(crate) fn any(yarns: &Yarns) -> bool {
     yarns.layout().yarns().iter().any(|yarn| yarns.materials()[yarn.material as usize].hairiness > 0.0)
 }
 
-/// Hairs a mm of each yarn, for `hairs.wgsl`. Uster's H is their length for a length of yarn, cm a cm or mm a mm.
+/// Hairs a mm of each yarn, for `hairs.wgsl`. Uster's H is their length for a length of yarn, cm a
+/// cm or mm a mm.
 pub(crate) fn densities(renderer: &Renderer, yarns: &Yarns) -> Result<wgpu::Buffer, BackendError> {
     let mean = mean();
     let density = |yarn: &texere_core::Yarn| yarns.materials()[yarn.material as usize].hairiness / mean;

@@ -6,9 +6,9 @@
 //!                     normals
 //! ```
 //!
-//! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a view of the fabric. Every
-//! triangle is drawn from control points, by compute shaders and without a mesh, chunk after chunk; then the visible pixels are
-//! lit, once.
+//! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a
+//! view of the fabric. Every triangle is drawn from control points, by compute shaders and without
+//! a mesh, chunk after chunk; then the visible pixels are lit, once.
 
 mod background;
 mod camera;

@@ -1,4 +1,5 @@
-//! From a place on the cloth to a pixel, and back: the matrices of a camera, and its lines of sight.
+//! From a place on the cloth to a pixel, and back: the matrices of a camera, and its lines of
+//! sight.
 
 use glam::dcamera::rh::proj::directx;
 use glam::dcamera::rh::view;
@@ -8,14 +9,17 @@ use texere_core::Ray;
 use crate::Camera;
 use crate::camera::Projection;
 
-/// The near plane is at least this share of the way to the target before the eye, so that the far end keeps enough depth resolution.
+/// The near plane is at least this share of the way to the target before the eye, so that the far
+/// end keeps enough depth resolution.
 const NEAREST: f64 = 0.02;
 
 impl Camera {
-    /// The matrix from the cloth's coordinates, mm, to clip space as wgpu has it: x to the right and y up from -1 to 1, depth from 0 at
-    /// the near plane to 1 at the far one, which stand as near to the cloth as may be.
+    /// The matrix from the cloth's coordinates, mm, to clip space as wgpu has it: x to the right
+    /// and y up from -1 to 1, depth from 0 at the near plane to 1 at the far one, which stand as
+    /// near to the cloth as may be.
     ///
-    /// **Shape**: four columns of four. `f64`, since a cloth may be metres wide and a pixel micrometres.
+    /// **Shape**: four columns of four. `f64`, since a cloth may be metres wide and a pixel
+    /// micrometres.
     ///
     /// ```
     /// # use texere_core::{ControlPoint, Yarn, Yarns};
@@ -34,8 +38,9 @@ impl Camera {
         (self.clip_from_local() * DMat4::from_translation(-self.target.as_dvec3())).to_cols_array_2d()
     }
 
-    /// The line of sight through a point of the picture, in pixels from its left and upper edges: a pixel's middle is at a half. It begins
-    /// at the eye or, where lines of sight are parallel, before the cloth; its direction has length 1. A picker says what it hits.
+    /// The line of sight through a point of the picture, in pixels from its left and upper edges: a
+    /// pixel's middle is at a half. It begins at the eye or, where lines of sight are parallel,
+    /// before the cloth; its direction has length 1. A picker says what it hits.
     #[must_use]
     pub fn ray(&self, [x, y]: [f32; 2]) -> Ray {
         let [width, height] = self.size().map(f64::from);
@@ -80,7 +85,8 @@ impl Camera {
         [f64::from(near + spare), f64::from(far - spare)]
     }
 
-    /// Whether the inside of yarns can be seen: where they are cut, or where the near plane may go through them. They are closed at their ends.
+    /// Whether the inside of yarns can be seen: where they are cut, or where the near plane may go
+    /// through them. They are closed at their ends.
     pub(crate) fn sees_inside(&self) -> bool {
         let Projection::Perspective { distance, field_of_view } = self.projection else { return self.cuts };
         let eye = f64::from(distance);

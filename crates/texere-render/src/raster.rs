@@ -28,8 +28,9 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own; such GPUs take a hundredth of a second for it. GPUs of
-/// other kinds get smaller chunks, so that the desktop does not wait for them. Each chunk costs a look at all samples.
+/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own;
+/// such GPUs take a hundredth of a second for it. GPUs of other kinds get smaller chunks, so that
+/// the desktop does not wait for them. Each chunk costs a look at all samples.
 const BLOCKS_MOST: u64 = 1 << 20;
 
 /// Bytes of a ring's roll.
@@ -88,14 +89,16 @@ impl Raster {
         self.hair_densities.is_some()
     }
 
-    /// The limits that chunks are cut to: their tables fit a binding, their triangles and hairs a number of 32 bits, and none takes long.
+    /// The limits that chunks are cut to: their tables fit a binding, their triangles and hairs a
+    /// number of 32 bits, and none takes long.
     pub(crate) fn chunk_limits(plan: &Plan, yarns: &Yarns, device: &DeviceInfo) -> Limits {
         let settings = plan.settings();
         let triangles = 2 * u64::from(BLOCK_RINGS) * u64::from(settings.sides);
         // A row has two caps at most, each with as many numbers as a block.
         let hairs = if hairs::any(yarns) { hairs::OF_BLOCK } else { 0 };
         let numbered = u64::from(u32::MAX) / (3 * triangles + hairs);
-        // Those that a block's rings read, and at most three more: of the yarn's ends, or its neighbours'.
+        // Those that a block's rings read, and at most three more: of the yarn's ends, or its
+        // neighbours'.
         let points = u64::from(BLOCK_RINGS.div_ceil(settings.subdivisions + 1)) + 3;
         // A caller's own limit stands.
         let kinds = [DeviceKind::DiscreteGpu, DeviceKind::Cpu];
@@ -109,7 +112,8 @@ impl Raster {
         Limits { blocks: numbered.min(windows).min(tables).min(blocks).max(2), ..Limits::NONE }
     }
 
-    /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work over.
+    /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work
+    /// over.
     pub(crate) fn draw(
         &mut self,
         renderer: &Renderer,

@@ -44,7 +44,8 @@ pub(crate) struct Rasteriser {
     kinds: [[[OnceLock<Arc<Pipelines>>; 2]; 2]; 2],
 }
 
-/// What of a fabric shaders differ for: whether yarns are flattened anywhere, sections turn, fibres stand off.
+/// What of a fabric shaders differ for: whether yarns are flattened anywhere, sections turn, fibres
+/// stand off.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kind {
     pub(crate) flattened: bool,
@@ -76,7 +77,8 @@ impl Rasteriser {
         Self { keys, raster, hairs, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
     }
 
-    /// The same with another shader of what samples show, such as a broken one that a test must find.
+    /// The same with another shader of what samples show, such as a broken one that a test must
+    /// find.
     #[cfg(test)]
     pub(crate) fn with_resolve(self, resolve: String) -> Self {
         Self { resolve: Cow::Owned(resolve), ..self }

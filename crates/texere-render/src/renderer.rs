@@ -25,7 +25,8 @@ use crate::screen::Screen;
 /// # }
 /// ```
 ///
-/// Its clones are the same device with the same pipelines. A [`Scene`](crate::Scene) keeps one, and so may outlive the renderer that made it.
+/// Its clones are the same device with the same pipelines. A [`Scene`](crate::Scene) keeps one, and
+/// so may outlive the renderer that made it.
 #[derive(Debug, Clone)]
 pub struct Renderer {
     pub(crate) device: WgpuBackend,
@@ -68,10 +69,11 @@ impl Renderer {
         })
     }
 
-    /// What a picture of this size is drawn into: that of the last one where it fits and no scene has it any more. A device takes longer to
-    /// hand out that much memory than to draw.
+    /// What a picture of this size is drawn into: that of the last one where it fits and no scene
+    /// has it any more. A device takes longer to hand out that much memory than to draw.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Driver`], [`BackendError::DeviceLost`].
+    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Driver`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn screen(&self, size: [u32; 2], supersampling: u32) -> Result<Arc<Screen>, BackendError> {
         let mut last = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
         // One that does not fit is given back before another one is asked for.
@@ -90,7 +92,8 @@ impl Renderer {
         self.device.info()
     }
 
-    /// The backend that it draws on: a settler of it leaves yarns where [`Renderer::settled_scene`] finds them.
+    /// The backend that it draws on: a settler of it leaves yarns where [`Renderer::settled_scene`]
+    /// finds them.
     #[must_use]
     pub const fn backend(&self) -> &WgpuBackend {
         &self.device

@@ -23,9 +23,11 @@ const CHUNKS_KEPT: usize = 2;
 /// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quality {
-    /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever this is.
+    /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever
+    /// this is.
     pub supersampling: u32,
-    /// Whether fibres that stand off yarns are drawn, where threads are four pixels wide or more; never in cuts.
+    /// Whether fibres that stand off yarns are drawn, where threads are four pixels wide or more;
+    /// never in cuts.
     pub hairs: bool,
 }
 
@@ -36,13 +38,14 @@ impl Default for Quality {
     }
 }
 
-/// Sides of the tube in a picture of woven cloth at rest, if it has no more control points than that: threads of larger cloths are hardly wider
-/// than pixels.
+/// Sides of the tube in a picture of woven cloth at rest, if it has no more control points than
+/// that: threads of larger cloths are hardly wider than pixels.
 const FINE_SIDES: u32 = 16;
 const FINE_POINTS: usize = 4_000_000;
 
-/// How many sides tubes have in a picture where nobody asks for others: of a polygon as many as it has corners. `lies_close`: whether the yarns are flattened threads of woven cloth at
-/// rest, which lie so close that ground would be seen past the corners of fewer sides.
+/// How many sides tubes have in a picture where nobody asks for others: of a polygon as many as it
+/// has corners. `lies_close`: whether the yarns are flattened threads of woven cloth at rest, which
+/// lie so close that ground would be seen past the corners of fewer sides.
 ///
 /// **Units**: sides of a section, as in [`Settings::sides`].
 #[must_use]
@@ -62,8 +65,8 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Red, green and blue, a byte each, sRGB; rows from the top.
     pub rgb: Vec<u8>,
-    /// How much of each pixel shows a yarn or a background, a byte, 255 for all of it: less only with [`Background::Nothing`]. Colours are
-    /// not multiplied with it.
+    /// How much of each pixel shows a yarn or a background, a byte, 255 for all of it: less only
+    /// with [`Background::Nothing`]. Colours are not multiplied with it.
     pub alpha: Vec<u8>,
     /// How long it took.
     pub timings: PictureTimings,
@@ -91,8 +94,9 @@ pub struct PictureTimings {
     pub copy: Duration,
 }
 
-/// A fabric on a device: control points and tables. No mesh is made for a picture: what it takes beside them is its samples, eight bytes each
-/// while they are found, 25 until pixels are made of them. The renderer keeps that memory for the next scene.
+/// A fabric on a device: control points and tables. No mesh is made for a picture: what it takes
+/// beside them is its samples, eight bytes each while they are found, 25 until pixels are made of
+/// them. The renderer keeps that memory for the next scene.
 #[derive(Debug)]
 pub struct Scene {
     pub(crate) renderer: Renderer,
@@ -116,26 +120,32 @@ pub struct Scene {
 /// A picture that stays on the device: [`Scene::frame`].
 #[derive(Debug, Clone)]
 pub struct DevicePicture {
-    /// Red, green, blue and alpha, a byte each, sRGB though the format does not say so: [`wgpu::TextureFormat::Rgba8Unorm`], to be sampled or copied.
-    /// It is the scene's, and the next picture of the same size is drawn into it; once the scene is gone, that of another scene of the renderer.
+    /// Red, green, blue and alpha, a byte each, sRGB though the format does not say so:
+    /// [`wgpu::TextureFormat::Rgba8Unorm`], to be sampled or copied. It is the scene's, and the
+    /// next picture of the same size is drawn into it; once the scene is gone, that of another
+    /// scene of the renderer.
     pub texture: wgpu::TextureView,
     /// How long it took; nothing is copied.
     pub timings: PictureTimings,
 }
 
 impl Renderer {
-    /// Sends a fabric to the device, or several: [`Yarns::placed`] says where each is, [`Yarns::merged`] makes one of them. The settings' topology and caps are ignored: pictures list their own triangles, and
-    /// show yarns solid, also where they end or are cut. Those of [`Settings::following_fibres`] have rings enough for the yarns' twist.
+    /// Sends a fabric to the device, or several: [`Yarns::placed`] says where each is,
+    /// [`Yarns::merged`] makes one of them. The settings' topology and caps are ignored: pictures
+    /// list their own triangles, and show yarns solid, also where they end or are cut. Those of
+    /// [`Settings::following_fibres`] have rings enough for the yarns' twist.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
         self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
     }
 
-    /// The same for `yarns` where a settler has left them: on this renderer's device they don't leave it. Which yarns are
-    /// [steep](texere_core::Layout::is_steep), and how outlines [lean](texere_core::Layout::ups), stays as it was before.
+    /// The same for `yarns` where a settler has left them: on this renderer's device they don't
+    /// leave it. Which yarns are [steep](texere_core::Layout::is_steep), and how outlines
+    /// [lean](texere_core::Layout::ups), stays as it was before.
     ///
-    /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Backend`] for a settler of other yarns.
+    /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Backend`] for a settler of
+    /// other yarns.
     pub fn settled_scene(
         &self,
         yarns: &Yarns,
@@ -222,8 +232,9 @@ impl Scene {
 
     /// Makes a picture.
     ///
-    /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device has no textures for,
-    /// [`RenderError::Plan`] where not even one block fits the limits, [`RenderError::Backend`].
+    /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device
+    /// has no textures for, [`RenderError::Plan`] where not even one block fits the limits,
+    /// [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
         let timings = self.frame(camera, quality)?.timings;
         let start = Instant::now();
@@ -232,7 +243,8 @@ impl Scene {
         Ok(Picture { size: camera.size(), rgb, alpha, timings })
     }
 
-    /// Makes a picture and leaves it on the device: for a window that shows it. It is done when this returns.
+    /// Makes a picture and leaves it on the device: for a window that shows it. It is done when
+    /// this returns.
     ///
     /// **Errors**: those of [`Scene::picture`].
     pub fn frame(&mut self, camera: &Camera, quality: Quality) -> Result<DevicePicture, RenderError> {
@@ -308,7 +320,8 @@ impl Scene {
             let tables = session.chunk_tables(chunk)?;
             for band in screen.bands() {
                 let drawn = raster.draw(renderer, tables, chunk, view, screen, band)?;
-                // No more than two are under way, so that each wait is for one and not for a fabric.
+                // No more than two are under way, so that each wait is for one and not for a
+                // fabric.
                 if let Some(submission) = before.replace(drawn) {
                     renderer.device.wait(submission)?;
                 }
@@ -380,7 +393,8 @@ fn kept_chunks(plan: &Plan, limits: &Limits) -> Result<Vec<Chunk>, PlanError> {
     Ok(if first.len() > CHUNKS_KEPT { Vec::new() } else { first })
 }
 
-/// The mean length from ring to ring of each yarn, mm, by its first control points: it only places the fibres' pattern.
+/// The mean length from ring to ring of each yarn, mm, by its first control points: it only places
+/// the fibres' pattern.
 fn ring_lengths(yarns: &Yarns, plan: &Plan) -> Vec<f32> {
     const POINTS: usize = 64;
     let per_interval = plan.settings().subdivisions as f32 + 1.0;

@@ -25,8 +25,8 @@ const KEY_BYTES: u64 = 8;
 /// Most bytes of keys: sixteen samples for each of two million pixels.
 const KEYS_MOST: u64 = 256 << 20;
 
-/// What one size of picture takes: 132 bytes a pixel, times the square of the supersampling, and 8 bytes; fewer where a binding does not hold the keys
-/// of all samples.
+/// What one size of picture takes: 132 bytes a pixel, times the square of the supersampling, and 8
+/// bytes; fewer where a binding does not hold the keys of all samples.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],

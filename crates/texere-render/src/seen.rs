@@ -11,7 +11,8 @@ use crate::{RenderError, Scene};
 pub struct Seen {
     /// The number of the yarn, from 0.
     pub yarn: usize,
-    /// The place on its surface, mm, or on a fibre that stands off it. Where the yarn is cut open, that on the far side of its inside.
+    /// The place on its surface, mm, or on a fibre that stands off it. Where the yarn is cut open,
+    /// that on the far side of its inside.
     pub position: [f64; 3],
 }
 
@@ -23,8 +24,9 @@ const DEPTH_BYTES: u64 = 4;
 const MARKS: u32 = 0xc000_0000;
 
 impl Scene {
-    /// What the last picture shows at a point, in pixels from its left and upper edges. None where it shows no yarn, outside, and before the
-    /// first picture. It is read from the picture's samples, so it takes as long in a large fabric as in a small one.
+    /// What the last picture shows at a point, in pixels from its left and upper edges. None where
+    /// it shows no yarn, outside, and before the first picture. It is read from the picture's
+    /// samples, so it takes as long in a large fabric as in a small one.
     ///
     /// ```no_run
     /// # fn example(scene: &texere_render::Scene) -> Result<(), texere_render::RenderError> {

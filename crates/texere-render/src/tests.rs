@@ -24,8 +24,9 @@ use crate::{Camera, Cut, Extent, Quality, RenderError, Renderer};
 /// The goldens were drawn by lavapipe, whose device this is.
 const DEVICE: &str = "llvmpipe";
 
-/// How far a picture may be from its golden: the mean of FLIP (Andersson et al. 2020), a measure of the visible difference.
-/// It is not 0, since other versions of LLVM round some pixels the other way.
+/// How far a picture may be from its golden: the mean of FLIP (Andersson et al. 2020), a measure of
+/// the visible difference. It is not 0, since other versions of LLVM round some pixels the other
+/// way.
 const TOLERANCE: f32 = 0.02;
 
 const SIZE: [u32; 2] = [240, 180];
@@ -47,14 +48,15 @@ fn open(rasteriser: Rasteriser) -> Renderer {
     Renderer::with_rasteriser(device, rasteriser).unwrap()
 }
 
-/// One device for all tests. Pictures are drawn one at a time: lavapipe has all cores to itself then.
+/// One device for all tests. Pictures are drawn one at a time: lavapipe has all cores to itself
+/// then.
 fn renderer() -> &'static Mutex<Renderer> {
     static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
     RENDERER.get_or_init(|| Mutex::new(open(Rasteriser::new(Keys::Whole))))
 }
 
-/// A cloth of the test's own, so that goldens stay what they are when weaves change: 2/2 twill, a millimetre from thread
-/// to thread, warp in two colours and twisted, weft flat.
+/// A cloth of the test's own, so that goldens stay what they are when weaves change: 2/2 twill, a
+/// millimetre from thread to thread, warp in two colours and twisted, weft flat.
 struct Cloth {
     up: fn(usize, usize) -> bool,
     end_color: fn(usize) -> u32,
@@ -257,7 +259,8 @@ fn settled_yarns_are_drawn_where_they_rest() {
     for _ in 0..8 {
         settler.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 1.0, momentum: 0.8 }).unwrap();
     }
-    // In frames that are carried along a yarn is drawn alike whether it was steep at the start or is at rest.
+    // In frames that are carried along a yarn is drawn alike whether it was steep at the start or
+    // is at rest.
     let settings = Settings { frame: Frame::RotationMinimizing, ..SETTINGS };
     let mut scene = renderer.settled_scene(&yarns, &settings, settler.as_mut()).unwrap();
     assert_eq!(scene.traffic(), Traffic::default());
@@ -307,15 +310,17 @@ fn pictures_are_those_of_the_mesh() {
     });
     for (cloth, yarns) in [("twill", TWILL.yarns()), ("flattened", flat), ("bent", bent.unwrap())] {
         let extent = Extent::of(&yarns);
-        // Threads of one and a half pixels, and less: a dozen triangles for each sample. And some triangles of many pixels.
+        // Threads of one and a half pixels, and less: a dozen triangles for each sample. And some
+        // triangles of many pixels.
         let small = [0.6, 1.1].map(|scale| ("small", Camera::true_scale(&extent, scale).unwrap()));
         let near = [("near", Camera::close_up(&extent, [5.0, 3.5], 0.4, SIZE).unwrap())];
         for (name, camera) in cameras(&extent).into_iter().chain(small).chain(near) {
             let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
             let judged = mesh_path::judge(&mut scene, &camera);
             let off = difference(&judged.pictures[0], &judged.pictures[1]);
-            // Samples on an edge may fall to either side of it. So close together as in small pictures, edges are everywhere, and normals
-            // beyond a triangle's edge, as rasterisers have them in a pixel's middle, are all kinds.
+            // Samples on an edge may fall to either side of it. So close together as in small
+            // pictures, edges are everywhere, and normals beyond a triangle's edge, as rasterisers
+            // have them in a pixel's middle, are all kinds.
             println!("{cloth} {name}: samples {:.5}, picture {off:.4}", judged.off);
             let (most, tolerance) = if name == "small" { (0.01, 0.15) } else { (0.001, TOLERANCE) };
             assert!(judged.off <= most && off <= tolerance, "{cloth} {name}: {} {off}", judged.off);

@@ -20,10 +20,12 @@ use crate::workshop::Cloth;
 /// How long the view has to rest before it is drawn as well as it can be.
 const REST: Duration = Duration::from_millis(200);
 
-/// What a picture may take while the view moves. One that takes longer is drawn with fewer pixels next time, one that takes far less with more.
+/// What a picture may take while the view moves. One that takes longer is drawn with fewer pixels
+/// next time, one that takes far less with more.
 const MOVING: Duration = Duration::from_millis(60);
 
-/// What a picture may take when the view rests. Where the best would take longer, it has fewer samples.
+/// What a picture may take when the view rests. Where the best would take longer, it has fewer
+/// samples.
 const RESTING: Duration = Duration::from_secs(1);
 
 /// Pixels of the window for one of the picture at most, each way.
@@ -53,7 +55,8 @@ impl Fineness {
     /// What takes least of all pictures that have all pixels.
     const PLAIN: Self = Self { supersampling: 1, coarseness: 1, hairs: false };
 
-    /// How fine the next picture may be while the view moves, where the last one, this fine, took so long.
+    /// How fine the next picture may be while the view moves, where the last one, this fine, took
+    /// so long.
     fn moving(self, took: Duration) -> Self {
         let coarseness = match self.coarseness {
             finer if took > MOVING => (finer * 2).min(COARSEST),
@@ -97,7 +100,8 @@ pub(crate) struct Canvas {
     shown: Option<Shown>,
     /// What the last picture shows, or the one that is under way.
     drawn: Option<Look>,
-    /// The picture that is under way: a thread of its own waits for the device, for the window could not hear that it is closed meanwhile.
+    /// The picture that is under way: a thread of its own waits for the device, for the window
+    /// could not hear that it is closed meanwhile.
     under_way: Option<Receiver<Result<Made, RenderError>>>,
     /// How fine the last picture is, and the last one while the view moved.
     fineness: Fineness,

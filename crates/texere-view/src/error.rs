@@ -14,7 +14,8 @@ pub enum ViewError {
     /// The design can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The section that was asked for does not go with the design; with the file, line and key that it does not go with.
+    /// The section that was asked for does not go with the design; with the file, line and key that
+    /// it does not go with.
     #[error(transparent)]
     Refused(Box<Refusal>),
     /// The device.

@@ -37,10 +37,12 @@ pub enum Event {
         /// What a design file has no place for.
         left_out: Vec<String>,
     },
-    /// What was asked for could not be done, or the design's file is broken: the cloth is shown as it was.
+    /// What was asked for could not be done, or the design's file is broken: the cloth is shown as
+    /// it was.
     Failed(String),
-    /// The window was told to close. [`View::open`](crate::View::open) returns when the device has done what it is at, which may take
-    /// seconds; a program that has nothing else to do may end here.
+    /// The window was told to close. [`View::open`](crate::View::open) returns when the device has
+    /// done what it is at, which may take seconds; a program that has nothing else to do may end
+    /// here.
     Closed,
 }
 

@@ -5,8 +5,9 @@
 //!                      └──<── orders: lifts, colours, sides, tension ──<──┘
 //! ```
 //!
-//! Every triangle is drawn for each picture, from control points that lie on the device. The pointer turns, moves and nears the cloth, and the yarn
-//! under it is named as a weaver or a knitter calls it. Lifts change by a click. When the design's file changes, the cloth does.
+//! Every triangle is drawn for each picture, from control points that lie on the device. The
+//! pointer turns, moves and nears the cloth, and the yarn under it is named as a weaver or a
+//! knitter calls it. Lifts change by a click. When the design's file changes, the cloth does.
 
 mod canvas;
 mod device;
@@ -31,7 +32,8 @@ pub use event::Event;
 pub struct View {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine.
     pub design: PathBuf,
-    /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns settle.
+    /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns
+    /// settle.
     pub device: String,
     /// Frames of the mesh; its sides and subdivisions count only in `sides` and `subdivisions`.
     pub settings: Settings,
@@ -39,7 +41,8 @@ pub struct View {
     pub tension: f32,
     /// Sides of the tubes; if none as many as [`texere::picture::picture_sides`] says.
     pub sides: Option<u32>,
-    /// Points inserted between two control points; if none as many as [`Settings::following_fibres`] says.
+    /// Points inserted between two control points; if none as many as
+    /// [`Settings::following_fibres`] says.
     pub subdivisions: Option<u32>,
     /// One section for all yarns of the design.
     pub section: Option<Section>,

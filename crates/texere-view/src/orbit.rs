@@ -18,7 +18,8 @@ const REACH: [f32; 2] = [1e-5, 20.0];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Orbit {
     target: Vec3,
-    /// About z, radians: 0 is seen from below the cloth's lower edge, and grows counter-clockwise as seen from above.
+    /// About z, radians: 0 is seen from below the cloth's lower edge, and grows counter-clockwise
+    /// as seen from above.
     turn: f32,
     /// Over the cloth's plane, radians: from straight above to straight below.
     height: f32,
@@ -98,7 +99,8 @@ impl Orbit {
         self.target += (above * down - across * right) * pixel;
     }
 
-    /// Comes nearer by `factor`, above 1, or goes away; what lies at the point `at` of a picture of `size`, pixels, stays there.
+    /// Comes nearer by `factor`, above 1, or goes away; what lies at the point `at` of a picture of
+    /// `size`, pixels, stays there.
     pub(crate) fn zoom(&mut self, factor: f32, at: [f32; 2], size: [u32; 2], extent: &Extent) {
         let diagonal = Vec3::from(extent.high).distance(Vec3::from(extent.low));
         let distance = (self.distance / factor).clamp(diagonal * REACH[0], diagonal * REACH[1]);

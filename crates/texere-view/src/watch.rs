@@ -14,14 +14,16 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Watches `files` from now on. A design is to be read after this and not before, so that no change is missed.
+    /// Watches `files` from now on. A design is to be read after this and not before, so that no
+    /// change is missed.
     pub(crate) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let mut watch = Self { files: Vec::new() };
         watch.follow(files);
         watch
     }
 
-    /// Watches these from now on, and those among them that were watched before as they were seen last.
+    /// Watches these from now on, and those among them that were watched before as they were seen
+    /// last.
     pub(crate) fn follow(&mut self, files: impl IntoIterator<Item = PathBuf>) {
         let before = std::mem::take(&mut self.files);
         let known = |file: &PathBuf| before.iter().find(|(known, _)| known == file).map(|(_, stamp)| *stamp);

@@ -23,7 +23,8 @@ use crate::{Event, View, ViewError, device};
 /// How long a picture that the device refused is not tried again.
 const AGAIN: Duration = Duration::from_millis(50);
 
-/// How long a window that closes waits for the workshop: what it does on the device would keep the device from going.
+/// How long a window that closes waits for the workshop: what it does on the device would keep the
+/// device from going.
 const LEAVING: Duration = Duration::from_millis(500);
 
 /// Opens the window and waits until it is closed.
@@ -43,8 +44,9 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
     };
     let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
         let render = context.wgpu_render_state.clone().ok_or("no device")?;
-        // A device takes one thing after the other, and a processor takes seconds for a cloth: the window would wait behind it, and not hear that it
-        // is closed. A copy costs next to nothing there.
+        // A device takes one thing after the other, and a processor takes seconds for a cloth: the
+        // window would wait behind it, and not hear that it is closed. A copy costs next to nothing
+        // there.
         let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let renderer = if is_apart {
             texere::picture::open_renderer(&view.device)?
@@ -52,8 +54,9 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
             let (device, queue) = (render.device.clone(), render.queue.clone());
             Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
         };
-        // The surface can't take another size while the workshop hands the device work, and what is drawn for the new size does not go with the
-        // old one. Every call of ours is in a scope, so nothing else comes here. The next picture asks the surface anew.
+        // The surface can't take another size while the workshop hands the device work, and what is
+        // drawn for the new size does not go with the old one. Every call of ours is in a scope, so
+        // nothing else comes here. The next picture asks the surface anew.
         let window = context.egui_ctx.clone();
         render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
         let ((orders, taken), (news, told)) = (channel(), channel());
@@ -131,7 +134,8 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
         self.panel(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
             let Some(cloth) = &self.cloth else {
-                // Still: what turns would be drawn without end, behind what the workshop has the device do.
+                // Still: what turns would be drawn without end, behind what the workshop has the
+                // device do.
                 ui.centered_and_justified(|ui| ui.label("The cloth is being made."));
                 return;
             };

@@ -1,4 +1,5 @@
-//! Where cloth is made: a thread that reads the design, takes orders, and sends scenes to the window.
+//! Where cloth is made: a thread that reads the design, takes orders, and sends scenes to the
+//! window.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -101,7 +102,8 @@ pub(crate) struct Workshop {
     pub(crate) design: Design,
     /// Materials whose colours were changed.
     pub(crate) colors: BTreeMap<usize, [u8; 3]>,
-    /// Lifts as they were before they were changed: end and pick from 0, and whether the warp was up.
+    /// Lifts as they were before they were changed: end and pick from 0, and whether the warp was
+    /// up.
     pub(crate) lifts: Vec<(usize, usize, bool)>,
     /// Where yarns settle, once they have: drivers do not give back all that a device took.
     pub(crate) settler: Option<Box<dyn Backend>>,
@@ -216,7 +218,8 @@ impl Workshop {
         }
     }
 
-    /// Writes the design as it is now beside the one that it was read from. No file that is there is replaced.
+    /// Writes the design as it is now beside the one that it was read from. No file that is there
+    /// is replaced.
     fn save(&self) -> Result<Event, String> {
         let mut design = self.design.clone();
         if let Structure::Woven(woven) = &mut design.structure {
@@ -230,7 +233,8 @@ impl Workshop {
         Ok(Event::Saved { path, left_out })
     }
 
-    /// Reads the design again where one of its files has changed. One that is broken changes nothing.
+    /// Reads the design again where one of its files has changed. One that is broken changes
+    /// nothing.
     fn reload(&mut self) -> Change {
         if !self.watch.changed() {
             return Change::Nothing;
@@ -257,7 +261,8 @@ impl Workshop {
         }
     }
 
-    /// Makes the yarns and shows them, and again when they have settled, if they do. Gives an order that came meanwhile.
+    /// Makes the yarns and shows them, and again when they have settled, if they do. Gives an order
+    /// that came meanwhile.
     fn weave(&mut self) -> Option<Order> {
         let placed = self.design.yarns();
         match placed.and_then(|yarns| Ok(yarns.with_tension(self.view.tension)?)) {
@@ -291,7 +296,8 @@ impl Workshop {
         order
     }
 
-    /// Lets the yarns come to rest until an order comes, which is put into `order`, a file changes, or the window is closed.
+    /// Lets the yarns come to rest until an order comes, which is put into `order`, a file changes,
+    /// or the window is closed.
     fn at_rest(&mut self, order: &mut Option<Order>) -> Result<texere::Cloth, Refusal> {
         let mut design = self.design.clone();
         design.settle = true;
@@ -323,7 +329,8 @@ impl Workshop {
         self.show();
     }
 
-    /// Gives the yarns the colours that were chosen, if any were: that copies yarns which the window still shows.
+    /// Gives the yarns the colours that were chosen, if any were: that copies yarns which the
+    /// window still shows.
     fn paint(&mut self) {
         let Some((yarns, _)) = self.yarns.as_mut().filter(|_| !self.colors.is_empty()) else { return };
         let mut materials = yarns.materials().to_vec();
@@ -382,7 +389,8 @@ fn free_beside(design: &Path) -> PathBuf {
     first_free.unwrap_or_else(|| named(u32::MAX))
 }
 
-/// A scene that is ready to be drawn: what only its first picture takes is done, so that the window need not wait for it.
+/// A scene that is ready to be drawn: what only its first picture takes is done, so that the window
+/// need not wait for it.
 fn scene(renderer: &Renderer, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
     let mut scene = renderer.scene(yarns, settings)?;
     let camera = Camera::face(scene.extent(), [8, 8]);

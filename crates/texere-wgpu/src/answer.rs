@@ -19,7 +19,8 @@ impl Answer {
         Ok(Self { buffer: gpu.buffer("readback", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)? })
     }
 
-    /// Hands over what `record` records, and waits for `count` numbers of `source` from number `first` on, as they are after that.
+    /// Hands over what `record` records, and waits for `count` numbers of `source` from number
+    /// `first` on, as they are after that.
     pub(crate) fn after<T: Pod>(
         &self,
         gpu: &Gpu,

@@ -11,7 +11,8 @@ pub(crate) struct Buffer {
     what: &'static str,
     usage: BufferUsages,
     buffer: wgpu::Buffer,
-    /// Whether anything was ever kept here: there is a `wgpu::Buffer` even before, since an empty one can't be bound.
+    /// Whether anything was ever kept here: there is a `wgpu::Buffer` even before, since an empty
+    /// one can't be bound.
     used: bool,
 }
 

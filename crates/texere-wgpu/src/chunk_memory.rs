@@ -107,7 +107,8 @@ impl ChunkMemory {
         Ok(())
     }
 
-    /// What a shader that works on this chunk sees as `resource`; nothing where that is none of a mesh.
+    /// What a shader that works on this chunk sees as `resource`; nothing where that is none of a
+    /// mesh.
     pub(crate) fn resource<'a>(
         &'a self,
         tables: &'a Tables,

@@ -9,9 +9,9 @@ use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, Submissi
 
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
-/// Whether a device with `features` lets its clock be read. Without, the time of a launch is the host's: from handing the
-/// work over, or seeing the launch before it done where that is later, to seeing it done. The times of upload and
-/// readback are always the host's.
+/// Whether a device with `features` lets its clock be read. Without, the time of a launch is the
+/// host's: from handing the work over, or seeing the launch before it done where that is later, to
+/// seeing it done. The times of upload and readback are always the host's.
 pub(crate) fn has_clock(features: Features) -> bool {
     features.contains(Features::TIMESTAMP_QUERY)
 }
@@ -152,7 +152,8 @@ impl Clock {
         *total += time;
     }
 
-    /// The times of all launches, which are waited for. Where the device is lost, those of the launches before.
+    /// The times of all launches, which are waited for. Where the device is lost, those of the
+    /// launches before.
     pub(crate) fn totals(&mut self, gpu: &Gpu) -> StageTimings {
         for launch in std::mem::take(&mut self.pending) {
             if self.finish(gpu, launch).is_err() {
@@ -204,7 +205,8 @@ impl Stamps {
         }
     }
 
-    /// The time of a stamp whose buffer is mapped, none where the device is lost; the stamp is free again.
+    /// The time of a stamp whose buffer is mapped, none where the device is lost; the stamp is free
+    /// again.
     fn take(&mut self, gpu: &Gpu, stamp: u32) -> Duration {
         self.free.push(stamp);
         let Some(buffer) = self.mapped.get(stamp as usize) else { return Duration::ZERO };

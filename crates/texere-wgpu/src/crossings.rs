@@ -17,7 +17,8 @@ use crate::kernels::{Kernel, Opened};
 use crate::readback::Readback;
 use crate::room::Room;
 
-/// Bytes from the parameters of a pass to those of the next one: every device binds uniforms at multiples of that.
+/// Bytes from the parameters of a pass to those of the next one: every device binds uniforms at
+/// multiples of that.
 const PARAMS_STEP: u64 = 256;
 
 /// The compiled shaders that bring crossings to rest.
@@ -73,7 +74,8 @@ impl Memory {
         })
     }
 
-    /// What a shader sees as `resource` in pass `number` of those between two waits. Every other one finds what the one before it has written.
+    /// What a shader sees as `resource` in pass `number` of those between two waits. Every other
+    /// one finds what the one before it has written.
     fn resource(&self, resource: Resource, number: u32) -> Option<BindingResource<'_>> {
         let [found, next] =
             if number.is_multiple_of(2) { [&self.found, &self.next] } else { [&self.next, &self.found] };
@@ -133,7 +135,8 @@ impl WgpuCrossings {
         })
     }
 
-    /// Records so many passes that there is a row for each, hands them over at once, and waits for what they have seen.
+    /// Records so many passes that there is a row for each, hands them over at once, and waits for
+    /// what they have seen.
     fn run(&mut self, passes: &[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError> {
         let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
         let numbers = 0..passes.len() as u32;

@@ -18,11 +18,12 @@ use crate::kernels::Opened;
 use crate::session::WgpuSession;
 use crate::settling::WgpuSettler;
 
-/// Most blocks of a launch, unless a caller says otherwise: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
-/// software device.
+/// Most blocks of a launch, unless a caller says otherwise: some 16 million rings, so that none
+/// takes long enough for a watchdog to end it, even on a software device.
 pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
-/// Features with which a picture finds depth and triangle of a sample at once; without them it takes two rounds.
+/// Features with which a picture finds depth and triangle of a sample at once; without them it
+/// takes two rounds.
 pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
 
 /// A wgpu device that is open and can start sessions.
@@ -46,7 +47,8 @@ pub struct WgpuBackend {
 }
 
 impl WgpuBackend {
-    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on. Drivers are asked once in a process.
+    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on.
+    /// Drivers are asked once in a process.
     ///
     /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
@@ -54,7 +56,8 @@ impl WgpuBackend {
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
     }
 
-    /// What [`WgpuBackend::devices`] says of these adapters: of a program's own, which draws into a window.
+    /// What [`WgpuBackend::devices`] says of these adapters: of a program's own, which draws into a
+    /// window.
     #[must_use]
     pub fn describe(adapters: &[wgpu::Adapter]) -> Vec<DeviceInfo> {
         let describe = |(index, adapter): (usize, &wgpu::Adapter)| {
@@ -65,8 +68,9 @@ impl WgpuBackend {
         adapters.iter().enumerate().map(describe).collect()
     }
 
-    /// What [`WgpuBackend::open`] asks of an adapter: its limits, its timestamp queries, and [`LONG_ATOMICS`] if it has them. For a program that
-    /// opens a device itself and gives it to [`WgpuBackend::from_device`].
+    /// What [`WgpuBackend::open`] asks of an adapter: its limits, its timestamp queries, and
+    /// [`LONG_ATOMICS`] if it has them. For a program that opens a device itself and gives it to
+    /// [`WgpuBackend::from_device`].
     #[must_use]
     pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {
@@ -77,10 +81,12 @@ impl WgpuBackend {
         }
     }
 
-    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries and [`LONG_ATOMICS`] if it has them.
+    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries and
+    /// [`LONG_ATOMICS`] if it has them.
     ///
-    /// **Errors**: [`BackendError::NoDevice`], which lists those there are; [`BackendError::Driver`] where the device
-    /// can't be opened; [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
+    /// **Errors**: [`BackendError::NoDevice`], which lists those there are;
+    /// [`BackendError::Driver`] where the device can't be opened; [`BackendError::Compile`];
+    /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
         let adapter =
@@ -110,9 +116,10 @@ impl WgpuBackend {
 
     /// Works on a device of the caller's, such as a viewer's, under the name `wgpu`.
     ///
-    /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no feature;
-    /// `TIMESTAMP_QUERY` makes timings exact, [`LONG_ATOMICS`] make pictures faster. With wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the fast one,
-    /// which does all that there is; the other is the paper's, to compare with.
+    /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no
+    /// feature; `TIMESTAMP_QUERY` makes timings exact, [`LONG_ATOMICS`] make pictures faster. With
+    /// wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the
+    /// fast one, which does all that there is; the other is the paper's, to compare with.
     ///
     /// ```no_run
     /// use texere_wgpu::{Schedule, WgpuBackend, wgpu};
@@ -143,8 +150,8 @@ impl WgpuBackend {
         Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
     }
 
-    /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than its bindings could
-    /// hold, or to test with many small chunks.
+    /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than
+    /// its bindings could hold, or to test with many small chunks.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         let info = DeviceInfo { limits: self.info.limits.min(&limits), ..self.info };
@@ -171,15 +178,16 @@ impl WgpuBackend {
         &self.opened.gpu.queue
     }
 
-    /// Runs `work`, a caller's own calls on the device and its queue, so that what goes wrong in them is an error and not
-    /// a panic; `call` names it.
+    /// Runs `work`, a caller's own calls on the device and its queue, so that what goes wrong in
+    /// them is an error and not a panic; `call` names it.
     ///
     /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
     pub fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
         self.opened.gpu.scoped(call, work)
     }
 
-    /// A buffer of at least `bytes`, a multiple of 16 and never empty, since an empty one can't be bound.
+    /// A buffer of at least `bytes`, a multiple of 16 and never empty, since an empty one can't be
+    /// bound.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], and those of [`WgpuBackend::scoped`].
     pub fn buffer(
@@ -219,15 +227,17 @@ impl Backend for WgpuBackend {
 
 /// All adapters that can compute. Drivers are asked once and stay loaded until the process ends.
 ///
-/// NVIDIA's crashes where adapters are listed, or its libEGL is unloaded, while another thread does so: devices that `tests/leaning.rs` opened and
-/// dropped side by side ended it in four of six runs.
+/// NVIDIA's crashes where adapters are listed, or its libEGL is unloaded, while another thread does
+/// so: devices that `tests/leaning.rs` opened and dropped side by side ended it in four of six
+/// runs.
 fn adapters() -> &'static [wgpu::Adapter] {
     static ADAPTERS: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
     let (_, adapters) = ADAPTERS.get_or_init(|| {
         let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
         let instance = wgpu::Instance::new(InstanceDescriptor {
             backends,
-            // No validation layer of the driver's, also in a debug build, unless the environment asks for it.
+            // No validation layer of the driver's, also in a debug build, unless the environment
+            // asks for it.
             flags: InstanceFlags::empty().with_env(),
             ..InstanceDescriptor::new_without_display_handle()
         });
@@ -268,7 +278,8 @@ fn describe(
         // wgpu does not say.
         memory_bytes: None,
         limits: Limits {
-            // Buffers are rounded up to multiples of 16 bytes, which must not take them past the limit.
+            // Buffers are rounded up to multiples of 16 bytes, which must not take them past the
+            // limit.
             binding_bytes: binding_bytes / 16 * 16,
             blocks: LAUNCH_BLOCKS,
             ..Limits::NONE

@@ -5,35 +5,39 @@ use texere_core::{Attribute, PackedVertex, Topology, Vertex};
 
 use crate::WgpuEngine;
 
-/// The layout of vertex buffers: position, mm, at location 0 and normal at location 1, three floats each.
+/// The layout of vertex buffers: position, mm, at location 0 and normal at location 1, three floats
+/// each.
 pub const VERTEX_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
 };
 
-/// The layout of attribute buffers: the yarn, a `u32`, at location 2; angle (rad) and length along the yarn (mm) at 3 and 4, a float each;
-/// tangent at 5, three floats.
+/// The layout of attribute buffers: the yarn, a `u32`, at location 2; angle (rad) and length along
+/// the yarn (mm) at 3 and 4, a float each; tangent at 5, three floats.
 pub const ATTRIBUTE_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<Attribute>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![2 => Uint32, 3 => Float32, 4 => Float32, 5 => Float32x3],
 };
 
-/// The layout of buffers of packed vertices: the two words of the position, `u32`s, at location 0, and the octahedral normal at location 1, two
-/// floats from -1 to 1. [`UNPACK`](crate::UNPACK) unpacks them.
+/// The layout of buffers of packed vertices: the two words of the position, `u32`s, at location 0,
+/// and the octahedral normal at location 1, two floats from -1 to 1. [`UNPACK`](crate::UNPACK)
+/// unpacks them.
 pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<PackedVertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![0 => Uint32x2, 1 => Snorm16x2],
 };
 
-/// Draws a whole live mesh in `pass`, whose pipeline is the caller's: sets its vertices as vertex buffer 0 ([`VERTEX_LAYOUT`]), its attributes, where
-/// it [keeps](LiveMesh::keep_attributes) any, as buffer 1 ([`ATTRIBUTE_LAYOUT`]) and its indices as index buffer, and draws yarn after yarn. Where one
-/// yarn takes several draws, or none, is the mesh's: [`texere_core::backend::Plan::chunk_draws`] says.
+/// Draws a whole live mesh in `pass`, whose pipeline is the caller's: sets its vertices as vertex
+/// buffer 0 ([`VERTEX_LAYOUT`]), its attributes, where it [keeps](LiveMesh::keep_attributes) any,
+/// as buffer 1 ([`ATTRIBUTE_LAYOUT`]) and its indices as index buffer, and draws yarn after yarn.
+/// Where one yarn takes several draws, or none, is the mesh's:
+/// [`texere_core::backend::Plan::chunk_draws`] says.
 ///
-/// None, and nothing is drawn, where the mesh is on no device of wgpu, was never [updated](LiveMesh::update), or is of another topology than
-/// [`Topology::Indexed`].
+/// None, and nothing is drawn, where the mesh is on no device of wgpu, was never
+/// [updated](LiveMesh::update), or is of another topology than [`Topology::Indexed`].
 ///
 /// ```no_run
 /// # fn example(mesh: &texere_core::backend::LiveMesh, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {

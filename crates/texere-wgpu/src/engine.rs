@@ -46,7 +46,8 @@ impl WgpuEngine {
         let gpu = &opened.gpu;
         check_schedule(opened.schedule, &plan, &gpu.name)?;
         gpu.probe()?;
-        // Tables first: a device that can't hold the points says so before the host makes room for them.
+        // Tables first: a device that can't hold the points says so before the host makes room for
+        // them.
         let tables = Tables::new(gpu, &plan)?;
         Ok(Self {
             ends: YarnEnds::new(&plan)?,
@@ -77,17 +78,19 @@ impl WgpuEngine {
         self.ends.flattened()
     }
 
-    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in `slot`.
+    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in
+    /// `slot`.
     fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
-    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its buffers; none where that is on no device of wgpu. [`draw`](fn@crate::draw) draws
-    /// them all.
+    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its buffers; none where
+    /// that is on no device of wgpu. [`draw`](fn@crate::draw) draws them all.
     ///
-    /// Between the yarns of a live mesh there is room, in which triangles of earlier edits may lie. So draw only what
-    /// [`Plan::chunk_draws`] says of the mesh's plan as it is now, and no chunk from its first to its last index.
+    /// Between the yarns of a live mesh there is room, in which triangles of earlier edits may lie.
+    /// So draw only what [`Plan::chunk_draws`] says of the mesh's plan as it is now, and no chunk
+    /// from its first to its last index.
     ///
     /// ```no_run
     /// # fn example(mesh: &texere_core::backend::LiveMesh, pass: &mut wgpu::RenderPass<'_>) -> Option<()> {
@@ -110,27 +113,31 @@ impl WgpuEngine {
         (engine as &dyn Any).downcast_ref()
     }
 
-    /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal, at the start of the buffer, which may be
-    /// longer. None where nothing was made yet. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal,
+    /// at the start of the buffer, which may be longer. None where nothing was made yet. Its usages
+    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn vertex_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.vertices.buffer())
     }
 
-    /// The indices of the chunk in `slot`, likewise: [`Chunk::indices`] of four bytes; with another topology than
-    /// [`Indexed`](texere_core::Topology::Indexed) there are none in it. Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
+    /// The indices of the chunk in `slot`, likewise: [`Chunk::indices`] of four bytes; with another
+    /// topology than [`Indexed`](texere_core::Topology::Indexed) there are none in it. Its usages
+    /// are `INDEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn index_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.indices.buffer())
     }
 
-    /// The attributes of the chunk in `slot`, likewise: one of 24 bytes for each vertex. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// The attributes of the chunk in `slot`, likewise: one of 24 bytes for each vertex. Its usages
+    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn attribute_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.attributes.buffer())
     }
 
-    /// The packed vertices of the chunk in `slot`, likewise: one of 12 bytes for each vertex. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// The packed vertices of the chunk in `slot`, likewise: one of 12 bytes for each vertex. Its
+    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn packed_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.packed.buffer())
@@ -149,7 +156,8 @@ impl WgpuEngine {
         Ok(())
     }
 
-    /// Reads yarns' ends from the device where an upload of so many points needs some that never were here.
+    /// Reads yarns' ends from the device where an upload of so many points needs some that never
+    /// were here.
     fn find_ends(&mut self, first: u64, count: usize) -> Result<(), BackendError> {
         if self.ends.are_missing(&self.plan, first, count) {
             let total = self.plan.padded_offsets().last().copied().unwrap_or(0);
@@ -176,7 +184,8 @@ impl WgpuEngine {
         gpu.probe()
     }
 
-    /// Runs `of_blocks` with a workgroup for each block of `chunks`, then `of_yarns` with one for each of their yarns.
+    /// Runs `of_blocks` with a workgroup for each block of `chunks`, then `of_yarns` with one for
+    /// each of their yarns.
     fn run_over(
         &mut self,
         chunks: ScanChunks<'_>,
@@ -189,7 +198,8 @@ impl WgpuEngine {
                 self.load(slot, &chunk)?;
             }
             self.check_loaded(slot, &chunk)?;
-            // A repeated ring has no step, and its block is written by the next chunk, which comes after.
+            // A repeated ring has no step, and its block is written by the next chunk, which comes
+            // after.
             self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
             last = Some((slot, chunk));
         }
@@ -199,7 +209,8 @@ impl WgpuEngine {
         }
     }
 
-    /// Runs `kernel` with a workgroup for each of `yarns`, whose blocks `chunk`, the one in `slot`, is the last to have some of.
+    /// Runs `kernel` with a workgroup for each of `yarns`, whose blocks `chunk`, the one in `slot`,
+    /// is the last to have some of.
     fn run_for_yarns(
         &mut self,
         slot: Slot,
@@ -227,7 +238,8 @@ impl Engine for WgpuEngine {
         let upload = self.ends.upload(&self.plan, first, points);
         let gpu = &self.opened.gpu;
         let sent = self.outbox.send(gpu, &self.tables.points, &upload)?;
-        // Hands a small copy over now, so that wgpu's own copy of the points does not wait until the first launch.
+        // Hands a small copy over now, so that wgpu's own copy of the points does not wait until
+        // the first launch.
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
         self.ends.keep(&upload);

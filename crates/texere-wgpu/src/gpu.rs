@@ -1,4 +1,5 @@
-//! An open device: calls into wgpu with their errors mapped, so that nothing in it can panic or hang.
+//! An open device: calls into wgpu with their errors mapped, so that nothing in it can panic or
+//! hang.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,8 +8,8 @@ use std::time::Duration;
 use texere_core::{BackendError, OutOfMemory};
 use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 
-/// How long a submission may take before the wait for it is given up. A chunk takes milliseconds on a GPU and seconds
-/// on a software device; whatever takes two minutes will not come back.
+/// How long a submission may take before the wait for it is given up. A chunk takes milliseconds on
+/// a GPU and seconds on a software device; whatever takes two minutes will not come back.
 pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
 
 /// Every buffer is a multiple of this long, bytes: the widest element of a shader's array.
@@ -21,7 +22,8 @@ pub(crate) struct Gpu {
     pub(crate) name: String,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    /// Why the device was lost, where it was. Stays empty on a caller's device, whose callbacks are the caller's.
+    /// Why the device was lost, where it was. Stays empty on a caller's device, whose callbacks are
+    /// the caller's.
     lost: Arc<Mutex<Option<String>>>,
 }
 
@@ -53,8 +55,8 @@ impl Gpu {
         }
     }
 
-    /// Asks the device whether it is still there. wgpu lets a lost device take any call and says nothing, but it
-    /// can't make a buffer.
+    /// Asks the device whether it is still there. wgpu lets a lost device take any call and says
+    /// nothing, but it can't make a buffer.
     ///
     /// **Errors**: [`BackendError::DeviceLost`].
     pub(crate) fn probe(&self) -> Result<(), BackendError> {
@@ -78,7 +80,8 @@ impl Gpu {
         BackendError::DeviceLost { device: self.name.clone(), source: Some(source.into()) }
     }
 
-    /// Runs `work` within error scopes, and gives back the error that it raised; lack of memory before what followed from it.
+    /// Runs `work` within error scopes, and gives back the error that it raised; lack of memory
+    /// before what followed from it.
     pub(crate) fn caught<T>(&self, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
         let scopes = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory]
             .map(|filter| self.device.push_error_scope(filter));
@@ -102,10 +105,11 @@ impl Gpu {
         })
     }
 
-    /// A buffer of at least `bytes`, a multiple of [`BUFFER_STEP`] and never empty, since an empty one can't be bound.
+    /// A buffer of at least `bytes`, a multiple of [`BUFFER_STEP`] and never empty, since an empty
+    /// one can't be bound.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`] also for more than the device's largest buffer, or, for a storage
-    /// buffer that is bound whole, its largest binding.
+    /// **Errors**: [`BackendError::OutOfMemory`] also for more than the device's largest buffer,
+    /// or, for a storage buffer that is bound whole, its largest binding.
     pub(crate) fn buffer(
         &self,
         what: &'static str,
@@ -140,7 +144,8 @@ impl Gpu {
     pub(crate) fn wait(&self, submission: SubmissionIndex) -> Result<(), BackendError> {
         self.check_alive()?;
         let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(WAIT_LIMIT) };
-        // wgpu 30 panics in `poll` where the driver reports that the device is gone; there is no other way to wait.
+        // wgpu 30 panics in `poll` where the driver reports that the device is gone; there is no
+        // other way to wait.
         let answer = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
         self.check_alive()?;
         match answer {
@@ -148,7 +153,8 @@ impl Gpu {
             Ok(Err(source @ PollError::Timeout)) => {
                 Err(BackendError::Driver { call: "Device::poll", source: source.into() })
             }
-            // A submission that the device never took: the submit before it failed for no other reason.
+            // A submission that the device never took: the submit before it failed for no other
+            // reason.
             Ok(Err(source)) => Err(self.lost(source)),
             Err(_) => Err(self.lost("the driver reported it while its work was waited for")),
         }

@@ -15,7 +15,8 @@ pub(crate) struct Mapped {
 }
 
 impl Mapped {
-    /// Hands over what `record` records, and asks for `bytes` of `buffer` to be mapped once that is done.
+    /// Hands over what `record` records, and asks for `bytes` of `buffer` to be mapped once that is
+    /// done.
     pub(crate) fn submit(
         gpu: &Gpu,
         buffer: &wgpu::Buffer,
@@ -42,7 +43,8 @@ impl Mapped {
         // Another thread's poll may have found the work done, and be about to say so.
         match self.answer.recv_timeout(WAIT_LIMIT) {
             Ok(Ok(())) => Ok(()),
-            // The buffer is sound and its work done, so it is the device that is not there to map it.
+            // The buffer is sound and its work done, so it is the device that is not there to map
+            // it.
             Ok(Err(source)) => Err(gpu.lost(source)),
             Err(source) => {
                 Err(BackendError::Driver { call: "BufferSlice::map_async", source: source.into() })

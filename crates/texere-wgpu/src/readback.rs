@@ -1,4 +1,5 @@
-//! Results to the host: piece by piece through two mapped buffers, one of which is filled while the other is lent.
+//! Results to the host: piece by piece through two mapped buffers, one of which is filled while the
+//! other is lent.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -10,9 +11,9 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::mapped::Mapped;
 
-/// Most bytes of a piece: large enough that the pause between two submissions does not count (at 24 MB the bus stands
-/// still a fifth of the time), small enough that a host has it to spare. A multiple of the size of a vertex, a ring and an
-/// index.
+/// Most bytes of a piece: large enough that the pause between two submissions does not count (at 24
+/// MB the bus stands still a fifth of the time), small enough that a host has it to spare. A
+/// multiple of the size of a vertex, a ring and an index.
 const PIECE_BYTES: u64 = 96 << 20;
 
 /// Where results are copied to, and what that has cost so far.

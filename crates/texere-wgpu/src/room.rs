@@ -21,7 +21,8 @@ impl Room {
 
     /// Takes `bytes` for `what` off it.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
+    /// them, may have.
     pub(crate) fn take(
         &mut self,
         gpu: &Gpu,

@@ -31,8 +31,9 @@ use crate::engine::WgpuEngine;
 pub struct WgpuSession(pub(crate) Session<WgpuEngine>);
 
 impl WgpuSession {
-    /// The vertices of `chunk`, which [`Session::mesh`] has been called for: [`Chunk::vertices`] of 24 bytes, position and
-    /// normal, at the start of the buffer. It may be longer, and is used again for the next chunk but one.
+    /// The vertices of `chunk`, which [`Session::mesh`] has been called for: [`Chunk::vertices`] of
+    /// 24 bytes, position and normal, at the start of the buffer. It may be longer, and is used
+    /// again for the next chunk but one.
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -42,8 +43,8 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).vertices.buffer())
     }
 
-    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. With another topology than
-    /// [`Indexed`](texere_core::Topology::Indexed) there are none in it.
+    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. With another topology
+    /// than [`Indexed`](texere_core::Topology::Indexed) there are none in it.
     ///
     /// Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -53,30 +54,33 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).indices.buffer())
     }
 
-    /// The attributes of `chunk`, which [`Session::attributes`] has been called for, likewise: an [`Attribute`](texere_core::Attribute) of 24 bytes
-    /// for each vertex.
+    /// The attributes of `chunk`, which [`Session::attributes`] has been called for, likewise: an
+    /// [`Attribute`](texere_core::Attribute) of 24 bytes for each vertex.
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`] before [`Session::attributes`].
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`] before
+    /// [`Session::attributes`].
     pub fn attribute_buffer(&self, chunk: &Chunk) -> Result<&wgpu::Buffer, SessionError> {
         let slot = self.0.slot_of_attributes(chunk)?;
         Ok(self.0.engine().memory(slot).attributes.buffer())
     }
 
-    /// The packed vertices of `chunk`, which [`Session::packed`] has been called for, likewise: a [`PackedVertex`](texere_core::PackedVertex) of 12
-    /// bytes for each vertex, in the layout [`PACKED_LAYOUT`](crate::PACKED_LAYOUT).
+    /// The packed vertices of `chunk`, which [`Session::packed`] has been called for, likewise: a
+    /// [`PackedVertex`](texere_core::PackedVertex) of 12 bytes for each vertex, in the layout
+    /// [`PACKED_LAYOUT`](crate::PACKED_LAYOUT).
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`] before [`Session::packed`].
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`] before
+    /// [`Session::packed`].
     pub fn packed_buffer(&self, chunk: &Chunk) -> Result<&wgpu::Buffer, SessionError> {
         let slot = self.0.slot_of_packed(chunk)?;
         Ok(self.0.engine().memory(slot).packed.buffer())
     }
 
-    /// The control points and tables that shaders make `chunk` from, for shaders of the caller's. No stage is run, and no memory is taken for
-    /// its results.
+    /// The control points and tables that shaders make `chunk` from, for shaders of the caller's.
+    /// No stage is run, and no memory is taken for its results.
     ///
     /// **Errors**: those of [`Session::trajectory`].
     pub fn chunk_tables(&mut self, chunk: &Chunk) -> Result<ChunkTables<'_>, SessionError> {
@@ -85,8 +89,8 @@ impl WgpuSession {
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`device_buffers`](texere_gpu::device_buffers), each a multiple of 16 bytes, and the rings where
-    /// [`Session::trajectory`] was called. Not what wgpu maps to send and read through.
+    /// [`device_buffers`](texere_gpu::device_buffers), each a multiple of 16 bytes, and the rings
+    /// where [`Session::trajectory`] was called. Not what wgpu maps to send and read through.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()
@@ -107,7 +111,8 @@ impl<'a> ChunkTables<'a> {
         self.engine.resource(self.slot, resource)
     }
 
-    /// Whether yarns may be wider than high somewhere, which is what the constant FLATTENED of shaders says.
+    /// Whether yarns may be wider than high somewhere, which is what the constant FLATTENED of
+    /// shaders says.
     #[must_use]
     pub fn are_flattened(&self) -> bool {
         self.engine.is_flattened()

@@ -1,4 +1,5 @@
-//! What stays on the device for as long as its engine: control points, the plan's tables and the rolls.
+//! What stays on the device for as long as its engine: control points, the plan's tables and the
+//! rolls.
 
 use std::ops::Range;
 

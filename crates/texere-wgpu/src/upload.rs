@@ -1,4 +1,5 @@
-//! Control points to the device: all cores pad them into mapped buffers, piece by piece, while the piece before is copied.
+//! Control points to the device: all cores pad them into mapped buffers, piece by piece, while the
+//! piece before is copied.
 
 use std::ops::Range;
 
@@ -12,8 +13,9 @@ use crate::mapped::Mapped;
 
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
-/// Up to so many points, such as an edited yarn's, go through wgpu's own staging. For more it would make a buffer as large as
-/// all of them, and to have that much memory mapped takes several times as long as to fill and copy it.
+/// Up to so many points, such as an edited yarn's, go through wgpu's own staging. For more it would
+/// make a buffer as large as all of them, and to have that much memory mapped takes several times
+/// as long as to fill and copy it.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
 /// Bytes of a piece: so few that filling one and copying the other overlap from early on.
@@ -22,8 +24,8 @@ const PIECE_BYTES: u64 = 8 << 20;
 /// Bytes that a core pads at a time. A multiple of them is a piece.
 const PART_BYTES: usize = 64 << 10;
 
-/// Two mapped buffers that control points are sent from, made for the first upload of more than a few points
-/// and kept for the next.
+/// Two mapped buffers that control points are sent from, made for the first upload of more than a
+/// few points and kept for the next.
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     sides: Vec<Side>,
@@ -41,7 +43,8 @@ impl Outbox {
         for range in upload.ranges() {
             let count = range.end - range.start;
             if count > FEW_POINTS {
-                // On one of the pool's threads, which need not be woken by another one for each piece.
+                // On one of the pool's threads, which need not be woken by another one for each
+                // piece.
                 let pieces = rayon::scope(|_| self.send_pieces(gpu, target, upload, range));
                 // A side that was left in between is not to be used again.
                 pieces.inspect_err(|_| self.sides.clear())?;

@@ -1,4 +1,5 @@
-//! The conformance suite's pairwise cases on a device of the caller's, opened as a viewer might: without any feature.
+//! The conformance suite's pairwise cases on a device of the caller's, opened as a viewer might:
+//! without any feature.
 
 use std::process::ExitCode;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
-//! Output against the oracle and the serial reference, whole and cut. The conformance suite has more.
+//! Output against the oracle and the serial reference, whole and cut. The conformance suite has
+//! more.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

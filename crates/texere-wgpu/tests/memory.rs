@@ -9,7 +9,8 @@ use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::{INSTALL, plan, waves};
 
-/// What is no part of the plan: parameters, time stamps, and host memory that results are read through.
+/// What is no part of the plan: parameters, time stamps, and host memory that results are read
+/// through.
 const BESIDES: [&str; 3] = ["parameters", "timestamps", "readback"];
 
 /// Every buffer is a multiple of this long.

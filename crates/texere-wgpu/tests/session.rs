@@ -1,4 +1,5 @@
-//! Sessions on a device: what is read, what is timed, what is refused. The suite tries misuse and edits.
+//! Sessions on a device: what is read, what is timed, what is refused. The suite tries misuse and
+//! edits.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -68,7 +69,8 @@ fn reading_moves_the_results_and_no_more() {
 
 #[test]
 fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
-    // 130 MB of vertices and as many of indices, two pieces each: both sides of the readback are used again.
+    // 130 MB of vertices and as many of indices, two pieces each: both sides of the readback are
+    // used again.
     let yarns = waves(45, 2_000, Yarn::default());
     let plan = plan(&yarns, Settings { subdivisions: 9, ..Settings::default() });
     let chunk = whole(&plan);

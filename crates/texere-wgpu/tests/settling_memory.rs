@@ -27,7 +27,8 @@ fn course(device: &WgpuBackend, plan: &Arc<SettlingPlan>) -> Result<(u64, Vec<Pl
     Ok((neighbours, places))
 }
 
-/// A device with little memory, in each buffer or in all, settles the same or says what is too large.
+/// A device with little memory, in each buffer or in all, settles the same or says what is too
+/// large.
 #[test]
 fn small_memories_settle_the_same_or_are_refused_by_name() {
     let start = starts().into_iter().find(|start| start.name == "jersey-5-piece").unwrap();

@@ -1,4 +1,5 @@
-//! Draws cloth with a pipeline of its own, from the very buffers that texere wrote: `cargo run --example draw_buffers --features wgpu,pictures`.
+//! Draws cloth with a pipeline of its own, from the very buffers that texere wrote:
+//! `cargo run --example draw_buffers --features wgpu,pictures`.
 
 use std::sync::Arc;
 
@@ -18,7 +19,8 @@ struct Corner { @builtin(position) at: vec4<f32>, @location(0) normal: vec3<f32>
 }";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // What is texere's: a fabric on a device, which may as well be the program's own (WgpuBackend::from_device).
+    // What is texere's: a fabric on a device, which may as well be the program's own
+    // (WgpuBackend::from_device).
     let design = texere::read("designs/herringbone.wif")?;
     let backend = Arc::new(WgpuBackend::open(0, Schedule::PerRing)?);
     let (device, queue) = (backend.device().clone(), backend.queue().clone());

@@ -44,9 +44,11 @@ pub struct Devices {
 }
 
 impl Devices {
-    /// The device that `auto` stands for, and why: a discrete GPU before an integrated one before the CPU.
+    /// The device that `auto` stands for, and why: a discrete GPU before an integrated one before
+    /// the CPU.
     ///
-    /// A GPU interface that runs on the CPU is never chosen: texere's own CPU backend is faster there.
+    /// A GPU interface that runs on the CPU is never chosen: texere's own CPU backend is faster
+    /// there.
     #[must_use]
     pub fn auto(&self) -> (&str, &'static str) {
         let first =
@@ -103,7 +105,8 @@ pub fn devices() -> Devices {
 /// # Ok::<(), texere::BackendError>(())
 /// ```
 ///
-/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked; [`BackendError::NoFeature`] for a family that this build lacks;
+/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked;
+/// [`BackendError::NoFeature`] for a family that this build lacks;
 /// [`BackendError::NoInstructionSet`] of `cpu`; and what the device says when it is opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     match name {
@@ -118,8 +121,8 @@ fn open_cpu() -> Result<Box<dyn Backend>, BackendError> {
     Ok(Box::new(ParallelBackend::open()?))
 }
 
-/// The GPU that `auto` stands for, if there is one that opens. No family is asked for its devices after one has a discrete
-/// GPU, since asking loads drivers.
+/// The GPU that `auto` stands for, if there is one that opens. No family is asked for its devices
+/// after one has a discrete GPU, since asking loads drivers.
 fn open_gpu() -> Option<Box<dyn Backend>> {
     let mut integrated = Vec::new();
     for family in FAMILIES {
@@ -166,8 +169,8 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
     list.iter().position(|device| device.device.to_lowercase().contains(&which))
 }
 
-/// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia`, or `auto`, a discrete GPU, else an
-/// integrated one, else whatever there is, since pictures need a GPU's interface.
+/// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia`, or `auto`, a discrete
+/// GPU, else an integrated one, else whatever there is, since pictures need a GPU's interface.
 ///
 /// ```no_run
 /// let design = texere::read("designs/herringbone.wif")?;
@@ -186,7 +189,8 @@ pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError
     texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
 }
 
-/// Which device of `list` [`open_renderer`] would open by that name: for a program that opens devices itself, since they have to draw into its window.
+/// Which device of `list` [`open_renderer`] would open by that name: for a program that opens
+/// devices itself, since they have to draw into its window.
 ///
 /// **Errors**: [`BackendError::NoDevice`], also where the list is empty.
 #[cfg(feature = "render")]

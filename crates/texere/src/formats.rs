@@ -1,5 +1,5 @@
-//! What becomes of a file whose format this build was made without. Other packages of the same build may have asked for more formats than
-//! this one has.
+//! What becomes of a file whose format this build was made without. Other packages of the same
+//! build may have asked for more formats than this one has.
 
 use std::io::Cursor;
 

@@ -1,4 +1,5 @@
-//! Devices of OpenCL and `wgpu`, and meshes that a program draws itself (features `opencl`, `wgpu`).
+//! Devices of OpenCL and `wgpu`, and meshes that a program draws itself (features `opencl`,
+//! `wgpu`).
 //!
 //! | to | take |
 //! |---|---|

@@ -23,8 +23,8 @@
 //! # }
 //! ```
 //!
-//! [`Design::yarns`] are where the structure places them, about where they belong. [`Design::rest`] lets them come to rest, as the design's
-//! [`Finish`](rest::Finish) says:
+//! [`Design::yarns`] are where the structure places them, about where they belong. [`Design::rest`]
+//! lets them come to rest, as the design's [`Finish`](rest::Finish) says:
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -102,14 +102,16 @@
 //! | `pictures` | PNG files of drafts and pictures |
 //! | `images` | point paper in design files |
 //!
-//! `toml`, `glb` and `ply` are there unless `default-features = false`. What a build leaves out it refuses by name: [`ReadError::Feature`],
-//! [`WriteError::Feature`].
+//! `toml`, `glb` and `ply` are there unless `default-features = false`. What a build leaves out it
+//! refuses by name: [`ReadError::Feature`], [`WriteError::Feature`].
 //!
 //! # Threads
 //!
-//! What texere does on the CPU it does in the [rayon](https://docs.rs/rayon) pool of the thread that calls it, and it starts no thread of its own: in the
-//! global pool, or in one of yours where you call it from there. That holds for all calls, also for uploads to a GPU. Open devices there, too: `cpu` tells
-//! how many threads it has found. Closures that report progress are called from threads of that pool.
+//! What texere does on the CPU it does in the [rayon](https://docs.rs/rayon) pool of the thread
+//! that calls it, and it starts no thread of its own: in the global pool, or in one of yours where
+//! you call it from there. That holds for all calls, also for uploads to a GPU. Open devices there,
+//! too: `cpu` tells how many threads it has found. Closures that report progress are called from
+//! threads of that pool.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
@@ -129,19 +131,26 @@
 //!
 //! # Words
 //!
-//! Lengths are in mm, angles in radians, twist in rad/mm ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
-//! are counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in calls, and from 1 where a weaver reads them.
+//! Lengths are in mm, angles in radians, twist in rad/mm
+//! ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y
+//! along the warp or wale, z out of the technical face; right-handed. Triangles are
+//! counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in
+//! calls, and from 1 where a weaver reads them.
 //!
-//! - *Control point*: a place of a yarn's centreline with its half width and half height. *Interval* j of the spline runs from point j to the next.
-//! - *Ring*: a cross-section of the mesh; there are K + 1 of them an interval ([`Settings::subdivisions`] is the paper's K). Its corners are
-//!   its *sides* ([`Settings::sides`], the paper's nc).
+//! - *Control point*: a place of a yarn's centreline with its half width and half height.
+//!   *Interval* j of the spline runs from point j to the next.
+//! - *Ring*: a cross-section of the mesh; there are K + 1 of them an interval
+//!   ([`Settings::subdivisions`] is the paper's K). Its corners are its *sides*
+//!   ([`Settings::sides`], the paper's nc).
 //! - *Roll*: how far a ring is turned about the centreline. A *scan* works out rolls along yarns.
-//! - *Block*: up to 64 rings of one yarn. *Chunk*: blocks that are worked on, read and drawn together, cut to what a device can hold.
-//!   *Slot*: a place for a chunk in a device's memory. A chunk is *in flight* from its first stage until another takes its slot.
-//! - *Room*: memory between the yarns of a [`Live`] mesh, so that one may get longer without the others moving.
+//! - *Block*: up to 64 rings of one yarn. *Chunk*: blocks that are worked on, read and drawn
+//!   together, cut to what a device can hold. *Slot*: a place for a chunk in a device's memory. A
+//!   chunk is *in flight* from its first stage until another takes its slot.
+//! - *Room*: memory between the yarns of a [`Live`] mesh, so that one may get longer without the
+//!   others moving.
 //!
-//! Errors say what happened in one line; where a driver or a file system has more to say it is their
-//! [`source`](std::error::Error::source).
+//! Errors say what happened in one line; where a driver or a file system has more to say it is
+//! their [`source`](std::error::Error::source).
 
 pub mod backend;
 pub mod check;

@@ -16,11 +16,14 @@ pub use self::error::LiveError;
 
 /// A fabric that is being edited, and its whole mesh on a device.
 ///
-/// Lifts, yarns, control points and colours change one by one, and [`Live::update`] makes again what has changed and no more. Each ends as if the fabric
-/// had been made anew; to undo is to set the old value again. Yarns lie as they are woven or knitted, at once and not at rest: [`Live::set_rest`] takes
-/// those that have come to rest since, and what is edited then lies as it is woven among them, until the next.
+/// Lifts, yarns, control points and colours change one by one, and [`Live::update`] makes again
+/// what has changed and no more. Each ends as if the fabric had been made anew; to undo is to set
+/// the old value again. Yarns lie as they are woven or knitted, at once and not at rest:
+/// [`Live::set_rest`] takes those that have come to rest since, and what is edited then lies as it
+/// is woven among them, until the next.
 ///
-/// The first update makes the whole mesh. Where a later one says that it is [`anew`](Update::anew), take the mesh's buffers again.
+/// The first update makes the whole mesh. Where a later one says that it is [`anew`](Update::anew),
+/// take the mesh's buffers again.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -91,8 +94,8 @@ pub struct Update {
 impl Live {
     /// Woven cloth, its mesh on `device`.
     ///
-    /// **Errors**: [`LiveError::Fabric`] where its yarns can't be made, [`LiveError::Session`] where the mesh can't be planned or has no room on
-    /// the device.
+    /// **Errors**: [`LiveError::Fabric`] where its yarns can't be made, [`LiveError::Session`]
+    /// where the mesh can't be planned or has no room on the device.
     pub fn weave(
         device: Arc<dyn Backend>,
         cloth: texere_fabric::Woven,
@@ -119,7 +122,8 @@ impl Live {
 
     /// Yarns of any origin.
     ///
-    /// **Errors**: [`LiveError::Session`] where the mesh can't be planned or has no room on the device.
+    /// **Errors**: [`LiveError::Session`] where the mesh can't be planned or has no room on the
+    /// device.
     pub fn given(device: Arc<dyn Backend>, yarns: Yarns, settings: Settings) -> Result<Self, LiveError> {
         let mesh = start(&*device, &yarns, settings)?;
         Ok(Self::of(device, settings, mesh, yarns.materials().to_vec(), Source::Given(yarns)))
@@ -136,8 +140,8 @@ impl Live {
         Self { device, settings, source, set, materials, mesh, anew: false, picker: None }
     }
 
-    /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are in it with their material, section and twist, but lie as
-    /// they are woven.
+    /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are in it
+    /// with their material, section and twist, but lie as they are woven.
     #[must_use]
     pub const fn woven(&self) -> Option<&texere_fabric::Woven> {
         match &self.source {
@@ -170,7 +174,8 @@ impl Live {
         &self.materials
     }
 
-    /// Makes again what has changed since the last time. May return before it is done: what is read or drawn later has it.
+    /// Makes again what has changed since the last time. May return before it is done: what is read
+    /// or drawn later has it.
     ///
     /// **Errors**: [`LiveError::Session`] of the device; what was to be made again still is.
     pub fn update(&mut self) -> Result<Update, LiveError> {
@@ -178,16 +183,18 @@ impl Live {
         Ok(Update { changes, anew: std::mem::take(&mut self.anew) })
     }
 
-    /// Makes what shaders and textures ask of vertices beside the mesh from the next update on: [`Attribute`](texere_core::Attribute)s, which
-    /// [`LiveMesh::read_attributes`] reads and backends lend.
+    /// Makes what shaders and textures ask of vertices beside the mesh from the next update on:
+    /// [`Attribute`](texere_core::Attribute)s, which [`LiveMesh::read_attributes`] reads and
+    /// backends lend.
     pub fn keep_attributes(&mut self) {
         self.mesh.keep_attributes();
     }
 
-    /// The first triangle that `ray` hits, of all yarns as they are now, updated or not; none where it hits nothing. The first ray makes boxes round all
-    /// yarns ([`Picker`]); edits keep them up.
+    /// The first triangle that `ray` hits, of all yarns as they are now, updated or not; none where
+    /// it hits nothing. The first ray makes boxes round all yarns ([`Picker`]); edits keep them up.
     ///
-    /// **Errors**: those of [`Live::yarns`], and [`LiveError::Pick`] where there is no memory for it.
+    /// **Errors**: those of [`Live::yarns`], and [`LiveError::Pick`] where there is no memory for
+    /// it.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -225,8 +232,9 @@ impl Live {
         Ok(self.picker.insert(picker).pick(ray))
     }
 
-    /// All yarns as they are now, with their [sources](Yarns::sources). Of a yarn that was [set](Live::set_yarn) to other control points they are those of
-    /// the points that these stand for, as far along it.
+    /// All yarns as they are now, with their [sources](Yarns::sources). Of a yarn that was
+    /// [set](Live::set_yarn) to other control points they are those of the points that these stand
+    /// for, as far along it.
     ///
     /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] where they can't be made.
     pub fn yarns(&self) -> Result<Yarns, LiveError> {
@@ -259,7 +267,8 @@ impl Live {
         Ok(all.with_ups(ups)?)
     }
 
-    /// Yarn number `yarn`, from 0, alone as it is now, with its sources: what a place on it is called needs no other yarn.
+    /// Yarn number `yarn`, from 0, alone as it is now, with its sources: what a place on it is
+    /// called needs no other yarn.
     ///
     /// **Errors**: [`LiveError::NoYarn`], and those of [`Live::yarns`].
     pub fn only(&self, yarn: usize) -> Result<Yarns, LiveError> {
@@ -289,8 +298,8 @@ impl Live {
         Ok(only.with_ups(ups)?)
     }
 
-    /// Adds to `sources` where the control points of yarn number `yarn`, `count` as it is now, come from. `told` is where those of the
-    /// source's yarn do.
+    /// Adds to `sources` where the control points of yarn number `yarn`, `count` as it is now, come
+    /// from. `told` is where those of the source's yarn do.
     fn tell(&self, yarn: usize, told: Option<&[u32]>, count: usize, sources: &mut Vec<u32>) {
         match (told, self.set.get(&yarn)) {
             (_, Some(SetYarn { sources: Some(said), .. })) => sources.extend_from_slice(said),
@@ -329,8 +338,8 @@ impl Live {
         }
     }
 
-    /// The same for each of its control points, which are those of yarn number `number` of `yarns`: where it does not say so, what those stand by,
-    /// and else along z.
+    /// The same for each of its control points, which are those of yarn number `number` of `yarns`:
+    /// where it does not say so, what those stand by, and else along z.
     fn standing_ups(&self, yarn: usize, yarns: &Yarns, number: usize) -> Vec<[f32; 3]> {
         let count = yarns.range(number).unwrap_or_default().len();
         let ups = self.ups(yarn).or_else(|| yarns.layout().ups(number));

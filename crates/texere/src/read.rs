@@ -1,6 +1,8 @@
-//! What readers say beside the design: where a file is wrong, and what a place in a cloth is called.
+//! What readers say beside the design: where a file is wrong, and what a place in a cloth is
+//! called.
 //!
-//! [`texere::read`](fn@crate::read) reads a file and all that it names; [`read_from`](crate::read_from) takes them from memory.
+//! [`texere::read`](fn@crate::read) reads a file and all that it names;
+//! [`read_from`](crate::read_from) takes them from memory.
 //!
 //! | to | take |
 //! |---|---|

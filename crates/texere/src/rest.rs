@@ -1,6 +1,7 @@
 //! Cloth at rest: what is asked for, what comes of it, and settling of single pieces.
 //!
-//! [`Design::rest`](crate::Design::rest) lets a design come to rest as its [`Finish`] says; its [`RestReport`] says what became of it.
+//! [`Design::rest`](crate::Design::rest) lets a design come to rest as its [`Finish`] says; its
+//! [`RestReport`] says what became of it.
 //!
 //! | to | take |
 //! |---|---|

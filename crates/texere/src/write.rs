@@ -1,7 +1,7 @@
 //! Files: meshes in pieces, pictures, drafts and designs.
 //!
-//! [`texere::write`](fn@crate::write) writes a whole mesh. Each function but [`file()`] has a twin whose name ends in `_to`: it writes the same bytes to a writer
-//! of the caller's.
+//! [`texere::write`](fn@crate::write) writes a whole mesh. Each function but [`file()`] has a twin
+//! whose name ends in `_to`: it writes the same bytes to a writer of the caller's.
 //!
 //! | to | take |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! A fabric that is edited: how often its mesh is planned, and what is still known of it afterwards.
+//! A fabric that is edited: how often its mesh is planned, and what is still known of it
+//! afterwards.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
@@ -165,7 +166,8 @@ fn ribbons() -> Woven {
     Woven::new(plain, threads(5), threads(4), vec![Material::default()], vec![Section::Circle]).unwrap()
 }
 
-/// The same points, but the height of the yarns that `turn` says is turned about the y axis, further along x by more.
+/// The same points, but the height of the yarns that `turn` says is turned about the y axis,
+/// further along x by more.
 fn turned(yarns: &Yarns, turn: impl Fn(usize) -> bool) -> Yarns {
     let mut ups = Vec::new();
     for yarn in 0..yarns.layout().yarns().len() {
@@ -177,7 +179,8 @@ fn turned(yarns: &Yarns, turn: impl Fn(usize) -> bool) -> Yarns {
     yarns.clone().with_ups(ups).unwrap()
 }
 
-/// Asserts that the live mesh is that of `yarns` made anew, to the bit, and that it knows them by the same ups.
+/// Asserts that the live mesh is that of `yarns` made anew, to the bit, and that it knows them by
+/// the same ups.
 fn assert_fresh(live: &mut Live, yarns: &Yarns, what: &str) {
     live.update().unwrap();
     let now = live.yarns().unwrap();
@@ -239,7 +242,8 @@ fn yarns_that_differ_in_their_ups_alone_are_made_again() {
     }
 }
 
-/// A yarn that is moved keeps its ups, one of other points stands along z, and one that is lifted does, too.
+/// A yarn that is moved keeps its ups, one of other points stands along z, and one that is lifted
+/// does, too.
 #[test]
 fn ups_stay_when_yarns_are_set() {
     let (cloth, flat) = (ribbons(), ribbons().yarns().unwrap());

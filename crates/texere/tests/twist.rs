@@ -49,8 +49,9 @@ fn unit(a: Vector) -> Vector {
     a.map(|each| each / dot(a, a).sqrt())
 }
 
-/// The signed turns, in degrees, from each ring of a yarn to the next as the mesh has them: the first corner of one ring is carried to the
-/// next by the smallest turn from plane to plane. With them the way from first ring to last, mm.
+/// The signed turns, in degrees, from each ring of a yarn to the next as the mesh has them: the
+/// first corner of one ring is carried to the next by the smallest turn from plane to plane. With
+/// them the way from first ring to last, mm.
 fn turns(mesh: &Mesh, yarn: usize) -> (Vec<f64>, f64) {
     let sides = mesh.plan.settings().sides as usize;
     let offsets = mesh.plan.ring_offsets();
@@ -80,13 +81,15 @@ fn turns(mesh: &Mesh, yarn: usize) -> (Vec<f64>, f64) {
     (turns.collect(), length)
 }
 
-/// No ring of the mesh is turned by more than 30 degrees, and all together turn as far as the twist asks.
+/// No ring of the mesh is turned by more than 30 degrees, and all together turn as far as the twist
+/// asks.
 fn follows(mesh: &Mesh, what: &str) {
     for (number, yarn) in mesh.plan.layout().yarns().iter().enumerate() {
         let (turns, length) = turns(mesh, number);
         assert!(turns.iter().all(|turn| turn.abs() < 30.1), "{what}, yarn {number}: {turns:?}");
         let (all, asked) = (turns.iter().sum::<f64>(), f64::from(yarn.twist).to_degrees() * length);
-        // A closed yarn gives back up to half a turn; frames of crimped yarns turn a little by themselves.
+        // A closed yarn gives back up to half a turn; frames of crimped yarns turn a little by
+        // themselves.
         let off = if yarn.closed { 181.0 } else { 2.0 + 0.002 * asked.abs() };
         assert!((all - asked).abs() < off, "{what}, yarn {number}: {all} for {asked}");
     }
@@ -101,7 +104,8 @@ fn rings_follow_the_twist_of_cloth() {
     }
 }
 
-/// Every section whose outline is no circle, yarns whose points lie near and far, bends, rings, and any tension.
+/// Every section whose outline is no circle, yarns whose points lie near and far, bends, rings, and
+/// any tension.
 #[test]
 fn rings_follow_the_twist_of_every_section_and_way() {
     let sections = [
@@ -136,7 +140,8 @@ fn rings_follow_the_twist_of_every_section_and_way() {
     }
 }
 
-/// The warning names what there is and what helps: the number that it names does, one less does not, and the mesh agrees.
+/// The warning names what there is and what helps: the number that it names does, one less does
+/// not, and the mesh agrees.
 #[test]
 fn subdivisions_that_are_fixed_are_warned_of() {
     let yarns = yarns_of(TWEED, "fixed");
@@ -154,7 +159,8 @@ fn subdivisions_that_are_fixed_are_warned_of() {
     assert!((said - most).abs() < 0.05 * said, "{said} for {most}");
 }
 
-/// Twist that no mesh of usual size shows ends in a bound and a warning, of one yarn and of a whole cloth.
+/// Twist that no mesh of usual size shows ends in a bound and a warning, of one yarn and of a whole
+/// cloth.
 #[test]
 fn hostile_twist_makes_no_giant() {
     for (threads, rings_max) in [(1, 64 * 1_000), (100, 1 << 21), (3_000, 1 << 21)] {
@@ -176,7 +182,8 @@ fn hostile_twist_makes_no_giant() {
     }
 }
 
-/// Yarns without twist, whatever their section, and round ones of usual twist are drawn with the paper's rings.
+/// Yarns without twist, whatever their section, and round ones of usual twist are drawn with the
+/// paper's rings.
 #[test]
 fn what_shows_no_twist_has_no_more_rings() {
     let plain = TWEED.replace("twist_per_m = 340\n", "");

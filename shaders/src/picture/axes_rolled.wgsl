@@ -1,11 +1,12 @@
-// The rings of a block in screen space in workgroup memory, in the place of their stances. After axes.wgsl and rings.wgsl; the twin of
-// axes_level.wgsl, which takes less memory.
+// The rings of a block in screen space in workgroup memory, in the place of their stances. After
+// axes.wgsl and rings.wgsl; the twin of axes_level.wgsl, which takes less memory.
 
 fn held_axes(ring: u32) -> Axes {
     return Axes(standing.centre[ring], standing.tangent[ring], standing.side[ring]);
 }
 
-// Puts the rings of a block there: a lane a ring, which it gives. Every lane must come here, and a barrier before others are read.
+// Puts the rings of a block there: a lane a ring, which it gives. Every lane must come here, and a
+// barrier before others are read.
 fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     block_rings(yarns[block.yarn], block, lane);

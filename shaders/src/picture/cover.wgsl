@@ -1,4 +1,5 @@
-// Where corners lie on the screen, and the samples that a quad may have. After fabric.wgsl and one of keys_64.wgsl and keys_32.wgsl.
+// Where corners lie on the screen, and the samples that a quad may have. After fabric.wgsl and one
+// of keys_64.wgsl and keys_32.wgsl.
 
 const SUBPIXELS = 256.0;
 
@@ -23,7 +24,8 @@ struct Corner {
 // Marks a corner that lies behind the eye or too far aside to have a place.
 const BEYOND = 64u;
 
-// A point in screen space is one of clip space whose x and y are 1/256 pixels from the middle, y downwards, before they are divided by w.
+// A point in screen space is one of clip space whose x and y are 1/256 pixels from the middle, y
+// downwards, before they are divided by w.
 fn screen_of(clip: vec4<f32>) -> vec4<f32> {
     return clip * screen_scale();
 }
@@ -32,7 +34,8 @@ fn screen_scale() -> vec4<f32> {
     return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
-// Next to 3 * 2^22 floats lie 1 apart, and their last bits count them: so a sum rounds. A conversion takes a GPU eight times as long.
+// Next to 3 * 2^22 floats lie 1 apart, and their last bits count them: so a sum rounds. A
+// conversion takes a GPU eight times as long.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
 
@@ -47,7 +50,8 @@ fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
     if view.eye.w == 0.0 {
         return (xy + ROUNDER) - ROUNDER;
     }
-    // A sum might be fused with the product in one place and not in another, and round otherwise there.
+    // A sum might be fused with the product in one place and not in another, and round otherwise
+    // there.
     return round(xy * (1.0 / w));
 }
 
@@ -67,31 +71,35 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
         return;
     }
     let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-    // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
+    // Complements: the greatest key is that of the nearest triangle, and of those as near of the
+    // first one.
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// How many samples a quad may have, a bit for each answer: NONE; SMALL, those of at most two by two pixels; FEW, those of some pixels more; or MANY, as
-// one that lies partly beyond what is reached may have.
+// How many samples a quad may have, a bit for each answer: NONE; SMALL, those of at most two by two
+// pixels; FEW, those of some pixels more; or MANY, as one that lies partly beyond what is reached
+// may have.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
 const MANY = 4u;
 
-// Whether an outside, or an inside where that may be seen, shows: from a triangle's area on the screen, twice. Outsides are
-// counter-clockwise as seen with y up: their areas are below 0.
+// Whether an outside, or an inside where that may be seen, shows: from a triangle's area on the
+// screen, twice. Outsides are counter-clockwise as seen with y up: their areas are below 0.
 fn is_seen(area: f32) -> bool {
     return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
 }
 
-// That area. Only its sign is wanted, which rounding does not change but where edges are as long as the screen.
+// That area. Only its sign is wanted, which rounding does not change but where edges are as long as
+// the screen.
 fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
     return pq.x * pr.y - pq.y * pr.x;
 }
 
-// The same of corners less than EXTENT apart, by an area that is wrong by less than 256: whether a triangle may show. Smaller ones may.
+// The same of corners less than EXTENT apart, by an area that is wrong by less than 256: whether a
+// triangle may show. Smaller ones may.
 fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
     let pq = q - p;
     let pr = r - p;
@@ -130,7 +138,8 @@ fn highest(quad: Quad) -> vec2<i32> {
     return max(max(quad.p.place, quad.q.place), max(quad.r.place, quad.s.place));
 }
 
-// The box round a quad on the screen, 1/256 pixels from its upper left corner, and the pixels of the band in it: none where it does not show.
+// The box round a quad on the screen, 1/256 pixels from its upper left corner, and the pixels of
+// the band in it: none where it does not show.
 struct QuadBox {
     least: vec2<i32>,
     most: vec2<i32>,
@@ -149,8 +158,8 @@ fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBo
     return QuadBox(least, most, first_pixel(least), last_pixel(most));
 }
 
-// The same with one more each way, for a pass that must have no fewer quads than another one has left it: twice does no harm, and a compiler may round
-// otherwise there.
+// The same with one more each way, for a pass that must have no fewer quads than another one has
+// left it: twice does no harm, and a compiler may round otherwise there.
 fn wider(box: QuadBox) -> QuadBox {
     return QuadBox(box.least, box.most, first_pixel(box.least - 1), last_pixel(box.most + 1));
 }
@@ -167,8 +176,8 @@ fn size_of(box: QuadBox, alone: i32) -> u32 {
     return select(MANY, FEW, 4 * (across.x + 1) * (across.y + 1) <= alone);
 }
 
-// Which samples it has where it is SMALL, a bit each, four for a pixel, from the pixel of the least x and y on, row by row. Most quads lie between
-// samples.
+// Which samples it has where it is SMALL, a bit each, four for a pixel, from the pixel of the least
+// x and y on, row by row. Most quads lie between samples.
 fn samples_of(box: QuadBox) -> u32 {
     let first = box.first;
     let last = box.last;

@@ -6,7 +6,8 @@ const CULL_GROUP = 64u;
 const BOX_SLACK = 1e-5;
 
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
-// Workgroups of the dispatches that go through the blocks: through all, those that have quads of a few samples, those that have some of many.
+// Workgroups of the dispatches that go through the blocks: through all, those that have quads of a
+// few samples, those that have some of many.
 @group(1) @binding(3) var<storage, read_write> groups: array<array<u32, 3>, 3>;
 
 struct Box {
@@ -17,7 +18,8 @@ struct Box {
 // Lanes that share a block: so they read points that lie side by side.
 const BLOCK_LANES = 8u;
 
-// What each lane has found of its block: the box of its intervals' Bezier hulls, and the largest half width or half height.
+// What each lane has found of its block: the box of its intervals' Bezier hulls, and the largest
+// half width or half height.
 var<workgroup> lows: array<vec3<f32>, CULL_GROUP>;
 var<workgroup> highs: array<vec3<f32>, CULL_GROUP>;
 var<workgroup> sizes: array<f32, CULL_GROUP>;
@@ -54,7 +56,8 @@ fn find_hull(block: Block, lane: u32, part: u32) {
     sizes[lane] = size;
 }
 
-// A box that holds the tube of the block whose lanes begin at `first`: their hulls, made wider by as much as the section may reach out.
+// A box that holds the tube of the block whose lanes begin at `first`: their hulls, made wider by
+// as much as the section may reach out.
 fn box_of(first: u32) -> Box {
     var low = lows[first];
     var high = highs[first];
@@ -94,7 +97,8 @@ fn is_outside(bounds: Box) -> bool {
     return left_of || right_of || above || below || before || behind;
 }
 
-// BLOCK_LANES lanes a row of the chunk's block table. A row without quads only has the roll of a ring that a cap closes.
+// BLOCK_LANES lanes a row of the chunk's block table. A row without quads only has the roll of a
+// ring that a cap closes.
 @compute @workgroup_size(CULL_GROUP)
 fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {
@@ -112,7 +116,8 @@ fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     }
 }
 
-// A lane a row, for a view that shows all of the fabric: to find out takes as long as a tenth of drawing.
+// A lane a row, for a view that shows all of the fabric: to find out takes as long as a tenth of
+// drawing.
 @compute @workgroup_size(CULL_GROUP)
 fn list_all(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
             @builtin(local_invocation_index) lane: u32) {

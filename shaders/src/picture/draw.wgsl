@@ -1,14 +1,15 @@
 // Draws quads and triangles in their samples. After cover.wgsl and weights.wgsl.
 //
-// The rules are those of any rasteriser, so that triangles with a common edge leave no sample out and have none twice: corners
-// are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
-// top or left edge that is.
+// The rules are those of any rasteriser, so that triangles with a common edge leave no sample out
+// and have none twice: corners are rounded to 1/256 of a pixel, edges are tested in whole numbers,
+// and a sample on an edge belongs to the triangle whose top or left edge that is.
 
 fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;
 }
 
-// The samples of a triangle's box, or some more where pixels have shifts: rows of samples, and pixels.
+// The samples of a triangle's box, or some more where pixels have shifts: rows of samples, and
+// pixels.
 struct Span {
     first: vec2<i32>,
     last: vec2<i32>,
@@ -72,7 +73,8 @@ fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     return Coverage(is_covered, depth_of(turned, f32(over_q), f32(over_r), f32(over_r + over_p + over_q)));
 }
 
-// Twice the area between `edge` and `to`, and its sign, exact for differences of 24 bits: in parts of 12 bits.
+// Twice the area between `edge` and `to`, and its sign, exact for differences of 24 bits: in parts
+// of 12 bits.
 struct Area {
     sign: i32,
     value: f32,
@@ -103,7 +105,8 @@ fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
     return Coverage(is_covered, depth_of(turned, over_q.value, over_r.value, long_cross(pq, -rp).value));
 }
 
-// Draws a SMALL quad, whose first triangle is number `triangle`, in those of its samples that it covers.
+// Draws a SMALL quad, whose first triangle is number `triangle`, in those of its samples that it
+// covers.
 fn draw_small(quad: Quad, samples: u32, triangle: u32) {
     // The pixel that `samples_of` has begun at.
     let first = first_pixel(lowest(quad) + (middle() - 1));
@@ -114,18 +117,21 @@ fn draw_small(quad: Quad, samples: u32, triangle: u32) {
     }
 }
 
-// An edge of a triangle as x, y and z of x * b - y * a + z, which is at least 0 for places (a, b), from `origin` on, on its inner side.
+// An edge of a triangle as x, y and z of x * b - y * a + z, which is at least 0 for places (a, b),
+// from `origin` on, on its inner side.
 fn edge_of(start: vec2<i32>, end: vec2<i32>, origin: vec2<i32>) -> vec3<i32> {
     let edge = end - start;
     return vec3(edge, edge_bias(edge) - cross_of(edge, start - origin));
 }
 
-// That sum at four places. Its parts may wrap round, the sum is exact: places lie within a box of ALONE samples.
+// That sum at four places. Its parts may wrap round, the sum is exact: places lie within a box of
+// ALONE samples.
 fn sums_at(edge: vec3<i32>, places: Four) -> vec4<i32> {
     return edge.x * places.y - edge.y * places.x + edge.z;
 }
 
-// Draws a quad that has few samples: four by two pixels at a time, first which of their samples it covers, then those.
+// Draws a quad that has few samples: four by two pixels at a time, first which of their samples it
+// covers, then those.
 fn draw_few(quad: Quad, triangle: u32) {
     if view.sees_inside != 0u {
         // One that is folded may show both its triangles in a sample.
@@ -166,7 +172,8 @@ fn draw_few(quad: Quad, triangle: u32) {
     }
 }
 
-// Draws a quad in a sample: that of its triangles which lies on the sample's side of the diagonal between q and r.
+// Draws a quad in a sample: that of its triangles which lies on the sample's side of the diagonal
+// between q and r.
 fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     let place = sample_place(x, row);
     if view.sees_inside != 0u {
@@ -200,7 +207,8 @@ struct Lanes {
     rows: i32,
 }
 
-// How far a row of samples may lie inside of a triangle, 1/256 pixels right of the screen's middle: before `x` and behind `y` it does not.
+// How far a row of samples may lie inside of a triangle, 1/256 pixels right of the screen's middle:
+// before `x` and behind `y` it does not.
 fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     // Samples that have shifts lie anywhere in the row.
     let is_shifted = view.spread > 0.0;
@@ -215,7 +223,8 @@ fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     return clamp(reach + vec2(-16.0, 16.0), vec2(-REACHED), vec2(REACHED));
 }
 
-// What an edge leaves of a reach. One that leads down has the triangle on its left, one that leads up on its right.
+// What an edge leaves of a reach. One that leads down has the triangle on its left, one that leads
+// up on its right.
 fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f32>) -> vec2<f32> {
     let edge = end - start;
     let at = start.x + edge.x / edge.y * (rows - start.y);
@@ -250,8 +259,9 @@ fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
     }
 }
 
-// Draws a triangle that lies partly behind the eye, or far aside: the whole screen against its edges in homogeneous coordinates
-// (Olano and Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates").
+// Draws a triangle that lies partly behind the eye, or far aside: the whole screen against its
+// edges in homogeneous coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
+// homogeneous coordinates").
 fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u32, lanes: u32) {
     let samples = u32(view.size.x) * sweep.rows * 4u;
     for (var sample = lane; sample < samples; sample += lanes) {
@@ -261,7 +271,8 @@ fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u3
         let weights = weights_at(p, q, r, sample_place(x, sample_row));
         let determinant = dot(weights, vec3(p.w, q.w, r.w));
         let is_front = determinant > 0.0;
-        // All of one sign: else the place lies outside, or the line of sight meets the triangle behind the eye.
+        // All of one sign: else the place lies outside, or the line of sight meets the triangle
+        // behind the eye.
         let inside = select(-weights, weights, is_front);
         if determinant != 0.0 && (is_front || view.sees_inside != 0u) && all(inside >= vec3(0.0)) {
             let clip = p * weights.x + q * weights.y + r * weights.z;

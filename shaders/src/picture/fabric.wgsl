@@ -1,6 +1,8 @@
-// A chunk of the fabric as it is drawn without a mesh: from control points. After common.wgsl and view.wgsl.
+// A chunk of the fabric as it is drawn without a mesh: from control points. After common.wgsl and
+// view.wgsl.
 //
-// Group 0 holds what a session keeps of the chunk, each resource at its own number; group 1 what pictures add.
+// Group 0 holds what a session keeps of the chunk, each resource at its own number; group 1 what
+// pictures add.
 
 // Rust: texere_render's Sweep, 32 bytes: one go through the chunk's blocks.
 struct Sweep {
@@ -17,8 +19,9 @@ struct Sweep {
     hair_reach: f32,
 }
 
-// Blocks of the chunk that the view may show: numbers of rows. From params.blocks on those that have quads of a few samples, from twice as many on
-// those that have some of many: these are left for later.
+// Blocks of the chunk that the view may show: numbers of rows. From params.blocks on those that
+// have quads of a few samples, from twice as many on those that have some of many: these are left
+// for later.
 struct Listed {
     count: atomic<u32>,
     few_count: atomic<u32>,

@@ -1,9 +1,10 @@
 // The picture's pixels, from the samples that lie in and about each. After view.wgsl and lit.wgsl.
 //
-// A pixel that is the mean of what lies in it lets through what is finer than pixels: threads of two thirds of a pixel come out as waves
-// of two pixels, a fifth as strong as the threads. More samples don't change that, for it is the mean itself. So where threads are
-// finer than pixels each is a mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines: a perfect fit
-// for signal and image processing"), and a tenth as much is left of such waves.
+// A pixel that is the mean of what lies in it lets through what is finer than pixels: threads of
+// two thirds of a pixel come out as waves of two pixels, a fifth as strong as the threads. More
+// samples don't change that, for it is the mean itself. So where threads are finer than pixels each
+// is a mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines: a
+// perfect fit for signal and image processing"), and a tenth as much is left of such waves.
 
 @group(1) @binding(1) var lit_samples: texture_2d<u32>;
 // Red, green, blue and alpha, sRGB.

@@ -1,21 +1,23 @@
 // What a fibre that stands off its yarn is like. After fabric.wgsl.
 //
-// Each gap between two rings has hairs of its own, by a hash of its yarn, its ring and the hair's number: so they are the same however the
-// fabric is cut into chunks, and whoever asks.
+// Each gap between two rings has hairs of its own, by a hash of its yarn, its ring and the hair's
+// number: so they are the same however the fabric is cut into chunks, and whoever asks.
 
-// Hairs of a gap at most, and straight parts of each. Rust: texere_render's hairs.rs, with the next one.
+// Hairs of a gap at most, and straight parts of each. Rust: texere_render's hairs.rs, with the next
+// one.
 const HAIRS_OF_GAP = 16u;
 const HAIR_PARTS = 16u;
 
 // A hair's length is cut off at so many times the scale of its distribution.
 const HAIR_LONGEST = 4.0;
 
-// Lengths are distributed exponentially (Barella and Manich 1993, "The hair-length distribution of yarns, measured by means of the
-// Zweigle G565 hairiness meter", for hairs up to 3 mm), with this scale, mm. It is chosen: a fifth of the hairs of 1 mm reach 2 mm.
+// Lengths are distributed exponentially (Barella and Manich 1993, "The hair-length distribution of
+// yarns, measured by means of the Zweigle G565 hairiness meter", for hairs up to 3 mm), with this
+// scale, mm. It is chosen: a fifth of the hairs of 1 mm reach 2 mm.
 const HAIR_SCALE = 0.6;
 
-// A fibre's width, mm: cotton is a ribbon of 12 to 20 micrometres, thinner the other way (Morton and Hearle 2008, "Physical properties of
-// textile fibres"), and seen from any side.
+// A fibre's width, mm: cotton is a ribbon of 12 to 20 micrometres, thinner the other way (Morton
+// and Hearle 2008, "Physical properties of textile fibres"), and seen from any side.
 const HAIR_WIDTH = 0.012;
 
 struct Hair {
@@ -25,7 +27,8 @@ struct Hair {
     // The surface's at the root, and the direction of its fibres there.
     normal: vec3<f32>,
     along: vec3<f32>,
-    // At its root, on its way and at its tip: the sine of its direction against that surface, and how far it is turned from those fibres, in turns.
+    // At its root, on its way and at its tip: the sine of its direction against that surface, and
+    // how far it is turned from those fibres, in turns.
     rises: vec3<f32>,
     turns: vec3<f32>,
 }
@@ -42,13 +45,15 @@ fn drawn(seed: u32, draw: u32) -> f32 {
     return f32(scrambled(seed + draw * 2654435769u) >> 8u) / 16777216.0;
 }
 
-// What all draws of a hair of a gap follow from. `ring`: the one before the gap, counted in the whole yarn.
+// What all draws of a hair of a gap follow from. `ring`: the one before the gap, counted in the
+// whole yarn.
 fn seed_of(yarn: u32, ring: u32, hair: u32) -> u32 {
     return scrambled(scrambled(yarn * 2246822519u + ring) + hair * 3266489917u);
 }
 
-// The hair of that seed between two rings. It starts on the surface that is drawn there and leaves it by its fibres' direction, which has the
-// twist, forward or backward; then it bends at random and lies down. It never leads back through the plane that it left.
+// The hair of that seed between two rings. It starts on the surface that is drawn there and leaves
+// it by its fibres' direction, which has the twist, forward or backward; then it bends at random
+// and lies down. It never leads back through the plane that it left.
 fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     let side = min(u32(drawn(seed, 0u) * f32(params.sides)), params.sides - 1u);
     let beside = side_beside(side);
@@ -69,7 +74,8 @@ fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     return Hair(mix(start, end, drawn(seed, 10u)), HAIR_SCALE * scales / f32(HAIR_PARTS), normal, along, rises, turns);
 }
 
-// Where its part number `part` leads: rise and turn are quadratic Bezier curves of the way to its tip.
+// Where its part number `part` leads: rise and turn are quadratic Bezier curves of the way to its
+// tip.
 fn hair_direction(hair: Hair, part: u32) -> vec3<f32> {
     let share = (f32(part) + 0.5) / f32(HAIR_PARTS);
     let rest = 1.0 - share;

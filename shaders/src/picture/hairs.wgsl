@@ -1,7 +1,8 @@
-// Draws the fibres that stand off the yarns of a chunk. After rings.wgsl, fabric.wgsl, cover.wgsl and hair.wgsl.
+// Draws the fibres that stand off the yarns of a chunk. After rings.wgsl, fabric.wgsl, cover.wgsl
+// and hair.wgsl.
 //
-// A fibre is a ribbon that faces the eye, as wide as it is: where that is less than the distance of samples it covers as few of them as its area
-// does, so that it comes out fainter and not thicker.
+// A fibre is a ribbon that faces the eye, as wide as it is: where that is less than the distance of
+// samples it covers as few of them as its area does, so that it comes out fainter and not thicker.
 
 const HAIR_GROUP = 128u;
 
@@ -16,7 +17,8 @@ const DEEPEST = 0.99999994;
 var<workgroup> block_hairs: array<u32, BLOCK_RINGS * HAIRS_OF_GAP>;
 var<workgroup> hair_count: atomic<u32>;
 
-// Notes the hairs of the gap behind ring `ring` of the block: as many as its length has, with the fraction by chance.
+// Notes the hairs of the gap behind ring `ring` of the block: as many as its length has, with the
+// fraction by chance.
 fn note_hairs(block: Block, ring: u32) {
     let length = distance(standing.centre[ring].xyz, standing.centre[ring + 1u].xyz);
     let chance = drawn(seed_of(block.yarn, block.first_ring + ring, HAIRS_OF_GAP), 0u);
@@ -48,7 +50,8 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     if min(start_clip.w, end_clip.w) < 0.5 * plane {
         return;
     }
-    // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is drawn there.
+    // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is
+    // drawn there.
     let depths = clamp(vec2(p.depth, q.depth), vec2(0.0), vec2(DEEPEST));
     let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));
     let base = vec2<f32>(p.place);

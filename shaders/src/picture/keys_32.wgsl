@@ -1,5 +1,5 @@
-// What is nearest in each sample, in two numbers of 32 bits, which take two rounds. Before cover.wgsl. In memory they are
-// the number of keys_64.wgsl.
+// What is nearest in each sample, in two numbers of 32 bits, which take two rounds. Before
+// cover.wgsl. In memory they are the number of keys_64.wgsl.
 
 struct Key {
     triangle: atomic<u32>,

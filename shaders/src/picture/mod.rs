@@ -38,7 +38,8 @@ macro_rules! drawing {
     };
 }
 
-/// `raster`, `raster_few`, `raster_many` and `raster_caps` with a kind of keys, where nothing turns and where something does.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps` with a kind of keys, where nothing turns
+/// and where something does.
 macro_rules! raster {
     ($keys:literal) => {
         [
@@ -70,10 +71,12 @@ macro_rules! rings {
     };
 }
 
-/// `cull`, `list_all`, `count_listed` and `count_left`. This one and the next five stand after `texere_gpu::prelude`.
+/// `cull`, `list_all`, `count_listed` and `count_left`. This one and the next five stand after
+/// `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
-/// `raster`, `raster_few`, `raster_many` and `raster_caps`, for devices with atomics of 64 bits: where nothing turns, and where something does.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps`, for devices with atomics of 64 bits:
+/// where nothing turns, and where something does.
 pub const RASTER: [&str; 2] = raster!("keys_64.wgsl");
 
 /// The same for any device.
@@ -114,7 +117,8 @@ pub const SHADE: &str = concat!(
     include_str!("shade.wgsl")
 );
 
-/// What stands before [`SHADE`]: whether the picture does without `visibility`, since all that takes light from a place lies too near it on the screen.
+/// What stands before [`SHADE`]: whether the picture does without `visibility`, since all that
+/// takes light from a place lies too near it on the screen.
 #[must_use]
 pub const fn far(far: bool) -> &'static str {
     if far { "const FAR = true;\n" } else { "const FAR = false;\n" }

@@ -1,14 +1,17 @@
-// Draws a chunk of the fabric from its control points: no mesh is written. After draw.wgsl, and axes_level.wgsl or axes_rolled.wgsl.
+// Draws a chunk of the fabric from its control points: no mesh is written. After draw.wgsl, and
+// axes_level.wgsl or axes_rolled.wgsl.
 //
-// Drawing in compute (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute shaders and vertex order
-// optimization"; Karis et al. 2021, "Nanite"): yarns have several triangles for each sample, which a rasteriser made for large
-// ones spends its time on. Here a triangle that has no sample costs no more than finding that out, and one that has some
-// costs an atomic maximum in each.
+// Drawing in compute (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute shaders
+// and vertex order optimization"; Karis et al. 2021, "Nanite"): yarns have several triangles for
+// each sample, which a rasteriser made for large ones spends its time on. Here a triangle that has
+// no sample costs no more than finding that out, and one that has some costs an atomic maximum in
+// each.
 
-// A lane for each ring of a block and the one after it, in eights for the scan of rolls. The less memory a workgroup takes, the more of them
-// run at a time.
+// A lane for each ring of a block and the one after it, in eights for the scan of rolls. The less
+// memory a workgroup takes, the more of them run at a time.
 const RASTER_GROUP = BLOCK_RINGS + 8u;
-// Lanes of that group that draw what has been found: GPUs run 32 in step, and the few beyond would keep others waiting in each round.
+// Lanes of that group that draw what has been found: GPUs run 32 in step, and the few beyond would
+// keep others waiting in each round.
 const DRAWING_LANES = 64u;
 const MANY_GROUP = 128u;
 const CAP_GROUP = 64u;
@@ -20,7 +23,8 @@ const SIDES_LOOKED = 6u;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// Quads of the block that are to be drawn: their numbers, and above FOUND_SHIFT the samples that SMALL ones may have. In `raster_many` sides of the ring.
+// Quads of the block that are to be drawn: their numbers, and above FOUND_SHIFT the samples that
+// SMALL ones may have. In `raster_many` sides of the ring.
 const FOUND_SHIFT = 16u;
 const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
 var<workgroup> found: array<u32, FOUND_MOST>;
@@ -82,7 +86,8 @@ fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {
                 corner_of(tube_at(next, other)));
 }
 
-// Notes those quads of some sides of a ring that are SMALL and have samples, or those that have FEW, and the sizes of others. `here` are the ring's axes.
+// Notes those quads of some sides of a ring that are SMALL and have samples, or those that have
+// FEW, and the sizes of others. `here` are the ring's axes.
 fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axes, size: u32) {
     if first_side >= end_side {
         return;
@@ -92,7 +97,8 @@ fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axe
         atomicOr(&other_sizes, MANY);
         return;
     }
-    // What has been found: 16 bits for each side, two sides in a number, and a bit for each that is noted.
+    // What has been found: 16 bits for each side, two sides in a number, and a bit for each that is
+    // noted.
     var samples = vec3(0u);
     var noted = 0u;
     var sizes = 0u;
@@ -154,7 +160,8 @@ fn empty_found(lane: u32) {
     workgroupBarrier();
 }
 
-// Draws the quads of a block that are SMALL, and gives what other sizes there are; or draws those that have FEW samples. A workgroup of RASTER_GROUP.
+// Draws the quads of a block that are SMALL, and gives what other sizes there are; or draws those
+// that have FEW samples. A workgroup of RASTER_GROUP.
 fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     let own = project_block(blocks[row], lane);
     if lane == 0u {
@@ -216,7 +223,8 @@ fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// A workgroup of MANY_GROUP for each ring of a block that has quads of MANY samples: all lanes draw each of them together.
+// A workgroup of MANY_GROUP for each ring of a block that has quads of MANY samples: all lanes draw
+// each of them together.
 @compute @workgroup_size(MANY_GROUP)
 fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {

@@ -1,5 +1,6 @@
-// What each sample shows, worked out again from the number of its triangle, or of its part of a hair. After fabric.wgsl, weights.wgsl, kept.wgsl
-// and hair.wgsl, and after HAIRY: false where no yarn has hairs.
+// What each sample shows, worked out again from the number of its triangle, or of its part of a
+// hair. After fabric.wgsl, weights.wgsl, kept.wgsl and hair.wgsl, and after HAIRY: false where no
+// yarn has hairs.
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
@@ -35,7 +36,8 @@ struct Stances {
     next: Stance,
 }
 
-// Both lie in one interval, or at its ends: the spline is the same there as in the next interval, but where it comes to rest and turns round.
+// Both lie in one interval, or at its ends: the spline is the same there as in the next interval,
+// but where it comes to rest and turns round.
 fn stances_at(yarn: YarnRow, block: Block, ring: u32) -> Stances {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + ring;
@@ -64,7 +66,8 @@ struct Shares {
 fn shares_of(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, place: vec2<i32>) -> Shares {
     let weights = weights_at(p, q, r, place);
     let is_front = dot(weights, vec3(p.w, q.w, r.w)) > 0.0;
-    // The pixel's middle may lie outside, and what is far from a small triangle is not to be made up.
+    // The pixel's middle may lie outside, and what is far from a small triangle is not to be made
+    // up.
     let inside = max(select(-weights, weights, is_front), vec3(0.0));
     let sum = inside.x + inside.y + inside.z;
     return Shares(select(vec3(1.0 / 3.0), inside / sum, sum > 0.0), is_front);
@@ -99,7 +102,8 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let r = vertex_at(stances.next, own);
     let shares = shares_of(p.clip, q.clip, r.clip, place);
     let normal = mat3x3(p.normal, q.normal, r.normal) * shares.corners;
-    // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's corners turn with its twist.
+    // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's
+    // corners turn with its twist.
     var fibre = r.position - p.position;
     if is_second {
         fibre = q.position - p.position;
@@ -153,8 +157,9 @@ fn kept_of_number(number: u32, place: vec2<i32>) -> vec4<u32> {
     return cap_at(row - params.blocks, triangle, place);
 }
 
-// The samples that a workgroup works out, each for itself and for those of its pixel that show the same: fields of bits, from the lowest on
-// the pixel's lane (6), the sample (2), a bit for each sample of the pixel that shows anything (4), a bit for each that is listed (4).
+// The samples that a workgroup works out, each for itself and for those of its pixel that show the
+// same: fields of bits, from the lowest on the pixel's lane (6), the sample (2), a bit for each
+// sample of the pixel that shows anything (4), a bit for each that is listed (4).
 const RESOLVE_GROUP = SCREEN_GROUP * SCREEN_GROUP;
 const SAMPLE_SHIFT = 6u;
 const SHOWN_SHIFT = 8u;
@@ -168,7 +173,8 @@ fn place_of_lane(group: vec3<u32>, lane: u32) -> vec2<u32> {
     return group.xy * SCREEN_GROUP + vec2(lane % SCREEN_GROUP, lane / SCREEN_GROUP);
 }
 
-// Lists the samples of a lane's pixel where they are nearer than what earlier chunks left, and keeps their depths.
+// Lists the samples of a lane's pixel where they are nearer than what earlier chunks left, and
+// keeps their depths.
 fn list_wanted(place: vec2<u32>, lane: u32) {
     let pixel = vec2(place.x, place.y + sweep.first_row);
     var shown = 0u;
@@ -226,8 +232,9 @@ fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_in
         let place = place_of_lane(group, entry & (RESOLVE_GROUP - 1u));
         let sample = (entry >> SAMPLE_SHIFT) & 3u;
         let pixel = vec2<i32>(vec2(place.x, place.y + sweep.first_row));
-        // In the pixel's middle, as rasterisers do. Where triangles are finer than pixels each sample has its own place, for the middle lies far
-        // outside, and the pattern of middles would beat with them.
+        // In the pixel's middle, as rasterisers do. Where triangles are finer than pixels each
+        // sample has its own place, for the middle lies far outside, and the pattern of middles
+        // would beat with them.
         let middle_of_pixel = pixel * 256 + 128 - middle();
         let at = select(middle_of_pixel, sample_place(pixel.x, 4 * pixel.y + i32(sample)), view.spread > 0.0);
         let kept = kept_of_number(~keys[key_at(place.x, place.y, sample)].x, at);

@@ -1,5 +1,6 @@
-// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl, and after FAR: true where all that takes light from a
-// place lies within one and a half pixels of it, so that there is nothing to find on the screen.
+// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl,
+// and after FAR: true where all that takes light from a place lies within one and a half pixels of
+// it, so that there is nothing to find on the screen.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
@@ -42,9 +43,10 @@ fn fresnel(cosine: f32) -> f32 {
     return straight + (1.0 - straight) * pow(1.0 - cosine, 5.0);
 }
 
-// What a fibre along `fibre` sends to `eye` of light from `light`, its cosine included: Sadeghi, Bisker, De Deken and
-// Jensen 2013, "A practical microcylinder appearance model for cloth rendering", the surface and volume terms of its
-// section 3; a highlight along the fibre as Kajiya and Kay 1989 had it, of the two lobes of Marschner et al. 2003.
+// What a fibre along `fibre` sends to `eye` of light from `light`, its cosine included: Sadeghi,
+// Bisker, De Deken and Jensen 2013, "A practical microcylinder appearance model for cloth
+// rendering", the surface and volume terms of its section 3; a highlight along the fibre as Kajiya
+// and Kay 1989 had it, of the two lobes of Marschner et al. 2003.
 fn microcylinder(look: YarnLook, color: vec3<f32>, fibre: vec3<f32>, light: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
     let sine_in = clamp(dot(fibre, light), -1.0, 1.0);
     let sine_out = clamp(dot(fibre, eye), -1.0, 1.0);
@@ -70,7 +72,8 @@ fn hash(cell: vec2<u32>) -> f32 {
     return f32((x ^ (x >> 16u)) >> 8u) / 16777216.0;
 }
 
-// The share of light that reaches the point between fibres, from their place round and along the yarn.
+// The share of light that reaches the point between fibres, from their place round and along the
+// yarn.
 fn grain(look: YarnLook, yarn: u32, angle: f32, along: f32, fade: f32) -> f32 {
     let fibres = 26.0;
     let round = angle * fibres;
@@ -102,8 +105,9 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let fibre = from_octahedron(halves(textureLoad(directions, pixel, sample, 0).y));
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
-        // Fibres seen end on absorb the light that falls between them. Nothing stands before a cut's plane, and the depth kept
-        // is that of the yarn's far side: so occlusion does not apply.
+        // Fibres seen end on absorb the light that falls between them. Nothing stands before a
+        // cut's plane, and the depth kept is that of the yarn's far side: so occlusion does not
+        // apply.
         let open = select(seen.x, 1.0, view.has_ground == 0u);
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }
@@ -112,13 +116,15 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let share = grain(look, yarn, f32(place.x) / 65536.0, f32(place.y) * (look.ring_length / 8.0), fade);
     let color = look.color * select(share, 1.0, is_hair);
     let fill = fill_direction();
-    // The yarn's body shades its own far side, softly, since light goes through its outer fibres; a fibre that stands off it is lit all round.
+    // The yarn's body shades its own far side, softly, since light goes through its outer fibres; a
+    // fibre that stands off it is lit all round.
     let facing = select(clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0), 1.0, is_hair);
     let fill_facing = select(clamp((dot(here.normal, fill) + 0.4) / 1.4, 0.0, 1.0), 1.0, is_hair);
     var light = KEY * microcylinder(look, color, fibre, view.light, eye) * (facing * seen.y);
     light += FILL * microcylinder(look, color, fibre, fill, eye) * (fill_facing * seen.x);
-    // Light that yarns send on to each other takes on their colour, so deep places are not grey (Jimenez et al. 2016,
-    // "Practical real-time strategies for accurate indirect occlusion", equation 10).
+    // Light that yarns send on to each other takes on their colour, so deep places are not grey
+    // (Jimenez et al. 2016, "Practical real-time strategies for accurate indirect occlusion",
+    // equation 10).
     let a = 2.0404 * color - 0.3324;
     let b = -4.7951 * color + 0.6417;
     let c = 2.7552 * color + 0.6903;
@@ -131,7 +137,8 @@ fn shade_ground(normal: vec3<f32>, seen: vec2<f32>) -> vec3<f32> {
     return GROUND_COLOR * (key + surroundings(normal) * seen.x);
 }
 
-// Khronos PBR neutral tone mapper (2024): colours keep their hue and, below four fifths, their very value.
+// Khronos PBR neutral tone mapper (2024): colours keep their hue and, below four fifths, their very
+// value.
 fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
     let start = 0.8 - 0.04;
     let least = min(light.r, min(light.g, light.b));
@@ -150,7 +157,8 @@ fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
 // What is visible on yarns on the average: of all round, and of the key light.
 const AVERAGE = vec2(0.8, 0.85);
 
-// Both visibilities: the mean of the four by four pixels about that lie in the surface's plane, or near it.
+// Both visibilities: the mean of the four by four pixels about that lie in the surface's plane, or
+// near it.
 fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     if FAR {
         return select(vec2(1.0), AVERAGE, here.is_yarn);
@@ -198,7 +206,8 @@ fn yarn_at(pixel: vec2<i32>, sample: i32) -> u32 {
     return select(textureLoad(places, pixel, sample, 0).x, NO_YARN, depth_at(pixel, sample) >= 1.0);
 }
 
-// A lane a pixel of the screen: its four samples, or one for all where they are of one yarn that is wider than pixels.
+// A lane a pixel of the screen: its four samples, or one for all where they are of one yarn that is
+// wider than pixels.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn shade(@builtin(global_invocation_id) place: vec3<u32>) {
     let pixel = vec2<i32>(place.xy);

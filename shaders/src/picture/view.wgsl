@@ -1,7 +1,8 @@
-// What every picture shader reads: the view, and the encoding of visible samples until they are shaded.
+// What every picture shader reads: the view, and the encoding of visible samples until they are
+// shaded.
 
-// Rust: texere_render's ViewUniform, 256 bytes. All positions are relative to the camera's target, since f32 has no
-// tenth of a millimetre left at ten kilometres.
+// Rust: texere_render's ViewUniform, 256 bytes. All positions are relative to the camera's target,
+// since f32 has no tenth of a millimetre left at ten kilometres.
 struct View {
     clip_from_local: mat4x4<f32>,
     local_from_clip: mat4x4<f32>,
@@ -31,7 +32,8 @@ struct View {
     // What is seen where no yarn is: a kind, and its colour in linear light.
     background_kind: u32,
     background: vec3<f32>,
-    // How far pixels of the picture reach for their samples: 0 for those in them alone, 1 for those of a pixel about them, too.
+    // How far pixels of the picture reach for their samples: 0 for those in them alone, 1 for those
+    // of a pixel about them, too.
     spread: f32,
     // 1 where fibres that stand off yarns are drawn, else 0.
     has_hairs: u32,
@@ -49,15 +51,16 @@ const SCREEN_GROUP = 8u;
 // Samples of a pixel of the screen. Rust: texere_render's SAMPLES.
 const SAMPLES = 4;
 
-// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels, a byte each from
-// the lowest on: 96, 224, 32, 160.
+// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in
+// 1/256 pixels, a byte each from the lowest on: 96, 224, 32, 160.
 const SAMPLE_X = 0xa020e060u;
 const SAMPLE_ROW = 64;
 const FIRST_SAMPLE_Y = 32;
 
-// How far the pattern is shifted round in this pixel and, by itself, in each of its rows of samples, 1/256 pixels. Threads finer than
-// pixels would beat with a pattern that is the same everywhere, so there each pixel has its own shift, by a hash of its place: what
-// is finer than samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
+// How far the pattern is shifted round in this pixel and, by itself, in each of its rows of
+// samples, 1/256 pixels. Threads finer than pixels would beat with a pattern that is the same
+// everywhere, so there each pixel has its own shift, by a hash of its place: what is finer than
+// samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
 fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     if view.spread == 0.0 {
         return vec2(0);
@@ -67,7 +70,8 @@ fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     return vec2<i32>(vec2(hash >> 24u, (hash >> 18u) & 63u));
 }
 
-// Where sample `sample` lies in a pixel without a shift, 1/256 pixels right of the pixel's left edge.
+// Where sample `sample` lies in a pixel without a shift, 1/256 pixels right of the pixel's left
+// edge.
 fn sample_x(sample: i32) -> i32 {
     return i32((SAMPLE_X >> (8u * u32(sample))) & 255u);
 }
@@ -92,7 +96,8 @@ const HAIR = 0x40000000u;
 // What is left is the yarn's number.
 const MARKS = CUT | HAIR;
 
-// A unit vector as two numbers of 16 bits (Meyer et al. 2010, "On floating-point normal vectors": the octahedron).
+// A unit vector as two numbers of 16 bits (Meyer et al. 2010, "On floating-point normal vectors":
+// the octahedron).
 fn octahedron(v: vec3<f32>) -> vec2<u32> {
     let folded = v.xy / (abs(v.x) + abs(v.y) + abs(v.z));
     let turned = (1.0 - abs(folded.yx)) * select(vec2(-1.0), vec2(1.0), folded >= vec2(0.0));

@@ -1,4 +1,5 @@
-// Ambient occlusion and the key light's shadow at each pixel, both found on the screen. After view.wgsl and screen.wgsl.
+// Ambient occlusion and the key light's shadow at each pixel, both found on the screen. After
+// view.wgsl and screen.wgsl.
 
 @group(1) @binding(4) var seen: texture_storage_2d<rgba8unorm, write>;
 
@@ -11,14 +12,15 @@ const LIGHT_RADIUS = 0.13;
 // Turns of the spiral that the taps lie on, prime to their number.
 const SPIRAL_TURNS = 9.0;
 
-// The depth of a yarn's body in a pixel, 1 where there is none. Single fibres are far thinner than what is taken to lie in the way of light.
+// The depth of a yarn's body in a pixel, 1 where there is none. Single fibres are far thinner than
+// what is taken to lie in the way of light.
 fn body_depth_at(pixel: vec2<i32>) -> f32 {
     let is_hair = view.has_hairs != 0u && (textureLoad(places, pixel, 0, 0).x & HAIR) != 0u;
     return select(depth_at(pixel, 0), 1.0, is_hair);
 }
 
-// Ambient visibility: McGuire, Mara and Luebke 2012, "Scalable ambient obscurance", the estimator of its equation 10
-// with the falloff of Alchemy (McGuire et al. 2011).
+// Ambient visibility: McGuire, Mara and Luebke 2012, "Scalable ambient obscurance", the estimator
+// of its equation 10 with the falloff of Alchemy (McGuire et al. 2011).
 fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
     let last = vec2<i32>(view.size) - 1;
     let reach_squared = view.reach * view.reach;
@@ -41,7 +43,8 @@ fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
     return max(1.0 - 2.6 * sum / f32(OCCLUSION_TAPS), 0.0);
 }
 
-// Whether the key light is visible: steps towards one of its sixteen points until something on the screen is in the way.
+// Whether the key light is visible: steps towards one of its sixteen points until something on the
+// screen is in the way.
 fn lit(here: Surface, phase: f32) -> f32 {
     // The points lie as seeds in a sunflower (Vogel 1979).
     let side = normalize(cross(view.light, vec3(0.31, 0.23, 0.92)));

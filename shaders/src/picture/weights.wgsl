@@ -1,7 +1,7 @@
 // How much each corner of a triangle counts at a place on the screen. After fabric.wgsl.
 
-// Weights that are right in perspective, up to a factor: for corners in clip space, and a place in 1/256 pixels from the
-// screen's middle.
+// Weights that are right in perspective, up to a factor: for corners in clip space, and a place in
+// 1/256 pixels from the screen's middle.
 fn weights_at(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, place: vec2<i32>) -> vec3<f32> {
     let ndc = vec2<f32>(place) * vec2(2.0, -2.0) / (256.0 * view.size);
     let to_p = p.xy - ndc * p.w;

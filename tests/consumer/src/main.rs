@@ -1,4 +1,5 @@
-//! The README's example, then every backend of the CPU, with every kind of vectors, on threads with little stack.
+//! The README's example, then every backend of the CPU, with every kind of vectors, on threads with
+//! little stack.
 
 use std::error::Error;
 use std::thread;
@@ -37,7 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// All that a mesh may be asked for, called from a thread with little stack and worked on by such threads.
+/// All that a mesh may be asked for, called from a thread with little stack and worked on by such
+/// threads.
 fn on_little_stack(yarns: &Yarns, device: &dyn Backend) -> Result<(), Box<dyn Error>> {
     let name = &device.info().name;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).stack_size(STACK).build()?;

@@ -1,4 +1,5 @@
-//! Feeds a reader as many inputs as are wanted: `cargo run -p texere-fuzz --example fuzz -- --reader wif --inputs 1000000`.
+//! Feeds a reader as many inputs as are wanted:
+//! `cargo run -p texere-fuzz --example fuzz -- --reader wif --inputs 1000000`.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -16,7 +17,8 @@ const STEP: u64 = 10_000;
 /// Feeds mutated designs to texere's readers.
 #[derive(Debug, Parser)]
 struct Args {
-    /// wif, design, notation, image, paper, knitout, knit, warp-knit or yarns; all of them where not given
+    /// wif, design, notation, image, paper, knitout, knit, warp-knit or yarns; all of them where
+    /// not given
     #[arg(long)]
     reader: Option<String>,
     /// How many inputs for each reader

@@ -13,7 +13,8 @@ use texere_formats::read::{self, SavedYarns, read};
 use texere_formats::write::{self, Side};
 use texere_formats::{Cloth, Design, Refusal, RestReport, WriteError};
 
-/// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
+/// The most crossings of a cloth whose yarns are made, and the most control points of one whose
+/// mesh is.
 const CROSSINGS: usize = 2_000;
 const POINTS: usize = 10_000;
 
@@ -34,7 +35,8 @@ pub enum Outcome {
 ///
 /// # Panics
 ///
-/// Where an error is long or would steer a terminal, a draft is not its cloth's, or a mesh has numbers that are none.
+/// Where an error is long or would steer a terminal, a draft is not its cloth's, or a mesh has
+/// numbers that are none.
 #[must_use]
 pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
@@ -100,17 +102,20 @@ fn sinks(design: &Design) {
     }
 }
 
-/// The most control points of a cloth that settles here, and the passes that it gets of either form.
+/// The most control points of a cloth that settles here, and the passes that it gets of either
+/// form.
 const SETTLING_POINTS: usize = 300;
 const PASSES: u32 = 3;
 
-/// The passes after which stretching is broken off: to its end it settles a cloth up to 49 times, which takes seconds.
+/// The passes after which stretching is broken off: to its end it settles a cloth up to 49 times,
+/// which takes seconds.
 const STRETCHING: u32 = 100;
 
 /// The share of the progress at which cloth that is stretched has been.
 const STRETCHED: f64 = 0.5;
 
-/// `outcome`, after the cloth has begun to settle as its design says. What refuses it names the design's file.
+/// `outcome`, after the cloth has begun to settle as its design says. What refuses it names the
+/// design's file.
 fn finished(design: &Design, outcome: Outcome) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
     if outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {

@@ -1,5 +1,6 @@
-//! Designs that nobody would write, made from ones that somebody would: whatever a reader takes goes on through yarns,
-//! plan, mesh and clearance, and whatever it refuses has a short error. Nothing panics, hangs or takes a great deal of memory.
+//! Designs that nobody would write, made from ones that somebody would: whatever a reader takes
+//! goes on through yarns, plan, mesh and clearance, and whatever it refuses has a short error.
+//! Nothing panics, hangs or takes a great deal of memory.
 //!
 //! An input is made from a reader and a number alone, so that a failure's number makes it again:
 //!

@@ -10,7 +10,8 @@ use peak_alloc::PeakAlloc;
 
 use crate::{Input, Outcome, Reader, drive};
 
-/// How long an input may take: ten times as long as the slowest takes here, so that only what hangs is caught.
+/// How long an input may take: ten times as long as the slowest takes here, so that only what hangs
+/// is caught.
 const LIMIT: Duration = Duration::from_secs(20);
 
 /// The most memory that the whole program may have taken with an input, MiB.
@@ -18,12 +19,13 @@ const MEMORY_MIB: f32 = 1024.0;
 
 /// Runs the inputs numbered `numbers` and gives back how many were taken.
 ///
-/// `heap` counts the program's memory. The files of an input that fails are kept in `kept`, a folder.
+/// `heap` counts the program's memory. The files of an input that fails are kept in `kept`, a
+/// folder.
 ///
 /// # Panics
 ///
-/// At the first input that panics or takes more memory than it may. One that hangs ends the program, after its files have
-/// been kept: nothing else can stop it.
+/// At the first input that panics or takes more memory than it may. One that hangs ends the
+/// program, after its files have been kept: nothing else can stop it.
 #[must_use]
 pub fn fuzz(reader: Reader, numbers: std::ops::Range<u64>, heap: &PeakAlloc, kept: &Path) -> u64 {
     let folder = tempfile::tempdir().expect("a folder for inputs");

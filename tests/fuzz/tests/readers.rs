@@ -1,5 +1,5 @@
-//! Ten thousand inputs for each reader; `cargo run -p texere-fuzz --example fuzz` feeds as many as are wanted. A failure tells the
-//! input's number, which makes it again.
+//! Ten thousand inputs for each reader; `cargo run -p texere-fuzz --example fuzz` feeds as many as
+//! are wanted. A failure tells the input's number, which makes it again.
 
 use std::path::Path;
 
@@ -11,7 +11,8 @@ static HEAP: PeakAlloc = PeakAlloc;
 
 fn ten_thousand(reader: Reader) {
     let taken = fuzz(reader, 0..10_000, &HEAP, Path::new(env!("CARGO_TARGET_TMPDIR")));
-    // Mutations are small, so that much of what is fed gets far; least where a design and its image are both mutated.
+    // Mutations are small, so that much of what is fed gets far; least where a design and its image
+    // are both mutated.
     assert!(taken > 300, "only {taken} were taken");
 }
 

@@ -5,10 +5,12 @@ use std::collections::BTreeSet;
 /// A factor and one of its values, both by number.
 type Level = (usize, usize);
 
-/// The fewest rows that a greedy search finds, for factors of `sizes` values; the same ones on every run.
+/// The fewest rows that a greedy search finds, for factors of `sizes` values; the same ones on
+/// every run.
 ///
-/// Each row starts with a pair that no row has yet, and takes for each further factor the value that brings the most new
-/// pairs (Cohen, Dalal, Fredman and Patton 1997, without their random choices).
+/// Each row starts with a pair that no row has yet, and takes for each further factor the value
+/// that brings the most new pairs (Cohen, Dalal, Fredman and Patton 1997, without their random
+/// choices).
 pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
     let mut open = pairs(sizes);
     let mut rows = Vec::new();
@@ -55,8 +57,8 @@ fn pairs(sizes: &[usize]) -> BTreeSet<(Level, Level)> {
 mod tests {
     use super::*;
 
-    /// Three factors of two values need four rows, and no fewer; nine of very different sizes about as many as the two
-    /// largest ask for.
+    /// Three factors of two values need four rows, and no fewer; nine of very different sizes about
+    /// as many as the two largest ask for.
     #[test]
     fn few_rows_are_enough() {
         assert_eq!(covering(&[2, 2, 2]).len(), 4);

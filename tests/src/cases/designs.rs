@@ -14,8 +14,8 @@ const THREADS: usize = 20;
 /// Control points that a yarn of a cut knit has at most.
 const POINTS: usize = 240;
 
-/// `designs/` of this workspace, or else of the working folder, for a suite that runs on another machine than it was built
-/// on.
+/// `designs/` of this workspace, or else of the working folder, for a suite that runs on another
+/// machine than it was built on.
 fn folder() -> PathBuf {
     let ours = Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs");
     if ours.is_dir() { ours } else { PathBuf::from("designs") }

@@ -69,8 +69,8 @@ pub(super) fn standing() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A yarn of more than a block and one of less, thick and thin, both like `yarn` but of `section`. Of each control point, by its
-/// number, `flatten` gives width over height.
+/// A yarn of more than a block and one of less, thick and thin, both like `yarn` but of `section`.
+/// Of each control point, by its number, `flatten` gives width over height.
 pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Yarns {
     let mut yarns = Yarns::builder();
     let yarn = Yarn { section: yarns.section(section), ..yarn };
@@ -87,8 +87,8 @@ pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Ya
     yarns.build().unwrap()
 }
 
-/// Flattened yarns, open and closed, long and short, twisted and not, whose up directions turn along them: so slowly that an upright frame
-/// goes along, and fast.
+/// Flattened yarns, open and closed, long and short, twisted and not, whose up directions turn
+/// along them: so slowly that an upright frame goes along, and fast.
 pub(super) fn leaning() -> Yarns {
     let mut yarns = Yarns::builder();
     let section = yarns.section(Section::Lenticular { aspect: 1.5, distortion: 0.2 });
@@ -102,7 +102,8 @@ pub(super) fn leaning() -> Yarns {
         let (mut points, twist) = (Vec::new(), if number % 2 == 0 { 0.3 } else { 0.0 });
         for k in (0..count).map(f64::from) {
             let (sin, cos) = (std::f64::consts::TAU * k / f64::from(count)).sin_cos();
-            // An open yarn waves, a closed one is a level ring; `across` is level and at right angles to either.
+            // An open yarn waves, a closed one is a level ring; `across` is level and at right
+            // angles to either.
             let (place, across) = if closed {
                 ([6.0 * cos, 6.0 * sin, 0.0], [cos, sin])
             } else {

@@ -1,4 +1,5 @@
-//! Cases that combine settings, sections, ends and limits: every pair of values, or every combination.
+//! Cases that combine settings, sections, ends and limits: every pair of values, or every
+//! combination.
 
 use texere_core::{Frame, Section, Settings, Topology, Yarn};
 
@@ -98,16 +99,16 @@ impl Counts {
     }
 }
 
-/// Cases in which every pair of values meets: of subdivisions 0 to 8, sides 3 to 64, both frames, six kinds of section,
-/// open and closed yarns, caps, topologies, twist, limits, and flattening.
+/// Cases in which every pair of values meets: of subdivisions 0 to 8, sides 3 to 64, both frames,
+/// six kinds of section, open and closed yarns, caps, topologies, twist, limits, and flattening.
 #[must_use]
 pub fn pairwise() -> Vec<Case> {
     let counts = Counts::all();
     covering(&counts.sizes()).iter().map(|row| counts.case("pairwise", row)).collect()
 }
 
-/// Every combination of the values of [`pairwise`], but of subdivisions only 0, 1, 2, 4 and 8, and of sides only 3 to 8,
-/// 16, 33 and 64: 233,280 cases.
+/// Every combination of the values of [`pairwise`], but of subdivisions only 0, 1, 2, 4 and 8, and
+/// of sides only 3 to 8, 16, 33 and 64: 233,280 cases.
 #[must_use]
 pub fn product() -> Vec<Case> {
     let counts = Counts::thinned();
@@ -129,8 +130,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// A text that differs between two cases if and only if their values of factor `which` differ, read from the case and not
-    /// from its row.
+    /// A text that differs between two cases if and only if their values of factor `which` differ,
+    /// read from the case and not from its row.
     fn value(case: &Case, which: usize) -> String {
         let Settings { subdivisions, sides, frame, topology, caps, .. } = case.settings;
         let yarns = case.yarns();

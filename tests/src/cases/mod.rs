@@ -94,7 +94,8 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Fabrics of a few hundred rings that between them have open and closed, twisted and standing, long and short yarns.
+/// Fabrics of a few hundred rings that between them have open and closed, twisted and standing,
+/// long and short yarns.
 #[must_use]
 pub fn menagerie() -> Yarns {
     fabrics::menagerie(Section::Circle)
@@ -252,7 +253,8 @@ mod tests {
         assert_eq!(names.len(), cases.len());
     }
 
-    /// Near half a turn, rounding decides which way round a closed yarn's turn is spread, and backends would disagree.
+    /// Near half a turn, rounding decides which way round a closed yarn's turn is spread, and
+    /// backends would disagree.
     #[test]
     fn no_closed_yarn_is_near_half_a_turn_off() {
         for case in all() {

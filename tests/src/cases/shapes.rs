@@ -78,7 +78,8 @@ fn wave(k: f64) -> [f64; 3] {
     [k, 0.0, if (k as u32).is_multiple_of(2) { 0.25 } else { -0.25 }]
 }
 
-/// Courses of plain loops, twelve points a loop, one after the other: legs as steep as a knit has them.
+/// Courses of plain loops, twelve points a loop, one after the other: legs as steep as a knit has
+/// them.
 fn loops(k: f64) -> [f64; 3] {
     const HALF: [[f64; 3]; 7] = [
         [0.0, 0.0, -0.84],
@@ -113,7 +114,8 @@ fn straight() -> Vec<Shape> {
         open("straight-oblique", along(5, |k| [k, 2.0 * k, -2.0 * k])),
         open("straight-up", along(5, |k| [0.5, 0.25, k])),
         open("straight-down", along(5, |k| [0.5, 0.25, -k])),
-        // Less than a milliradian off z: the frame is sensitive to rounding there, but its rule for the vertical does not apply.
+        // Less than a milliradian off z: the frame is sensitive to rounding there, but its rule for
+        // the vertical does not apply.
         open("nearly-up", along(5, |k| [k * 1e-4, k * 8e-4, k])),
         open("one-interval", listed(&[[0.0, 0.0, 0.0], [1.0, 2.0, 0.5]])),
         open("one-interval-up", listed(&[[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])),
@@ -156,7 +158,8 @@ fn turning_back() -> Vec<Shape> {
         open("cusp-flat", listed(&[[1.0, 0.5, 0.0], [0.0; 3], [1.0, 0.5, 0.0], [6.0, 3.0, 0.0]])),
         // At tension 0 the velocity vanishes half way between the middle points.
         open("cusp", listed(&[[-5.0, 2.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [6.0, 2.0, 0.0]])),
-        // In a plane of constant x, on from point to point, and yet backwards for a while between the middle ones.
+        // In a plane of constant x, on from point to point, and yet backwards for a while between
+        // the middle ones.
         open(
             "back-stitch",
             listed(&[[0.5, 0.0, 0.0], [0.5, 1.0, 0.1], [0.5, 1.01, -0.1], [0.5, 2.01, 0.2], [0.5, 3.0, 0.0]]),

@@ -52,7 +52,8 @@ fn ulp(value: f64) -> f64 {
     f64::from(value.next_up()) - f64::from(value)
 }
 
-/// Whether two values are the same to the bit. Unlike `==`, a NaN equals itself, and 0 differs from -0.
+/// Whether two values are the same to the bit. Unlike `==`, a NaN equals itself, and 0 differs from
+/// -0.
 pub(crate) fn same_bits<T: bytemuck::Pod>(a: &T, b: &T) -> bool {
     bytemuck::bytes_of(a) == bytemuck::bytes_of(b)
 }
@@ -92,7 +93,8 @@ impl Expected for Oracle {
     }
 }
 
-/// Another backend's output as the reference; what an output lacks (twist so far) comes from the oracle.
+/// Another backend's output as the reference; what an output lacks (twist so far) comes from the
+/// oracle.
 struct Gold<'a> {
     oracle: &'a Oracle,
     output: &'a Assembled,
@@ -128,8 +130,8 @@ pub fn compare_with_oracle(oracle: &Oracle, output: &Assembled, report: &mut Rep
     compare(oracle, oracle, output, report);
 }
 
-/// Compares every ring and vertex of `output` with `gold`, within the same bounds, and the triangles of every cap to the
-/// bit.
+/// Compares every ring and vertex of `output` with `gold`, within the same bounds, and the
+/// triangles of every cap to the bit.
 pub fn compare_with_gold(oracle: &Oracle, gold: &Assembled, output: &Assembled, report: &mut Report) {
     compare(oracle, &Gold { oracle, output: gold }, output, report);
     for (old, new) in gold.caps.iter().zip(&output.caps) {
@@ -160,7 +162,8 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
     }
 }
 
-/// Reports NaN and infinity, and distinguishes memory that was never written from results that are wrong.
+/// Reports NaN and infinity, and distinguishes memory that was never written from results that are
+/// wrong.
 fn is_finite(values: &[f32], place: RingPlace, report: &mut Report) -> bool {
     let finite = values.iter().all(|value| value.is_finite());
     if !finite {
@@ -206,9 +209,9 @@ fn compare_ring(
         // A roll about another tangent can't be compared.
         return;
     }
-    // Between two rings near the vertical the upright frame may turn either way round, and so may a roll or a lean against it.
-    // The direction that the two make together is defined, so that is compared. An upright yarn's roll is compared by itself,
-    // but where it leans.
+    // Between two rings near the vertical the upright frame may turn either way round, and so may a
+    // roll or a lean against it. The direction that the two make together is defined, so that is
+    // compared. An upright yarn's roll is compared by itself, but where it leans.
     let roll = turns(actual.roll);
     let off = |turn: f64, [level, rising]: [DVec3; 2]| {
         let side = side(tangent, turn);
@@ -236,7 +239,8 @@ fn turns(turn: Turn) -> f64 {
     f64::from(turn.0) / 4_294_967_296.0
 }
 
-/// The side that a tangent and a roll (in turns) make: of the upright frame, turned about the tangent.
+/// The side that a tangent and a roll (in turns) make: of the upright frame, turned about the
+/// tangent.
 fn side(tangent: DVec3, roll: f64) -> DVec3 {
     let level = DVec3::new(-tangent.y, tangent.x, 0.0);
     let side = if level.length() < 1e-6 { DVec3::Y } else { level.normalize() };
@@ -266,15 +270,16 @@ fn compare_vertex(
         let error = [(actual_normal - normal).length(), room, 1.0];
         report.check(Quantity::Normal, place, error, (normal, actual_normal));
     } else if !ring.is_round() {
-        // Which way the frame stands decides how far a vertex lies out: in the ring's plane, and its normal of length 1.
+        // Which way the frame stands decides how far a vertex lies out: in the ring's plane, and
+        // its normal of length 1.
         let off_plane = actual_arm.dot(ring.tangent).abs();
         let error = [off_plane, room + arm.length() * ring.flatness() * DIRECTION, ring.thinnest()];
         report.check(Quantity::Vertex, place, error, (position, actual_position));
         let error = [(actual_normal.length() - 1.0).abs(), DIRECTION, 1.0];
         report.check(Quantity::Normal, place, error, (normal, actual_normal));
     } else {
-        // Without a frame: the vertex must lie in the ring's plane, at the right distance from its centre, and its normal must
-        // have the right components outward and along the yarn.
+        // Without a frame: the vertex must lie in the ring's plane, at the right distance from its
+        // centre, and its normal must have the right components outward and along the yarn.
         let off_plane = actual_arm.dot(ring.tangent).abs();
         let off_distance = (actual_arm.length() - arm.length()).abs();
         let error = [off_plane.max(off_distance), room + arm.length() * DIRECTION, ring.thinnest()];
@@ -301,7 +306,8 @@ fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, re
     }
 }
 
-/// Whether two caps have the same triangles. A cap that was never written has been reported as missing.
+/// Whether two caps have the same triangles. A cap that was never written has been reported as
+/// missing.
 fn same_triangles(old: &AssembledCap, new: &AssembledCap) -> bool {
     new.triangles.is_empty() || old.triangles == new.triangles
 }
@@ -327,7 +333,8 @@ pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Rep
     }
 }
 
-/// Compares two outputs that must be the same to the bit: other chunks, another way, or a backend that promises it.
+/// Compares two outputs that must be the same to the bit: other chunks, another way, or a backend
+/// that promises it.
 pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, report: &mut Report) {
     let sides = oracle.settings.sides as usize;
     for yarn in 0..oracle.yarns.len() {

@@ -106,7 +106,8 @@ impl Quantity {
         Self::Normal,
     ];
 
-    /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such bound for roll.
+    /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such
+    /// bound for roll.
     const fn bound(self) -> f64 {
         match self {
             Self::Centre | Self::Vertex => POSITION,
@@ -130,8 +131,8 @@ impl Quantity {
 /// The worst of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Worst {
-    /// The largest error, in the quantity's unit, among those that are allowed no more than twice the plain bound:
-    /// neither far from the origin nor after much drift.
+    /// The largest error, in the quantity's unit, among those that are allowed no more than twice
+    /// the plain bound: neither far from the origin nor after much drift.
     pub error: f64,
     /// The largest share of what was allowed; above 1 is a fault.
     pub share: f64,
@@ -215,7 +216,8 @@ impl Report {
         error <= allowed
     }
 
-    /// [`Report::measure`], and adds a fault where the error is too large; gives back whether it is not.
+    /// [`Report::measure`], and adds a fault where the error is too large; gives back whether it is
+    /// not.
     pub(super) fn check(
         &mut self,
         quantity: Quantity,

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// Side and up of the upright frame: side = z × t, level; up = t × side. Within 1e-6 of z the side is +y.
+/// Side and up of the upright frame: side = z × t, level; up = t × side. Within 1e-6 of z the side
+/// is +y.
 pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
     let level = DVec3::Z.cross(tangent);
     let side = if level.length() < 1e-6 { DVec3::Y } else { level.normalize() };
@@ -11,10 +12,11 @@ pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
 
 /// `side` of the ring with `tangent`, carried over `chord` to the ring with `next` as tangent.
 ///
-/// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008. The first reflection maps one
-/// centre to the other, the second the reflected tangent to the next tangent. Rings that coincide have no chord: the
-/// tangent stands in for it. Where a yarn turns straight back, the second reflection is not determined by the tangents; it
-/// is defined to keep the upright side, since rolls are turns against the upright frame.
+/// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008. The first
+/// reflection maps one centre to the other, the second the reflected tangent to the next tangent.
+/// Rings that coincide have no chord: the tangent stands in for it. Where a yarn turns straight
+/// back, the second reflection is not determined by the tangents; it is defined to keep the upright
+/// side, since rolls are turns against the upright frame.
 pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) -> DVec3 {
     let across = if chord.length_squared() <= 1e-30 { tangent } else { chord.normalize() };
     let (side, reflected) = (mirror(side, across), mirror(tangent, across));
@@ -25,11 +27,12 @@ pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) 
     (side - next * side.dot(next)).normalize()
 }
 
-/// Where the height of a yarn points between two control points, each with its up direction and its tangent, at `t` from 0 to 1, where the
-/// tangent is `tangent`; zero where it has no direction.
+/// Where the height of a yarn points between two control points, each with its up direction and its
+/// tangent, at `t` from 0 to 1, where the tangent is `tangent`; zero where it has no direction.
 ///
-/// Each up is turned by the smallest rotation to the tangent, here as two reflections, and its part across the tangent is
-/// mixed with the other's. Of the second up and its opposite the one nearer to the first counts; at a right angle, but for rounding, the up itself.
+/// Each up is turned by the smallest rotation to the tangent, here as two reflections, and its part
+/// across the tangent is mixed with the other's. Of the second up and its opposite the one nearer
+/// to the first counts; at a right angle, but for rounding, the up itself.
 pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DVec3, t: f64) -> DVec3 {
     let across = |v: DVec3| {
         let part = v - tangent * v.dot(tangent);
@@ -65,7 +68,8 @@ mod tests {
         }
     }
 
-    /// Ups of the same height stay so round an arc, and half way between two that differ by a right angle lies the middle.
+    /// Ups of the same height stay so round an arc, and half way between two that differ by a right
+    /// angle lies the middle.
     #[test]
     fn ups_go_over_into_one_another() {
         let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
@@ -82,8 +86,8 @@ mod tests {
         assert_eq!(opposite, DVec3::Z);
     }
 
-    /// Along a circle, carried without turning, the part across the circle's plane stays, and the part in it follows
-    /// the radius.
+    /// Along a circle, carried without turning, the part across the circle's plane stays, and the
+    /// part in it follows the radius.
     #[test]
     fn transport_round_an_arc_turns_with_the_radius() {
         let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);

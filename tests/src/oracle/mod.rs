@@ -1,11 +1,12 @@
 //! The oracle: the whole pipeline in f64, slow and plain.
 //!
-//! It is written from the definitions (the paper's equations, the documents of the core's types) and calls none of the
-//! core's geometry, so that an error in the one is not an error in the other. Control points are taken as exact.
+//! It is written from the definitions (the paper's equations, the documents of the core's types)
+//! and calls none of the core's geometry, so that an error in the one is not an error in the other.
+//! Control points are taken as exact.
 //!
-//! Where there is a choice it uses another method than the core: the spline is the paper's basis instead of powers of t,
-//! the rotation-minimising frame is a vector carried along instead of a sum of turns, areas of sections are closed
-//! forms instead of polygons.
+//! Where there is a choice it uses another method than the core: the spline is the paper's basis
+//! instead of powers of t, the rotation-minimising frame is a vector carried along instead of a sum
+//! of turns, areas of sections are closed forms instead of polygons.
 
 mod frame;
 mod section;
@@ -34,12 +35,13 @@ pub struct OracleRing {
     pub growths: [f64; 2],
     /// Turn against the upright frame, in turns; what twist adds to it is not reduced to one turn.
     pub roll: f64,
-    /// Twist from the yarn's start up to here, rad, without regard to sign: what the allowed drift grows with.
+    /// Twist from the yarn's start up to here, rad, without regard to sign: what the allowed drift
+    /// grows with.
     pub twist: f64,
     /// Twist over the whole control interval that the ring lies in, rad, without regard to sign.
     pub interval_twist: f64,
-    /// The largest coordinate, without regard to sign, of the four control points that it comes from, mm, on which the
-    /// rounding of f32 depends.
+    /// The largest coordinate, without regard to sign, of the four control points that it comes
+    /// from, mm, on which the rounding of f32 depends.
     pub extent: f64,
     /// Side and up of the upright frame, or of the one that leans, along which flattening works.
     pub upright: [DVec3; 2],
@@ -52,7 +54,8 @@ pub struct OracleRing {
 }
 
 impl OracleRing {
-    /// Whether the section is as wide as high here, so that it does not matter which way the upright frame stands.
+    /// Whether the section is as wide as high here, so that it does not matter which way the
+    /// upright frame stands.
     #[must_use]
     pub fn is_round(&self) -> bool {
         self.halves[0] == self.halves[1] && self.growths[0] == self.growths[1]
@@ -64,7 +67,8 @@ impl OracleRing {
         self.halves[0].min(self.halves[1])
     }
 
-    /// How many times the larger half is as large as the smaller: by so much flattening may turn a normal more than the roll.
+    /// How many times the larger half is as large as the smaller: by so much flattening may turn a
+    /// normal more than the roll.
     #[must_use]
     pub fn flatness(&self) -> f64 {
         self.halves[0].max(self.halves[1]) / self.thinnest()
@@ -82,8 +86,8 @@ pub struct OracleYarn {
     pub closed: bool,
     /// How its sections are oriented.
     pub frame: Frame,
-    /// A closed yarn's whole turn less the nearest whole number of turns, in \[-1/2, 1/2): near either end, rounding
-    /// decides which way round it is spread.
+    /// A closed yarn's whole turn less the nearest whole number of turns, in \[-1/2, 1/2): near
+    /// either end, rounding decides which way round it is spread.
     pub excess: f64,
 }
 
@@ -163,7 +167,8 @@ impl Oracle {
         }
         counts.indices = match self.settings.topology {
             Topology::Indexed => 3 * counts.triangles,
-            // The longest yarn's quads, but no more than the pattern covers; both caps of each section.
+            // The longest yarn's quads, but no more than the pattern covers; both caps of each
+            // section.
             Topology::Shared => {
                 let caps = if self.settings.caps { 2 * self.outlines.len() as u64 } else { 0 };
                 most_gaps.min(8192) * sides * 6 + caps * (sides - 2) * 3
@@ -182,8 +187,9 @@ impl Oracle {
         let [a, b] = ring.halves;
         let flatten = |v: DVec3, a: f64, b: f64| level * (v.dot(level) * a) + rising * (v.dot(rising) * b);
         let arm = ring.side * at.x + ring.up * at.y;
-        // The surface's normal is at right angles to the outline, which is flattened as its points are, and to the way in which
-        // a point moves when one goes along the yarn. (What bends and twist add to that way is left out.)
+        // The surface's normal is at right angles to the outline, which is flattened as its points
+        // are, and to the way in which a point moves when one goes along the yarn. (What bends and
+        // twist add to that way is left out.)
         let along_outline = flatten(ring.up * at.normal_x - ring.side * at.normal_y, a, b);
         let along_yarn = ring.tangent + flatten(arm, ring.growths[0], ring.growths[1]);
         (ring.centre + flatten(arm, a, b), along_outline.cross(along_yarn).normalize())
@@ -250,7 +256,8 @@ fn follow(
     OracleYarn { rings, section: yarn.section as usize, closed: yarn.closed, frame, excess }
 }
 
-/// Notes the twist of each control interval, from its first ring to the next one's, at all of its rings.
+/// Notes the twist of each control interval, from its first ring to the next one's, at all of its
+/// rings.
 fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     let starts: Vec<_> = rings.iter().step_by(per_interval).map(|ring| ring.twist).collect();
     for (interval, bounds) in starts.windows(2).enumerate() {
@@ -262,7 +269,8 @@ fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     }
 }
 
-/// Spreads a closed yarn's excess over whole turns along it, and closes it with a copy of its first ring.
+/// Spreads a closed yarn's excess over whole turns along it, and closes it with a copy of its first
+/// ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
     let whole = rings[gaps].roll - rings[0].roll;

@@ -124,8 +124,8 @@ impl Arc {
     }
 }
 
-/// The upper arc takes the first half of the points, the lower the second; where the two meet, the normal points
-/// straight out.
+/// The upper arc takes the first half of the points, the lower the second; where the two meet, the
+/// normal points straight out.
 fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     let along = 2.0 * f64::from(k) / f64::from(sides);
     let point = if 2 * k < sides { upper.at(along) } else { lower.at(2.0 - along) };
@@ -135,8 +135,8 @@ fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     point
 }
 
-/// Half of what lies between a ply's outermost point and the valley beside it: round plies that touch leave a valley at
-/// cos(π/p) / (1 + sin(π/p)), but never below half way to the axis.
+/// Half of what lies between a ply's outermost point and the valley beside it: round plies that
+/// touch leave a valley at cos(π/p) / (1 + sin(π/p)), but never below half way to the axis.
 fn lobe_depth(plies: f64) -> f64 {
     let valley = (PI / plies).cos() / (1.0 + (PI / plies).sin());
     (1.0 - valley.max(0.5)) / 2.0
@@ -199,7 +199,8 @@ mod tests {
         }
     }
 
-    /// Away from edges, a normal stands at right angles to the way from the point before to the point after.
+    /// Away from edges, a normal stands at right angles to the way from the point before to the
+    /// point after.
     #[test]
     fn normals_stand_across_the_outline() {
         for shape in shapes() {

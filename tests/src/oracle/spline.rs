@@ -70,8 +70,9 @@ impl Interval {
         self.halves[which].iter().zip(weights).map(|(half, weight)| half * weight).sum()
     }
 
-    /// A half width or half height and its growth along the yarn: never less than half the smaller of the two places that the
-    /// interval joins, and not growing where it is held there or where the yarn stands still.
+    /// A half width or half height and its growth along the yarn: never less than half the smaller
+    /// of the two places that the interval joins, and not growing where it is held there or where
+    /// the yarn stands still.
     fn size(&self, which: usize, orders: [[f64; 4]; 4]) -> (f64, f64) {
         let (half, velocity) = (self.half(which, orders[0]), self.position(orders[1]));
         let least = 0.5 * self.halves[which][1].min(self.halves[which][2]);
@@ -84,8 +85,8 @@ impl Interval {
         }
     }
 
-    /// The square up to which a derivative counts as zero, mm²: a millionth of the interval's size, squared, and never less
-    /// than f32 can square.
+    /// The square up to which a derivative counts as zero, mm²: a millionth of the interval's size,
+    /// squared, and never less than f32 can square.
     fn at_rest(&self) -> f64 {
         let size: f64 = self.positions.iter().map(|point| point.length_squared()).sum();
         (1e-12 * size).max(1e-30)
@@ -96,8 +97,9 @@ impl Interval {
         self.positions.iter().map(furthest).fold(0.0, f64::max)
     }
 
-    /// The tangent at t: along the first derivative that does not vanish, +x where all do. It is the limit from the right,
-    /// but at t = 1, where a yarn ends, from the left: then odd orders keep their sign and the second changes it.
+    /// The tangent at t: along the first derivative that does not vanish, +x where all do. It is
+    /// the limit from the right, but at t = 1, where a yarn ends, from the left: then odd orders
+    /// keep their sign and the second changes it.
     fn tangent(&self, orders: [[f64; 4]; 4], t: f64) -> DVec3 {
         let before = if t < 1.0 { 1.0 } else { -1.0 };
         for (order, sign) in [(1, 1.0), (2, before), (3, 1.0)] {
@@ -122,8 +124,8 @@ impl<'a> Curve<'a> {
         intervals * self.per_interval + 1
     }
 
-    /// Position and halves of control point `index`, which may be the virtual one before the first or after the last. The
-    /// halves of a virtual one are half floats as those of all others.
+    /// Position and halves of control point `index`, which may be the virtual one before the first
+    /// or after the last. The halves of a virtual one are half floats as those of all others.
     fn point(&self, index: i64) -> (DVec3, [f64; 2]) {
         let count = self.points.len() as i64;
         let exact = |at: i64| {
@@ -151,7 +153,8 @@ impl<'a> Curve<'a> {
         Interval { positions: points.map(|point| point.0 - start), halves, start }
     }
 
-    /// The interval that a ring is evaluated in, and t: an open yarn ends at t = 1 of its last interval.
+    /// The interval that a ring is evaluated in, and t: an open yarn ends at t = 1 of its last
+    /// interval.
     fn locate(&self, ring: u64) -> (u64, f64) {
         let (interval, step) = (ring / self.per_interval, ring % self.per_interval);
         if !self.closed && ring + 1 == self.ring_count() {
@@ -175,7 +178,8 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The two control points between which a ring lies, each by its number with the tangent there, and how far along it lies.
+    /// The two control points between which a ring lies, each by its number with the tangent there,
+    /// and how far along it lies.
     pub(super) fn ends(&self, ring: u64) -> ([(usize, DVec3); 2], f64) {
         let (number, t) = self.locate(ring);
         let interval = self.interval(number);

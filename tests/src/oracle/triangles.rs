@@ -6,9 +6,9 @@ use texere_core::End;
 
 use super::OutlinePoint;
 
-/// The two triangles between side `side` of ring `ring` and the next ring, as vertex numbers of a tube whose rings have
-/// `sides` vertices each and follow one another from 0. Counter-clockwise seen from outside: round the ring first, then
-/// along the yarn.
+/// The two triangles between side `side` of ring `ring` and the next ring, as vertex numbers of a
+/// tube whose rings have `sides` vertices each and follow one another from 0. Counter-clockwise
+/// seen from outside: round the ring first, then along the yarn.
 #[must_use]
 pub fn quad_indices(ring: u64, side: u64, sides: u64) -> [u64; 6] {
     let vertex = |ring: u64, side: u64| ring * sides + side % sides;
@@ -32,9 +32,9 @@ pub enum Flaw {
 
 /// The fault of `triangles` as a cap of `outline` at `end`, or `None`.
 ///
-/// The corners run counter-clockwise about the tangent, so a finish cap, which faces along it, has them in order, and a
-/// start cap in reverse. As many triangles as corners less two, each facing outward, whose edges cancel but for the
-/// outline's own, cover the outline exactly once.
+/// The corners run counter-clockwise about the tangent, so a finish cap, which faces along it, has
+/// them in order, and a start cap in reverse. As many triangles as corners less two, each facing
+/// outward, whose edges cancel but for the outline's own, cover the outline exactly once.
 #[must_use]
 pub fn cap_flaw(outline: &[OutlinePoint], end: End, triangles: &[[u32; 3]]) -> Option<Flaw> {
     let count = outline.len();

@@ -28,8 +28,8 @@ impl Cells {
         Self { count, members, range: size.map(|size| (reach / size).ceil() as i64) }
     }
 
-    /// Calls `visit` once with every two places that may be near, and the image of the second that is: how many repeats it is
-    /// moved in x and y. A place may be near its own image.
+    /// Calls `visit` once with every two places that may be near, and the image of the second that
+    /// is: how many repeats it is moved in x and y. A place may be near its own image.
     pub(super) fn each_pair(&self, mut visit: impl FnMut(usize, usize, [i32; 2])) {
         for (&[x, y], places) in &self.members {
             for along in -self.range[0]..=self.range[0] {

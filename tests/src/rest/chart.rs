@@ -43,8 +43,9 @@ pub(super) struct Fate {
 }
 
 impl Chart {
-    /// A chart from its courses, the first first, a letter for each wale from left to right: `k` and `p` knit to the face and
-    /// to the back, `t` tucks, `m` misses; `>` and `<` knit to the face and then move the loop to the next needle.
+    /// A chart from its courses, the first first, a letter for each wale from left to right: `k`
+    /// and `p` knit to the face and to the back, `t` tucks, `m` misses; `>` and `<` knit to the
+    /// face and then move the loop to the next needle.
     ///
     /// # Panics
     ///
@@ -103,7 +104,8 @@ impl Chart {
         (course + 1..).find(|&later| self.knits(later, wale)).unwrap_or(course)
     }
 
-    /// To which side a loop is drawn that the needle of `wale` makes after `course`: 1 to the face, -1 to the back.
+    /// To which side a loop is drawn that the needle of `wale` makes after `course`: 1 to the face,
+    /// -1 to the back.
     pub(super) fn next_side(&self, course: i64, wale: i64) -> f64 {
         match self.stitch(self.next_knit(course, wale), wale) {
             Stitch::Back => -1.0,
@@ -111,15 +113,17 @@ impl Chart {
         }
     }
 
-    /// How many loops hang on the needle of `wale` when `course` is knitted: 0 after its loop was moved away.
+    /// How many loops hang on the needle of `wale` when `course` is knitted: 0 after its loop was
+    /// moved away.
     pub(super) fn hanging(&self, course: i64, wale: i64) -> usize {
         self.loops(course, wale).len()
     }
 
-    /// What hangs on the needle of `wale` when `course` is knitted, in the order in which it came to the needle: a needle's own
-    /// loop is there before a neighbour's is moved onto it.
+    /// What hangs on the needle of `wale` when `course` is knitted, in the order in which it came
+    /// to the needle: a needle's own loop is there before a neighbour's is moved onto it.
     ///
-    /// Later loops lie nearer the tip of the hook, so further from the side that the next loop is drawn to.
+    /// Later loops lie nearer the tip of the hook, so further from the side that the next loop is
+    /// drawn to.
     fn loops(&self, course: i64, wale: i64) -> Vec<Hanging> {
         let last_knit = (1..).map(|back| course - back).find(|&earlier| self.knits(earlier, wale));
         let mut loops = Vec::new();

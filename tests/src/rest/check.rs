@@ -1,4 +1,5 @@
-//! What a cloth that came to rest is like: how near its yarns come, how tightly they bend, how long and how thick it is.
+//! What a cloth that came to rest is like: how near its yarns come, how tightly they bend, how long
+//! and how thick it is.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,9 +22,10 @@ pub struct Place {
 /// What [`check`] finds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The least distance of two centrelines over the sum of the radii, with all images of the repeat. Places of one yarn count
-    /// only if it runs further than pi/2 times the sum of the radii from one to the other, half way round a bend in which it
-    /// touches itself. So a yarn that goes straight on is pi/2 from itself, and no clearance is much larger.
+    /// The least distance of two centrelines over the sum of the radii, with all images of the
+    /// repeat. Places of one yarn count only if it runs further than pi/2 times the sum of the
+    /// radii from one to the other, half way round a bend in which it touches itself. So a yarn
+    /// that goes straight on is pi/2 from itself, and no clearance is much larger.
     pub clearance: f64,
     /// Where that is; nowhere if all yarns are shorter.
     pub nearest: Option<[Place; 2]>,
@@ -31,8 +33,8 @@ pub struct Report {
     pub bend: f64,
     /// Where that is.
     pub sharpest: Place,
-    /// How much longer the yarn is that changed its length most, as a share of what it was at the start; negative if it is
-    /// shorter.
+    /// How much longer the yarn is that changed its length most, as a share of what it was at the
+    /// start; negative if it is shorter.
     pub stretch: f64,
     /// That yarn's number.
     pub stretched: usize,
@@ -42,11 +44,13 @@ pub struct Report {
     pub thickness: f64,
 }
 
-/// Measures `settled`, the control points of `start` after they moved, in f64 and with no code of texere's crates.
+/// Measures `settled`, the control points of `start` after they moved, in f64 and with no code of
+/// texere's crates.
 ///
 /// # Panics
 ///
-/// If `settled` has other yarns or other counts of points than `start`, or points that are no numbers.
+/// If `settled` has other yarns or other counts of points than `start`, or points that are no
+/// numbers.
 #[must_use]
 pub fn check(start: &Start, settled: &[Vec<DVec3>]) -> Report {
     assert_eq!(settled.len(), start.yarns.len(), "{}: yarns", start.name);
@@ -104,7 +108,8 @@ fn bend(start: &Start, curves: &[Curve<'_>]) -> (f64, Place) {
     intervals.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a yarn has intervals")
 }
 
-/// The least radius of curvature of an interval: of its parts' ends, and then of ever smaller steps about the least of them.
+/// The least radius of curvature of an interval: of its parts' ends, and then of ever smaller steps
+/// about the least of them.
 fn least_radius(piece: &Piece) -> f64 {
     let mut step = 1.0 / PARTS as f64;
     let least = |places: &mut dyn Iterator<Item = f64>| {
@@ -156,8 +161,8 @@ fn nearest(start: &Start, curves: &[Curve<'_>], chords: &Chords, reach: f64) -> 
     least
 }
 
-/// The least distance between the curves over two chords, from `places` in \[0, 1\] along these: closest points of the tangents
-/// there, again and again.
+/// The least distance between the curves over two chords, from `places` in \[0, 1\] along these:
+/// closest points of the tangents there, again and again.
 fn refined(curves: &[Curve<'_>], one: &Chord, other: &Chord, shift: DVec3, places: [f64; 2]) -> f64 {
     let piece = |chord: &Chord| curves[chord.place.yarn].piece(chord.place.interval as isize);
     let (first, second) = (piece(one), piece(other));

@@ -18,7 +18,8 @@ pub(super) struct Chord {
     pub(super) start: f64,
     pub(super) from: DVec3,
     pub(super) to: DVec3,
-    /// How far the curve may lie from it: an eighth of the largest second derivative, by the square of the step.
+    /// How far the curve may lie from it: an eighth of the largest second derivative, by the square
+    /// of the step.
     pub(super) sag: f64,
     /// How long the yarn is from its first point to both ends.
     arc: [f64; 2],
@@ -83,7 +84,8 @@ impl<'a> Chords<'a> {
         low.distance(high) + self.start.repeat.iter().sum::<f64>()
     }
 
-    /// The length of yarn between the near ends of two chords, the second one moved by `image`; infinite if these are two yarns.
+    /// The length of yarn between the near ends of two chords, the second one moved by `image`;
+    /// infinite if these are two yarns.
     pub(super) fn arc_between(&self, one: &Chord, other: &Chord, image: [i32; 2]) -> f64 {
         if one.place.yarn != other.place.yarn {
             return f64::INFINITY;
@@ -105,7 +107,8 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Calls `visit` once with every two chords that may come nearer than `reach`, the second moved by so many repeats.
+    /// Calls `visit` once with every two chords that may come nearer than `reach`, the second moved
+    /// by so many repeats.
     pub(super) fn each_pair(&self, reach: f64, mut visit: impl FnMut(&Chord, &Chord, [i32; 2])) {
         let longest = self.all.iter().map(Chord::reach).fold(0.0, f64::max);
         let middles: Vec<_> = self.all.iter().map(Chord::middle).collect();

@@ -1,7 +1,8 @@
-//! Whether yarns went through one another: Gauss's linking integral of windows of yarn, before and after.
+//! Whether yarns went through one another: Gauss's linking integral of windows of yarn, before and
+//! after.
 //!
-//! Windows are short, since whole loops would not do: there, what one leg loses when a head is pulled out of the loop above it
-//! another leg may gain.
+//! Windows are short, since whole loops would not do: there, what one leg loses when a head is
+//! pulled out of the loop above it another leg may gain.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -14,7 +15,8 @@ use super::curve::Curve;
 use super::segments::closest;
 use super::{Ends, Start};
 
-/// A change of a window's integral above this is a crossing; 1 is one strand that passes through another, far from its ends.
+/// A change of a window's integral above this is a crossing; 1 is one strand that passes through
+/// another, far from its ends.
 pub const CROSSED: f64 = 0.6;
 
 /// A window reaches over so many intervals to both sides of its middle.
@@ -35,7 +37,8 @@ pub struct Linking {
     pub at: Option<[Place; 2]>,
 }
 
-/// Compares which yarns of `start` go over and under which with their points `before` and `after`, over all images.
+/// Compares which yarns of `start` go over and under which with their points `before` and `after`,
+/// over all images.
 ///
 /// # Panics
 ///
@@ -74,11 +77,12 @@ pub fn linking_integral(one: &[DVec3], other: &[DVec3]) -> f64 {
     chords(one).iter().flat_map(|&one| others.iter().map(move |&other| of_chords(one, other))).sum()
 }
 
-/// The integral of two chords: the solid angle of all directions in which one is seen to cross the other, over that of the
-/// sphere (Klenin and Langowski 2000).
+/// The integral of two chords: the solid angle of all directions in which one is seen to cross the
+/// other, over that of the sphere (Klenin and Langowski 2000).
 ///
-/// These directions are a quadrangle on the sphere. It is cut into two triangles, whose angles come from Van Oosterom and
-/// Strackee's formula (1983): it has the sign, and gives 0 for chords in one plane.
+/// These directions are a quadrangle on the sphere. It is cut into two triangles, whose angles come
+/// from Van Oosterom and Strackee's formula (1983): it has the sign, and gives 0 for chords in one
+/// plane.
 fn of_chords(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
     let [a, b, c, d] = [other[0] - one[0], other[1] - one[0], other[1] - one[1], other[0] - one[1]];
     let triangle = |a: DVec3, b: DVec3, c: DVec3| {
@@ -134,7 +138,8 @@ impl<'a> Cloth<'a> {
         Self { start, chains: (0..points.len()).map(chain).collect() }
     }
 
-    /// The interval `step` intervals after `place` and how many repeats that is further; none beyond the ends of an open yarn.
+    /// The interval `step` intervals after `place` and how many repeats that is further; none
+    /// beyond the ends of an open yarn.
     fn interval(&self, place: Place, step: isize) -> Option<(Place, [i32; 2])> {
         let count = self.chains[place.yarn].len() as isize;
         let at = place.interval as isize + step;
@@ -192,8 +197,9 @@ impl<'a> Cloth<'a> {
         pairs
     }
 
-    /// Whether both windows are of one yarn and have an interval or an end in common. Where they have an end in common, rounding
-    /// over the seam of a repeat would decide from where it is seen.
+    /// Whether both windows are of one yarn and have an interval or an end in common. Where they
+    /// have an end in common, rounding over the seam of a repeat would decide from where it is
+    /// seen.
     fn overlap(&self, pair: Pair) -> bool {
         let steps = -2 * HALF_WINDOW..=2 * HALF_WINDOW;
         pair.one.yarn == pair.other.yarn

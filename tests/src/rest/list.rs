@@ -31,8 +31,9 @@ fn weft_knits() -> Vec<Start> {
     list
 }
 
-/// Knit with eyelets, so many repeats of four wales and courses both ways: the loop of every fourth needle is moved to its
-/// neighbour, in every other course and by turns, and the yarn goes over the needle that it left.
+/// Knit with eyelets, so many repeats of four wales and courses both ways: the loop of every fourth
+/// needle is moved to its neighbour, in every other course and by turns, and the yarn goes over the
+/// needle that it left.
 #[must_use]
 pub fn lace(repeats: usize) -> Start {
     let courses = vec![[">kkk", "kkkk", "kk>k", "kkkk"].map(|course| course.repeat(repeats)); repeats];
@@ -40,8 +41,8 @@ pub fn lace(repeats: usize) -> Start {
     weft_knit(&format!("lace-{0}x{0}", 4 * repeats), &chart, Gauge::new(5.0), Length::Free)
 }
 
-/// Wales and courses of knit, `size` of each, in which every fifth stitch or so is missed; never more than two side by side or
-/// one above the other.
+/// Wales and courses of knit, `size` of each, in which every fifth stitch or so is missed; never
+/// more than two side by side or one above the other.
 #[must_use]
 pub fn random_misses(size: usize, seed: u64) -> Start {
     let mut missed = vec![vec![false; size]; size];

@@ -35,8 +35,8 @@ pub fn piece_start(name: &str, piece: &Piece, radius: f64) -> Start {
     }
 }
 
-/// The spline of a yarn that goes on, in `parts` chords to a control interval, as far as the first point of its next round. `yarns` are
-/// those of `piece`, moved or not.
+/// The spline of a yarn that goes on, in `parts` chords to a control interval, as far as the first
+/// point of its next round. `yarns` are those of `piece`, moved or not.
 ///
 /// # Panics
 ///

@@ -9,7 +9,8 @@ pub enum Ends {
     Open,
     /// After its last point comes its first.
     Closed,
-    /// After its last point comes its first, moved by so many repeats in x and in y. They are not both 0.
+    /// After its last point comes its first, moved by so many repeats in x and in y. They are not
+    /// both 0.
     Repeats([i32; 2]),
 }
 
@@ -37,8 +38,8 @@ pub struct StartYarn {
 
 /// A cloth before it settles, or one repeat of it.
 ///
-/// Every yarn comes once. Its images, moved by whole repeats in x and y, are yarns of the cloth, too, or the same yarn further
-/// along (see [`Ends::Repeats`]).
+/// Every yarn comes once. Its images, moved by whole repeats in x and y, are yarns of the cloth,
+/// too, or the same yarn further along (see [`Ends::Repeats`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
     /// Its name, as in `jersey-4.2`.

@@ -1,12 +1,13 @@
 //! Starts of warp knits: loops that guides lay round needles, one or two bars of them.
 //!
-//! Guide j of a bar stands in space j + a when its chain says `a-b`, goes round the needle between the spaces a and b, and waits
-//! in space b for the next course. So the loop is on needle j + min(a, b). It comes through the loops of the course below from
-//! the back to the face (+z), and all that goes from needle to needle, the underlap, lies on the back.
+//! Guide j of a bar stands in space j + a when its chain says `a-b`, goes round the needle between
+//! the spaces a and b, and waits in space b for the next course. So the loop is on needle j +
+//! min(a, b). It comes through the loops of the course below from the back to the face (+z), and
+//! all that goes from needle to needle, the underlap, lies on the back.
 //!
-//! With two bars every loop is of two yarns, and both come through both of the course below: the legs of either lie in front
-//! of the heads of either. The front bar is named first. Its loops are the foremost on the face, its underlaps the hindmost on
-//! the back.
+//! With two bars every loop is of two yarns, and both come through both of the course below: the
+//! legs of either lie in front of the heads of either. The front bar is named first. Its loops are
+//! the foremost on the face, its underlaps the hindmost on the back.
 
 use glam::DVec3;
 
@@ -43,7 +44,8 @@ pub struct Lapping<'a> {
     pub bars: &'a [&'a str],
     /// The yarn's diameter, mm; wales are 1 mm apart.
     pub diameter: f64,
-    /// By how much a loop is narrower below, where it comes through another, and wider above, in diameters either way.
+    /// By how much a loop is narrower below, where it comes through another, and wider above, in
+    /// diameters either way.
     pub bulge: f64,
     /// How far a loop begins below and ends above its course, in courses.
     pub slant: f64,
@@ -80,9 +82,9 @@ pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
     }
 }
 
-/// Adds points to underlaps, so that none is much longer than a loop's other pieces: a spline turns sharply where a long piece
-/// follows a short one. They lie `behind` the feet, which other yarns of the same bar have between them. After the last point comes the
-/// first one, moved by `on`.
+/// Adds points to underlaps, so that none is much longer than a loop's other pieces: a spline turns
+/// sharply where a long piece follows a short one. They lie `behind` the feet, which other yarns of
+/// the same bar have between them. After the last point comes the first one, moved by `on`.
 fn with_underlaps(points: &[DVec3], on: DVec3, behind: f64) -> Vec<DVec3> {
     let next = points[1..].iter().copied().chain([points[0] + on]);
     let pieces = points.iter().zip(next).flat_map(|(&from, to)| {

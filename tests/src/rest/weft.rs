@@ -1,17 +1,19 @@
 //! Starts of weft knits: a chart's stitches as paths of yarn.
 //!
-//! A plain loop has twelve points: round arcs, and legs that make a V. What is said here holds for loops that are drawn to the
-//! face; to the back, z changes its sign.
+//! A plain loop has twelve points: round arcs, and legs that make a V. What is said here holds for
+//! loops that are drawn to the face; to the back, z changes its sign.
 //!
-//! - A loop comes through what hangs on its needle: its feet pass behind the upper legs of that, its own legs in front of the
-//!   heads. So the lower half of a loop follows the side to which it is drawn itself, the upper half that of the loop which is
-//!   drawn through it.
-//! - A needle that does not knit keeps its loop: the upper half lies as many courses higher. The yarn of a missed course
-//!   floats past behind it.
-//! - A tuck is an arch that hangs on the needle beside the held loop and behind it, and the next loop is drawn through both. So
-//!   the feet of that loop pass behind the tuck, and the tuck lies between: its legs behind those of the held loop.
-//! - A loop that is moved to the next needle lies behind the one that hangs there: the machine puts it nearer the tip of the
-//!   hook. The needle that it left makes an arch which goes through nothing: the eyelet.
+//! - A loop comes through what hangs on its needle: its feet pass behind the upper legs of that,
+//!   its own legs in front of the heads. So the lower half of a loop follows the side to which it
+//!   is drawn itself, the upper half that of the loop which is drawn through it.
+//! - A needle that does not knit keeps its loop: the upper half lies as many courses higher. The
+//!   yarn of a missed course floats past behind it.
+//! - A tuck is an arch that hangs on the needle beside the held loop and behind it, and the next
+//!   loop is drawn through both. So the feet of that loop pass behind the tuck, and the tuck lies
+//!   between: its legs behind those of the held loop.
+//! - A loop that is moved to the next needle lies behind the one that hangs there: the machine puts
+//!   it nearer the tip of the hook. The needle that it left makes an arch which goes through
+//!   nothing: the eyelet.
 
 use glam::DVec3;
 
@@ -31,12 +33,14 @@ pub struct Gauge {
     pub course: f64,
     /// Diameter of the yarn, mm.
     pub diameter: f64,
-    /// How far loops reach out of the plane of the cloth, in diameters: their centreline from -0.84 to 0.98 times it.
+    /// How far loops reach out of the plane of the cloth, in diameters: their centreline from -0.84
+    /// to 0.98 times it.
     pub depth: f64,
 }
 
 impl Gauge {
-    /// Wales `wale` diameters apart, of a yarn with a diameter of 1 mm, and three quarters of that from course to course.
+    /// Wales `wale` diameters apart, of a yarn with a diameter of 1 mm, and three quarters of that
+    /// from course to course.
     #[must_use]
     pub fn new(wale: f64) -> Self {
         let depth = DEPTHS.windows(2).find(|pair| wale <= pair[1].0).map_or(0.64, |pair| {
@@ -76,8 +80,8 @@ pub fn weft_knit(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Sta
 
 /// `chart` cut off: each course begins and ends level, half a wale beyond its outer loops.
 ///
-/// Pinned is what no other yarn crosses: both ends of each course, the arcs of the first course and the heads of the last.
-/// Nothing else would keep these in place.
+/// Pinned is what no other yarn crosses: both ends of each course, the arcs of the first course and
+/// the heads of the last. Nothing else would keep these in place.
 #[must_use]
 pub fn weft_knit_piece(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Start {
     let mut start = weft_knit(name, chart, gauge, length);
@@ -122,7 +126,8 @@ fn course_points(chart: &Chart, gauge: Gauge, course: i64) -> Vec<DVec3> {
     points
 }
 
-/// Height of the arc between two feet: as far back as the further one, half way if they lie on opposite sides.
+/// Height of the arc between two feet: as far back as the further one, half way if they lie on
+/// opposite sides.
 fn between(left: f64, right: f64) -> f64 {
     if left * right < 0.0 {
         (left + right) / 2.0
@@ -206,11 +211,13 @@ impl Cell<'_> {
             let foot = at(0.19 * wale, 0.0, 0.083, own_z(-0.48) - own * self.behind());
             let lower = at(narrow, 0.1, 0.285, own_z(0.41));
             if own == next {
-                // Of a loop that is moved, the leg on the side that it leaves has nothing in front of it.
+                // Of a loop that is moved, the leg on the side that it leaves has nothing in front
+                // of it.
                 let leaves = hand * (fate.moved as f64) < 0.0;
                 vec![foot, lower, at(0.25 * wale, 0.5, 0.5, if leaves { own_z(0.98) } else { next_z(0.98) })]
             } else {
-                // The leg goes through the plane of the cloth between what it came through and what comes through it.
+                // The leg goes through the plane of the cloth between what it came through and what
+                // comes through it.
                 vec![
                     foot,
                     lower,

@@ -55,8 +55,8 @@ pub fn woven(name: &str, weave: Weave, length: Length) -> Start {
     }
 }
 
-/// The same ends and picks cut off: each begins and ends a pitch beyond its last crossings, level with these and
-/// pinned.
+/// The same ends and picks cut off: each begins and ends a pitch beyond its last crossings, level
+/// with these and pinned.
 ///
 /// # Panics
 ///

@@ -1,4 +1,5 @@
-//! A whole backend: both stages on the host, one ring after the other. docs/BACKENDS.md explains it piece by piece.
+//! A whole backend: both stages on the host, one ring after the other. docs/BACKENDS.md explains it
+//! piece by piece.
 
 use std::{ops::ControlFlow, sync::Arc, time::Instant};
 

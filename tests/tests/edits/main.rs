@@ -34,7 +34,8 @@ enum Edit {
 type Fabric = Vec<(Yarn, Vec<ControlPoint>)>;
 
 fn points(count: impl Into<prop::collection::SizeRange>) -> impl Strategy<Value = Vec<ControlPoint>> {
-    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has finer digits.
+    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where
+    // the lower bound has finer digits.
     let half = || (0.0f32..0.5).prop_map(|half| half.max(0.05));
     let halves = prop_oneof![3 => Just((0.2f32, 0.2f32)), 1 => (half(), half())];
     let point = (-2.0f32..2.0, -2.0f32..2.0, -2.0f32..2.0, halves)
@@ -121,7 +122,8 @@ fn read(live: &mut LiveMesh) -> Mesh {
     Mesh { vertices, indices, chunks, plan, materials: Vec::new().into() }
 }
 
-/// The triangles of each yarn, by what their corners are, sorted: chunks' cuts decide where in between caps come.
+/// The triangles of each yarn, by what their corners are, sorted: chunks' cuts decide where in
+/// between caps come.
 fn triangles(mesh: &Mesh) -> Vec<Vec<[Vertex; 3]>> {
     let mut yarns = vec![Vec::new(); mesh.plan.layout().yarns().len()];
     for draw in mesh.draws() {
@@ -136,7 +138,8 @@ fn triangles(mesh: &Mesh) -> Vec<Vec<[Vertex; 3]>> {
     yarns
 }
 
-/// The attributes of the vertices of each ring, by yarn and ring; caps, which have those of a ring again, are checked on the way.
+/// The attributes of the vertices of each ring, by yarn and ring; caps, which have those of a ring
+/// again, are checked on the way.
 fn by_ring(mesh: &Mesh, attributes: &[Attribute]) -> BTreeMap<(u32, u32), Vec<Attribute>> {
     let sides = mesh.plan.settings().sides;
     let mut rings = BTreeMap::new();
@@ -229,14 +232,15 @@ fn is_flattened(fabric: &Fabric) -> bool {
     fabric.iter().flat_map(|(_, points)| points).any(|point| point.half_width() != point.half_height())
 }
 
-/// Whether the driver may fuse multiplications and additions, in the program for round yarns otherwise than in the one for all: WGSL leaves it
-/// free. A driver that runs on the processor does not.
+/// Whether the driver may fuse multiplications and additions, in the program for round yarns
+/// otherwise than in the one for all: WGSL leaves it free. A driver that runs on the processor does
+/// not.
 fn may_fuse(device: &dyn Backend) -> bool {
     device.info().name.starts_with("wgpu") && device.info().kind != DeviceKind::Cpu
 }
 
-/// Edited yarns end as a fresh mesh, unless the driver may choose the last bits: where yarns come to need the program for flattened ones, or no
-/// longer do.
+/// Edited yarns end as a fresh mesh, unless the driver may choose the last bits: where yarns come
+/// to need the program for flattened ones, or no longer do.
 fn ends_as_fresh(
     device: &dyn Backend,
     mut fabric: Fabric,
@@ -313,7 +317,8 @@ fn edited_yarns_end_as_a_fresh_mesh() {
     }
 }
 
-/// A round yarn is worked out alike whether another one is flattened or not: one that becomes flat, or round again, changes no vertex of it.
+/// A round yarn is worked out alike whether another one is flattened or not: one that becomes flat,
+/// or round again, changes no vertex of it.
 #[test]
 fn a_round_yarn_does_not_hang_on_flattened_ones() {
     let line = |wide: f32| -> Vec<_> {
@@ -413,8 +418,8 @@ fn a_mesh_beyond_the_memory_is_refused() {
     let SessionError::Backend(BackendError::OutOfMemory(OutOfMemory { bytes, .. })) = refused else {
         panic!("{refused}")
     };
-    // 5,002 padded points of 16 bytes; 9,999 rings of six vertices of 24 bytes; 9,998 gaps of 36 indices of four bytes. The rings that
-    // chunks repeat come on top.
+    // 5,002 padded points of 16 bytes; 9,999 rings of six vertices of 24 bytes; 9,998 gaps of 36
+    // indices of four bytes. The rings that chunks repeat come on top.
     let repeated = bytes - (5_002 * 16 + 9_999 * 6 * 24 + 9_998 * 36 * 4);
     assert!(repeated < 10 * 6 * 24, "{repeated}");
 }

@@ -8,7 +8,8 @@ use texere_core::{ControlPoint, Frame, Settings, Yarn};
 
 use super::{Edit, Fabric, ROOM, editing, edits_of, ends_as_fresh, read, yarns_of};
 
-/// `count` points at `y`: along x, and with `climbs` up in a helix, so that the yarn is steep where it is round and leans where it is flattened.
+/// `count` points at `y`: along x, and with `climbs` up in a helix, so that the yarn is steep where
+/// it is round and leans where it is flattened.
 fn laid(y: f32, count: usize, climbs: bool, halves: (f32, f32)) -> Vec<ControlPoint> {
     let place = |k: usize| {
         let t = k as f32 * 0.4;
@@ -18,7 +19,8 @@ fn laid(y: f32, count: usize, climbs: bool, halves: (f32, f32)) -> Vec<ControlPo
     (0..count).map(place).map(point).collect()
 }
 
-/// Some of the yarns get fewer points, some more, some come to stand upright, some lean, and those between them stay.
+/// Some of the yarns get fewer points, some more, some come to stand upright, some lean, and those
+/// between them stay.
 #[test]
 fn yarns_that_are_edited_together_end_as_a_fresh_mesh() {
     let (round, flat) = ((0.1, 0.1), (0.2, 0.05));

@@ -1,4 +1,5 @@
-//! Weft knits: which loops are drawn through which, and how they settle, by checks that share no code with texere's crates.
+//! Weft knits: which loops are drawn through which, and how they settle, by checks that share no
+//! code with texere's crates.
 
 mod topology;
 
@@ -64,7 +65,8 @@ fn gauge(wale: f64) -> Gauge {
     Gauge::new(wale * D, COURSE * wale * D)
 }
 
-/// Settles a piece, and checks it: clearance, bends, and whether yarns have passed through one another.
+/// Settles a piece, and checks it: clearance, bends, and whether yarns have passed through one
+/// another.
 fn settled(name: &str, piece: &Piece, length: settling::Length) -> (Settled, Report, f64) {
     let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
@@ -131,8 +133,8 @@ fn knits_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Plain jersey as Munden has it, from loose to tight: tightness is √tex over the loop length in cm, and a cotton yarn is
-/// 0.0373 √tex mm thick.
+/// Plain jersey as Munden has it, from loose to tight: tightness is √tex over the loop length in
+/// cm, and a cotton yarn is 0.0373 √tex mm thick.
 #[test]
 fn jersey_of_any_tightness_has_the_loop_length_asked_for() {
     let chart = Chart::parse("kkkk\nkkkk\nkkkk\nkkkk", Beds::One).expect("a chart");

@@ -1,4 +1,5 @@
-//! Which loops are drawn through which: how often a yarn goes through the surface that a loop spans.
+//! Which loops are drawn through which: how often a yarn goes through the surface that a loop
+//! spans.
 
 use std::collections::HashMap;
 
@@ -11,13 +12,15 @@ use texere_fabric::weft::{LoopRef, Step, Stitches};
 /// Chords of an interval of a spline.
 const PARTS: usize = 6;
 
-/// What a yarn does at a needle: its points, as far as to the next needle's, and where the head of its loop is among them.
+/// What a yarn does at a needle: its points, as far as to the next needle's, and where the head of
+/// its loop is among them.
 struct Stretch {
     points: Vec<DVec3>,
     head: usize,
 }
 
-/// What is not as the stitches say: none if each loop's legs go through just those loops that it is drawn through.
+/// What is not as the stitches say: none if each loop's legs go through just those loops that it is
+/// drawn through.
 pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<String> {
     let [right, up] = piece.boundary.repeat().map(f64::from);
     let shift = |repeat: [i32; 2]| DVec3::new(right * f64::from(repeat[0]), up * f64::from(repeat[1]), 0.0);
@@ -47,7 +50,8 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
                 let (points, end) = (&stretch.points, stretch.points.len());
                 let legs = [&points[PARTS / 2..=stretch.head], &points[stretch.head..end - PARTS / 2]];
                 let through = legs.map(|leg| span.through(leg));
-                // Whether the head of a parent lies in front of the surface or behind is a matter of how that is drawn.
+                // Whether the head of a parent lies in front of the surface or behind is a matter
+                // of how that is drawn.
                 let child = stitches.parents_of(number).iter().any(|above| above.number == other);
                 let sound = if parent {
                     through[0].abs() == 1 && through[1] == -through[0]

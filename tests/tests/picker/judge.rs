@@ -5,7 +5,8 @@ use texere_core::backend::Plan;
 use texere_core::{End, Mesh, MeshPlace, Pipeline, Ray, Settings, Yarns};
 use texere_cpu::{Hit, Picker, SerialBackend};
 
-/// How far distances of one hit may differ, as a share of them or of the triangle's size if that is more: the judge's own arithmetic is no better.
+/// How far distances of one hit may differ, as a share of them or of the triangle's size if that is
+/// more: the judge's own arithmetic is no better.
 pub(crate) const SAME: f64 = 1e-9;
 
 /// The share of rays that may meet an edge, so that what they hit is a matter of rounding.
@@ -64,7 +65,8 @@ pub(crate) fn mesh_of(yarns: &Yarns, settings: Settings) -> Mesh {
     Pipeline::new(yarns).settings(settings).mesh(&SerialBackend::new()).unwrap()
 }
 
-/// Where the ray meets a triangle whose edges are moved out by `slack`, a share of its size (Möller and Trumbore 1997).
+/// Where the ray meets a triangle whose edges are moved out by `slack`, a share of its size (Möller
+/// and Trumbore 1997).
 pub(crate) fn meets(ray: &Ray, [a, b, c]: &[[f64; 3]; 3], slack: f64) -> Option<f64> {
     let (one, other) = (sum(*b, *a, -1.0), sum(*c, *a, -1.0));
     let across = cross(ray.direction, other);
@@ -109,7 +111,8 @@ pub(crate) fn near(one: f64, other: f64, size: f64) -> bool {
     (one - other).abs() <= SAME * one.abs().max(other.abs()).max(size)
 }
 
-/// Shoots `rays` rays, holds each hit to the nearest of all triangles, and gives back how many had to do with edges.
+/// Shoots `rays` rays, holds each hit to the nearest of all triangles, and gives back how many had
+/// to do with edges.
 pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> usize {
     let all = triangles(mesh);
     let tried = (0..rays).into_par_iter().map(|number| {
@@ -126,7 +129,8 @@ pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> u
         if hit.is_none() && truth.is_none() {
             return [0, 0];
         }
-        // At an edge either triangle may be named, or one behind them that only one of both codes sees.
+        // At an edge either triangle may be named, or one behind them that only one of both codes
+        // sees.
         let found = hit.map_or(f64::INFINITY, |hit| hit.distance);
         let nowhere = (f64::INFINITY, MeshPlace { yarn: 0, ring: 0, side: 0, cap: None }, 0.0);
         let [wide, narrow] = [1e-9, -1e-9].map(|slack| nearest(&ray, &all, slack).unwrap_or(nowhere));

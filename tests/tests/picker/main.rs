@@ -1,4 +1,5 @@
-//! What a ray hits first, beside all triangles of the serial backend's mesh, one by one; boxes that hold the mesh; and what a hit is called.
+//! What a ray hits first, beside all triangles of the serial backend's mesh, one by one; boxes that
+//! hold the mesh; and what a hit is called.
 
 mod clothes;
 mod judge;
@@ -60,7 +61,8 @@ fn no_ray_goes_through_between_triangles() {
             let faces = |normal: &[f64; 3]| {
                 dot(*normal, back) > FACING * (dot(back, back) * dot(*normal, *normal)).sqrt()
             };
-            // Edges of the outline may be passed by, and where an open yarn ends so do its triangles.
+            // Edges of the outline may be passed by, and where an open yarn ends so do its
+            // triangles.
             let all_face = corners[..2].iter().all(|corner| normals[&key(*corner)].iter().all(faces));
             let rings = mesh.plan.rings(place.yarn as usize);
             if !all_face || place.cap.is_some() || !(2..rings.max(3) - 3).contains(&place.ring) {
@@ -142,8 +144,9 @@ fn yarns_that_are_edited_are_hit_where_they_are() {
     assert!(edges as f64 <= EDGES * 4_000.0, "{edges} rays met edges");
 }
 
-/// Boxes hold all vertices (`random.rs` has yarns that nobody thought of), and reach out by little more than they must: where a yarn ends, by the
-/// size of its section along itself as well; elsewhere by what a Bézier hull is wider than its curve.
+/// Boxes hold all vertices (`random.rs` has yarns that nobody thought of), and reach out by little
+/// more than they must: where a yarn ends, by the size of its section along itself as well;
+/// elsewhere by what a Bézier hull is wider than its curve.
 #[test]
 fn boxes_are_tight() {
     for Cloth { name, yarns, settings, .. } in clothes() {
@@ -193,7 +196,8 @@ fn boxes_are_tight() {
     }
 }
 
-/// On a straight yarn of a point every millimetre the interval and how far along it are the way itself.
+/// On a straight yarn of a point every millimetre the interval and how far along it are the way
+/// itself.
 #[test]
 fn the_way_along_the_yarn_is_exact() {
     let mut yarns = Yarns::builder();

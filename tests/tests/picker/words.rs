@@ -38,10 +38,12 @@ fn crossings_of_a_weave_are_named_by_the_thread_on_top() {
     }
 }
 
-/// Yarns of these knits are one course each, the courses of one repeat above those of the one below, and go through their wales one after the other.
+/// Yarns of these knits are one course each, the courses of one repeat above those of the one
+/// below, and go through their wales one after the other.
 #[test]
 fn stitches_are_where_their_yarns_go() {
-    // How far a stitch reaches from the middle of its wale, in wales: further where loops are transferred.
+    // How far a stitch reaches from the middle of its wale, in wales: further where loops are
+    // transferred.
     for (name, reach) in
         [("jersey", 0.6), ("garter", 0.8), ("rib", 1.2), ("tuck", 1.2), ("miss", 1.2), ("lace", 2.5)]
     {
@@ -63,7 +65,8 @@ fn stitches_are_where_their_yarns_go() {
                 };
                 told += 1;
                 assert_eq!(course, in_repeat + below, "{name}: {place:?}");
-                // Beyond the edges yarns are cut off, and the nearest stitch of the cloth may be a repeat away.
+                // Beyond the edges yarns are cut off, and the nearest stitch of the cloth may be a
+                // repeat away.
                 let at = place.position[0] / knit.gauge().wale_mm;
                 let (off, inside) =
                     (at - (f64::from(wale) - 0.5), (1.0..f64::from(wales) - 1.0).contains(&at));
@@ -74,7 +77,8 @@ fn stitches_are_where_their_yarns_go() {
     }
 }
 
-/// A head of a stitch is hit from above and named by its wale and course, and by the cell of the chart; of a warp knit by its guide.
+/// A head of a stitch is hit from above and named by its wale and course, and by the cell of the
+/// chart; of a warp knit by its guide.
 #[test]
 fn stitches_are_told_with_what_made_them() {
     let design = cases::design("rib.toml");

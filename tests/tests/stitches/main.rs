@@ -1,4 +1,5 @@
-//! Knits that have settled: beside published figures, at their cut edges, and of stitches that no chart has.
+//! Knits that have settled: beside published figures, at their cut edges, and of stitches that no
+//! chart has.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

@@ -1,5 +1,5 @@
-//! Splits, plated yarns and dropped stitches, which no chart has: loops go through those that they are drawn through, and through no
-//! others, and come to rest.
+//! Splits, plated yarns and dropped stitches, which no chart has: loops go through those that they
+//! are drawn through, and through no others, and come to rest.
 
 use texere_fabric::weft::{
     CarrierSet, Direction, FaultKind, Instruction, Machine, Needle, Operation, Program, Step, Stitches,
@@ -7,8 +7,9 @@ use texere_fabric::weft::{
 
 use super::{knitted, settled, topology};
 
-/// What a repeat of four wales makes of words: `k1` knits on front needle 1, `p1` on the back needle, `K1` and `P1` with two yarns;
-/// `s1` splits, `m1` misses, `d1` drops, `f1` transfers to the back needle and `b1` to the front needle.
+/// What a repeat of four wales makes of words: `k1` knits on front needle 1, `p1` on the back
+/// needle, `K1` and `P1` with two yarns; `s1` splits, `m1` misses, `d1` drops, `f1` transfers to
+/// the back needle and `b1` to the front needle.
 fn stitches(words: &str) -> Stitches {
     let right = Direction::Right;
     let operation = |word: &str| {

@@ -1,4 +1,5 @@
-//! Loop lengths and thicknesses of knits at rest beside figures that others have published. Their sources stand in docs/SETTLING.md.
+//! Loop lengths and thicknesses of knits at rest beside figures that others have published. Their
+//! sources stand in docs/SETTLING.md.
 
 use texere_fabric::weft::{Beds, Chart, Machine};
 use texere_fabric::{Piece, thickness_mm};
@@ -9,8 +10,8 @@ const JERSEY: &str = "kkkk\nkkkk\nkkkk\nkkkk";
 const RIB: &str = "kpkp\nkpkp\nkpkp\nkpkp";
 const INTERLOCK: &str = "pkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp";
 
-/// Peirce's loop of wales and courses so far apart, in diameters: its round parts are 5.94 of these long where these are of yarn as
-/// dense as he takes it, 4.56 where they are measured.
+/// Peirce's loop of wales and courses so far apart, in diameters: its round parts are 5.94 of these
+/// long where these are of yarn as dense as he takes it, 4.56 where they are measured.
 fn peirce(wale: f64, course: f64) -> [f64; 2] {
     [4.56, 5.94].map(|round| 2.0 * course + wale + round)
 }

@@ -1,4 +1,5 @@
-//! Jacquards of any figure come to rest: loops of guides that share a needle lie side by side from the start.
+//! Jacquards of any figure come to rest: loops of guides that share a needle lie side by side from
+//! the start.
 
 use std::ops::ControlFlow;
 
@@ -16,9 +17,10 @@ use super::topology::faults;
 /// Diameters, in wales: the paper's, and the most.
 const DIAMETERS: [f64; 2] = [0.08, 0.1];
 
-/// The least radius of curvature without a fold, in diameters. A tube closes up on the inside of a bend whose radius is half its thickness:
-/// so turns the head of a loop whose legs touch. What settling aims at is no bound for any figure: its passes are limited, and what comes
-/// back is the best by clearance, then by bends. Random figures end between 0.57 and 0.62.
+/// The least radius of curvature without a fold, in diameters. A tube closes up on the inside of a
+/// bend whose radius is half its thickness: so turns the head of a loop whose legs touch. What
+/// settling aims at is no bound for any figure: its passes are limited, and what comes back is the
+/// best by clearance, then by bends. Random figures end between 0.57 and 0.62.
 const FOLD: f64 = 0.5;
 
 /// The paper's bars of figure 7c: JB1 with a figure of thin, thick and open places, before GB2.
@@ -34,7 +36,8 @@ fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> W
     WarpKnitted::new(bars, gauge, wales, courses, yarns, materials, sections, [1, 1]).expect("a cloth")
 }
 
-/// Every colour beside every two others in one row, then rows alike and unlike: what a figure's edges are made of.
+/// Every colour beside every two others in one row, then rows alike and unlike: what a figure's
+/// edges are made of.
 #[test]
 fn every_colour_rests_between_all_others() {
     // Every run of three colours is in it once (de Bruijn, 1946), the last going on into the first.
@@ -54,10 +57,12 @@ fn clear(cloth: &WarpKnitted) -> f64 {
     settled.expect("a settling").clearance.min
 }
 
-/// Thick places in every second column: neighbours share needles all the way up to the cut edge, where they once met.
+/// Thick places in every second column: neighbours share needles all the way up to the cut edge,
+/// where they once met.
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
-    // Of 100 figures drawn at random the one whose legs bend most unlike one another above the cloth.
+    // Of 100 figures drawn at random the one whose legs bend most unlike one another above the
+    // cloth.
     let random = [1_u8, 1, 2, 1, 0, 0, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 2, 2];
     for (size, figure) in [([12, 8], "bars"), ([6, 5], "checks"), ([8, 6], "figure"), ([6, 3], "random")] {
         let colour = |wale: u32, row: u32| match figure {

@@ -1,4 +1,5 @@
-//! Warp knits: every loop is drawn through those below it, and how they settle, by checks that share no code with texere's crates.
+//! Warp knits: every loop is drawn through those below it, and how they settle, by checks that
+//! share no code with texere's crates.
 
 mod jacquard;
 mod topology;
@@ -41,8 +42,9 @@ impl Design {
     }
 }
 
-/// The radius of curvature that settling aims at where it still has passes, in diameters: it goes on up to 0.594, and of all that it
-/// saw takes the best up to 0.585; the rest is what this check measures otherwise. The lappings here get there.
+/// The radius of curvature that settling aims at where it still has passes, in diameters: it goes
+/// on up to 0.594, and of all that it saw takes the best up to 0.585; the rest is what this check
+/// measures otherwise. The lappings here get there.
 const AIM: f64 = 0.58;
 
 /// Four wales and four courses of yarns of that diameter, wales 1 mm apart.
@@ -92,13 +94,14 @@ fn a_dropped_stitch_is_seen() {
     assert!(!topology::faults(&cloth, &piece, &yarns).is_empty());
 }
 
-/// Settles a cloth, and says what is wrong with its rest, if anything is: in diameters, its bends shall have this radius at least.
+/// Settles a cloth, and says what is wrong with its rest, if anything is: in diameters, its bends
+/// shall have this radius at least.
 fn fault(name: &str, cloth: &WarpKnitted, diameter: f64, bend: f64) -> Option<String> {
     rest(name, cloth, diameter, bend, None).err()
 }
 
-/// Settles a cloth, between plates so many diameters apart where they press, and gives its thickness in diameters; or says what is
-/// wrong with its rest.
+/// Settles a cloth, between plates so many diameters apart where they press, and gives its
+/// thickness in diameters; or says what is wrong with its rest.
 fn rest(
     name: &str,
     cloth: &WarpKnitted,
@@ -125,7 +128,8 @@ fn rest(
         settled.rest.passes
     );
     let rests = report.clearance >= 0.98 && report.bend >= bend && report.growth.abs() < 0.02;
-    // Whether surfaces as drawn fold, by the limit of the verdict. The verdict as a whole is of cut edges, too.
+    // Whether surfaces as drawn fold, by the limit of the verdict. The verdict as a whole is of cut
+    // edges, too.
     let folds = settled.clearance.curvature_min < 1.0;
     let sound = rests && !folds && linked < CROSSED && settled.is_linked();
     if sound {

@@ -1,4 +1,5 @@
-//! Which loops are drawn through which: how often a yarn goes through the surface that a loop spans.
+//! Which loops are drawn through which: how often a yarn goes through the surface that a loop
+//! spans.
 
 use glam::DVec3;
 use texere_conformance::rest::{Span, piece_curve};
@@ -19,8 +20,8 @@ struct Loop {
     curve: Vec<DVec3>,
 }
 
-/// What is not as bars say: none if both legs of each loop go through all loops on its needle a course below, and through no others.
-/// `piece` is the whole of `cloth`, and `yarns` are its own.
+/// What is not as bars say: none if both legs of each loop go through all loops on its needle a
+/// course below, and through no others. `piece` is the whole of `cloth`, and `yarns` are its own.
 pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<String> {
     let [wales, courses] = cloth.size().map(|count| count as i32);
     let gauge = cloth.gauge();
@@ -45,7 +46,8 @@ pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<S
                 let through = [&above.curve[..=head], &above.curve[head..]].map(|leg| span.through(leg));
                 let sound = match apart {
                     [0, 1] => through[0].abs() == 1 && through[1] == -through[0],
-                    // Whether the head of what is drawn through lies in front of the surface or behind is a matter of how that is drawn.
+                    // Whether the head of what is drawn through lies in front of the surface or
+                    // behind is a matter of how that is drawn.
                     [0, -1] => through[0] == -through[1],
                     _ => through == [0, 0],
                 };
@@ -61,7 +63,8 @@ pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<S
     faults
 }
 
-/// All loops: those that a guide makes in one course come one after another, with or without an underlap between them.
+/// All loops: those that a guide makes in one course come one after another, with or without an
+/// underlap between them.
 fn loops(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<Loop> {
     let sources = yarns.sources().expect("sources");
     let laps: Vec<_> = cloth.laps().collect();
@@ -85,7 +88,8 @@ fn loops(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<Loop> {
     loops
 }
 
-/// The first control point of the second loop of a lap: after the `end` of the first one it is the first that lies below its neighbours.
+/// The first control point of the second loop of a lap: after the `end` of the first one it is the
+/// first that lies below its neighbours.
 fn second(curve: &[DVec3], end: usize) -> usize {
     let y = |point: usize| curve[point * PARTS].y;
     (end..).find(|&point| y(point) < y(point - 1) && y(point) < y(point + 1)).expect("a second loop")

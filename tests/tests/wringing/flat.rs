@@ -1,4 +1,5 @@
-//! Flattened yarns that run up and down: their outlines turn no more from ring to ring than round yarns do.
+//! Flattened yarns that run up and down: their outlines turn no more from ring to ring than round
+//! yarns do.
 
 use std::f64::consts::{PI, TAU};
 
@@ -41,8 +42,8 @@ fn ribbon(places: &[DVec3], closed: bool, radius: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Points of `curve` from 0 to 1, so many that it bends by `bend` at most from chord to chord, radians; the last one is left out of a
-/// closed one.
+/// Points of `curve` from 0 to 1, so many that it bends by `bend` at most from chord to chord,
+/// radians; the last one is left out of a closed one.
 fn sampled(curve: impl Fn(f64) -> DVec3, closed: bool, bend: f64) -> Vec<DVec3> {
     let mut count = 8;
     loop {
@@ -56,8 +57,9 @@ fn sampled(curve: impl Fn(f64) -> DVec3, closed: bool, bend: f64) -> Vec<DVec3> 
     }
 }
 
-/// Goes down through the cloth and comes up again, in round bends; leans a little to one side and to the other, so that its tangent
-/// passes z on either side and exactly through it, and overhangs by `over`, radians.
+/// Goes down through the cloth and comes up again, in round bends; leans a little to one side and
+/// to the other, so that its tangent passes z on either side and exactly through it, and overhangs
+/// by `over`, radians.
 fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     let way = |t: f64| {
         // The slope swings between straight up and straight down, and a little further.
@@ -76,8 +78,8 @@ fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     places.into_iter().step_by(50).collect()
 }
 
-/// Checks a mesh of `yarns`, and that nothing in it is inside out. With three sides, or one ring a control point, a lens that turns is so
-/// coarse that its triangles may face anywhere.
+/// Checks a mesh of `yarns`, and that nothing in it is inside out. With three sides, or one ring a
+/// control point, a lens that turns is so coarse that its triangles may face anywhere.
 fn check_flat(name: &str, yarns: &Yarns) {
     check(name, yarns);
     let device = ParallelBackend::open().unwrap();

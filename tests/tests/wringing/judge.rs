@@ -1,18 +1,21 @@
-//! How a made mesh turns from ring to ring, in f64 and from its vertices alone: nothing of texere's frames is used.
+//! How a made mesh turns from ring to ring, in f64 and from its vertices alone: nothing of texere's
+//! frames is used.
 
 use glam::DVec3;
 use texere_core::{Backend, Pipeline, Settings, Topology, Yarns};
 
-/// Rings that lie no further apart than this share of the radius cut one another, or nearly: the yarn folds there.
+/// Rings that lie no further apart than this share of the radius cut one another, or nearly: the
+/// yarn folds there.
 const CLEAR: f64 = 0.02;
 
 /// What a mesh comes to between neighbouring rings, at its worst.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drawn {
-    /// The most that a ring is turned against the one before carried to it, beyond the yarn's twist, degrees.
+    /// The most that a ring is turned against the one before carried to it, beyond the yarn's
+    /// twist, degrees.
     pub(crate) turn: f64,
-    /// How far from the axis the tube lies at the least half way between two rings, over how far it lies on the rings. Bends count as
-    /// straightened, and yarns with twist do not count.
+    /// How far from the axis the tube lies at the least half way between two rings, over how far it
+    /// lies on the rings. Bends count as straightened, and yarns with twist do not count.
     pub(crate) width: f64,
     /// Triangles that face the axis between rings that do not cut one another.
     pub(crate) inwards: usize,

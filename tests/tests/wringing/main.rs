@@ -1,4 +1,5 @@
-//! Tubes are not wrung: no ring of any yarn is turned against the one before by more than its twist asks.
+//! Tubes are not wrung: no ring of any yarn is turned against the one before by more than its twist
+//! asks.
 
 mod flat;
 mod judge;
@@ -22,7 +23,8 @@ const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
 /// Few rings with few sides, and many.
 const DRAWN: [(u32, u32); 5] = [(0, 6), (1, 6), (1, 3), (3, 8), (7, 13)];
 
-/// Checks a mesh of `yarns` with either frame, and gives back how many triangles face inwards at the worst.
+/// Checks a mesh of `yarns` with either frame, and gives back how many triangles face inwards at
+/// the worst.
 fn check(name: &str, yarns: &Yarns) -> usize {
     let device = ParallelBackend::open().unwrap();
     let mut inwards = 0;
@@ -32,7 +34,8 @@ fn check(name: &str, yarns: &Yarns) -> usize {
             let drawn = drawn(&device, yarns, settings);
             let case = format!("{name}, {frame:?}, K {subdivisions}, {sides} sides: {drawn:?}");
             assert!(drawn.turn <= TURN, "{case}");
-            // Arms of a section that is carried along inside a flat outline get longer and shorter, too.
+            // Arms of a section that is carried along inside a flat outline get longer and shorter,
+            // too.
             let layout = yarns.layout();
             let carried = (0..layout.yarns().len())
                 .any(|yarn| frame.of(layout.is_steep(yarn)) == Frame::RotationMinimizing);
@@ -65,8 +68,8 @@ fn every_design_is_drawn_without_wringing_in_either_frame() {
     }
 }
 
-/// A binder goes straight down through the cloth and comes up again. It leans a little to one side and to the other, so that its
-/// tangent passes z on either side, and exactly through it.
+/// A binder goes straight down through the cloth and comes up again. It leans a little to one side
+/// and to the other, so that its tangent passes z on either side, and exactly through it.
 #[test]
 fn a_binder_that_goes_through_the_cloth_is_no_string_of_beads() {
     for lean in [0.0, 1e-7, 1e-3, 0.05, -0.2] {

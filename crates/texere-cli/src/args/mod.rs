@@ -71,11 +71,12 @@ pub(crate) struct InspectArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Count alone, without measures, clearance and bends, which take seconds where there are millions of control points. Nothing
-    /// settles
+    /// Count alone, without measures, clearance and bends, which take seconds where there are
+    /// millions of control points. Nothing settles
     #[arg(long, conflicts_with_all = ["settle", "settling_plot"])]
     pub(crate) counts: bool,
-    /// Say which yarns lie under a point, the topmost first, and what made them; mm from the cloth's left and lower edges
+    /// Say which yarns lie under a point, the topmost first, and what made them; mm from the
+    /// cloth's left and lower edges
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f32; 2]>,
 }
@@ -84,8 +85,8 @@ pub(crate) struct InspectArgs {
 pub(crate) struct CheckArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
-    /// How far short of touching, as a share, yarns may come and still count as touching. Where yarns touch by
-    /// construction the spline between their control points comes out at 0.99 of it
+    /// How far short of touching, as a share, yarns may come and still count as touching. Where
+    /// yarns touch by construction the spline between their control points comes out at 0.99 of it
     #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
     pub(crate) accuracy: f64,
     #[command(flatten)]
@@ -97,12 +98,15 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
-    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved cloth
+    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
+    /// cloth
     pub(crate) design: PathBuf,
-    /// The file to write: .glb or .ply; or .yarns, which saves the cloth at rest without a mesh, so that it need not settle again
+    /// The file to write: .glb or .ply; or .yarns, which saves the cloth at rest without a mesh, so
+    /// that it need not settle again
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
     pub(crate) output: PathBuf,
-    /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl, wgpu:nvidia, opencl:0/per-yarn
+    /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl,
+    /// wgpu:nvidia, opencl:0/per-yarn
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
     #[command(flatten)]
@@ -115,12 +119,12 @@ pub(crate) struct MeshArgs {
 pub(crate) struct DraftArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
-    /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
-    /// shaft draft; of a knit the stitch chart and the needle diagram
+    /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point
+    /// paper where there is no shaft draft; of a knit the stitch chart and the needle diagram
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
     pub(crate) output: Option<PathBuf>,
-    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left. Of a
-    /// knit a row for each course, in the symbols of its charts
+    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft
+    /// is, end 1 on the left. Of a knit a row for each course, in the symbols of its charts
     #[arg(long, required_unless_present = "output")]
     pub(crate) text: bool,
     /// Show the back of the cloth, turned over sideways: end 1 on the right
@@ -132,7 +136,8 @@ pub(crate) struct DraftArgs {
 pub(crate) struct ConvertArgs {
     /// A woven design: a .toml design or a .wif draft
     pub(crate) design: PathBuf,
-    /// The file to write: .wif, which other weaving programs read, or .toml, which holds all but the draft
+    /// The file to write: .wif, which other weaving programs read, or .toml, which holds all but
+    /// the draft
     #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml"]))]
     pub(crate) output: PathBuf,
 }

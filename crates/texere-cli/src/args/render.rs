@@ -10,7 +10,8 @@ use super::{SettingsArgs, SettlingArgs};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved cloth
+    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
+    /// cloth
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
@@ -21,14 +22,15 @@ pub(crate) struct RenderArgs {
     /// From where the cloth is seen
     #[arg(long, value_enum, default_value_t = View::Face)]
     pub(crate) view: View,
-    /// The point that a close-up or a cut shows, mm from the cloth's left and lower edges; if left out its middle, or for a
-    /// cut the middle of the thread nearest to it
+    /// The point that a close-up or a cut shows, mm from the cloth's left and lower edges; if left
+    /// out its middle, or for a cut the middle of the thread nearest to it
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f32; 2]>,
     /// What a close-up or a cut shows, mm across; if left out, forty times a yarn's radius
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) width: Option<f32>,
-    /// Show face or back at true scale, so many millimetres to a pixel, in a picture as large as that takes
+    /// Show face or back at true scale, so many millimetres to a pixel, in a picture as large as
+    /// that takes
     #[arg(long, value_name = "MM", conflicts_with = "size", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) mm_per_pixel: Option<f32>,
     /// Pictures of a turntable
@@ -37,7 +39,8 @@ pub(crate) struct RenderArgs {
     /// Pixels drawn for each pixel of the picture, each way; each has four samples
     #[arg(long, value_name = "N", default_value_t = Quality::default().supersampling, value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) supersampling: u32,
-    /// What is seen where no yarn is: ground, none for a transparent picture, or a colour as #rrggbb
+    /// What is seen where no yarn is: ground, none for a transparent picture, or a colour as
+    /// #rrggbb
     #[arg(long, default_value = "ground", value_parser = background)]
     pub(crate) background: Background,
     /// The device that draws: auto, wgpu, wgpu:1, wgpu:nvidia

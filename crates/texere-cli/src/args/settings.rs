@@ -8,26 +8,28 @@ use texere::{Settings, Yarns};
 /// What can be chosen about a mesh.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SettingsArgs {
-    /// Points inserted between two control points; if left out 1, or up to 63 where twist would turn a section by more than 30 degrees from
-    /// ring to ring: of plies, ellipses and polygons, and in pictures of every yarn. Round yarns in meshes may turn by 90
+    /// Points inserted between two control points; if left out 1, or up to 63 where twist would
+    /// turn a section by more than 30 degrees from ring to ring: of plies, ellipses and polygons,
+    /// and in pictures of every yarn. Round yarns in meshes may turn by 90
     #[arg(long, value_name = "K")]
     pub(crate) subdivisions: Option<u32>,
-    /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four million control points; a polygon has as
-    /// many as corners
+    /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four
+    /// million control points; a polygon has as many as corners
     #[arg(long, value_name = "NC")]
     pub(crate) sides: Option<u32>,
     /// Tension of the spline, 0 to below 1; if left out 0, or what saved yarns have
     #[arg(long, value_name = "U")]
     pub(crate) tension: Option<f32>,
-    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
+    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT,
+    /// power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
-    /// Which way round sections stand along the yarn: upright, or carried along without turning; yarns too steep to stand upright, as
-    /// those of knits are, are carried along in either case
+    /// Which way round sections stand along the yarn: upright, or carried along without turning;
+    /// yarns too steep to stand upright, as those of knits are, are carried along in either case
     #[arg(long, value_enum, default_value_t = FrameArg::Upright)]
     frame: FrameArg,
-    /// How triangles are encoded in memory, which decides the bytes that `inspect` states; files hold the same triangles
-    /// whichever
+    /// How triangles are encoded in memory, which decides the bytes that `inspect` states; files
+    /// hold the same triangles whichever
     #[arg(long, value_enum, default_value_t = TopologyArg::Indexed)]
     topology: TopologyArg,
     /// Close the ends of yarns; pictures always do
@@ -82,7 +84,8 @@ impl SettingsArgs {
         if self.subdivisions.is_some() { settings } else { settings.following(yarns) }
     }
 
-    /// The settings for a picture of `yarns`; `lies_close` is as [`texere::picture::picture_sides`] takes it.
+    /// The settings for a picture of `yarns`; `lies_close` is as [`texere::picture::picture_sides`]
+    /// takes it.
     pub(crate) fn of_picture(&self, yarns: &Yarns, lies_close: bool) -> Settings {
         let sides = self.sides.unwrap_or_else(|| texere::picture::picture_sides(yarns, lies_close));
         let settings = Settings { sides, ..self.settings() };

@@ -17,7 +17,8 @@ pub(crate) struct SettlingArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RestArgs {
-    /// Let yarns come to rest first, whatever the design says: they move until they nowhere pierce one another or fold
+    /// Let yarns come to rest first, whatever the design says: they move until they nowhere pierce
+    /// one another or fold
     #[arg(long, conflicts_with = "no_settle")]
     settle: bool,
     /// Leave yarns as the structure puts them, whatever the design says

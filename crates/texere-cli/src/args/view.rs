@@ -8,7 +8,8 @@ use super::settling::RestArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine. When it changes, so does the cloth in the window
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine. When it changes, so
+    /// does the cloth in the window
     pub(crate) design: PathBuf,
     /// The window's width and height at first, in pixels, or where the screen is scaled in points
     #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size)]

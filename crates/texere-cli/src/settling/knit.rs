@@ -27,7 +27,8 @@ pub(crate) struct KnitRestReport {
     pub(super) clearance: f64,
     /// The least radius of curvature.
     radius_diameters: f32,
-    /// By how much a part of a yarn is off the length that it is to have at most, as a share; null where lengths are free.
+    /// By how much a part of a yarn is off the length that it is to have at most, as a share; null
+    /// where lengths are free.
     length_off: Option<f32>,
     /// How thick it was to be pressed, and how thick it is.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -33,8 +33,8 @@ pub(crate) enum SettlingReport {
     },
 }
 
-/// The cloth of a design, and what is said of how its yarns came to rest where it or the command line asks for that. They rest on the device that
-/// `open` gives, with splines of `tension`.
+/// The cloth of a design, and what is said of how its yarns came to rest where it or the command
+/// line asks for that. They rest on the device that `open` gives, with splines of `tension`.
 pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     mut design: Design,
     args: &SettlingArgs,
@@ -84,8 +84,8 @@ impl SettlingReport {
         !matches!(self, Self::Refused { .. })
     }
 
-    /// Takes over what was measured of all the cloth afterwards, so that one figure is said of it: settling looks at one repeat of woven
-    /// cloth alone, and no further than yarns that touch.
+    /// Takes over what was measured of all the cloth afterwards, so that one figure is said of it:
+    /// settling looks at one repeat of woven cloth alone, and no further than yarns that touch.
     pub(crate) const fn measured(&mut self, clearance: &ClothClearance) {
         match self {
             Self::Knit(report) => report.clearance = least(clearance),

@@ -24,8 +24,8 @@ const LINES: [Line; 4] = [
 /// Powers of ten that an axis reaches over at most, from the largest value down.
 const DECADES: i32 = 9;
 
-/// Draws clearance, bends, lengths and steps on a logarithmic scale over the passes of `course`. Values of 0 and infinite ones have no
-/// place on it and leave a gap.
+/// Draws clearance, bends, lengths and steps on a logarithmic scale over the passes of `course`.
+/// Values of 0 and infinite ones have no place on it and leave a gap.
 pub(crate) fn plot(course: &[(Pass, SettlingSeen)]) -> String {
     let values = || course.iter().flat_map(|(_, seen)| LINES.map(|(.., value)| value(seen))).filter(is_drawn);
     let decade = |value: f32| f64::from(value).log10();

@@ -18,7 +18,8 @@ pub(crate) struct WovenRestReport {
     passes: u32,
     /// Ends and picks of what has settled.
     repeat: Sets<usize>,
-    /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked it, and after.
+    /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked
+    /// it, and after.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance_before: f64,
     #[serde(serialize_with = "as_near_as_looked")]

@@ -67,7 +67,8 @@ fn what_is_out_of_proportion_is_refused_in_little_memory() {
     }
 }
 
-/// Designs whose pictures have so many pixels a side, which are one black one in white: a Jacquard of either kind, and a chart.
+/// Designs whose pictures have so many pixels a side, which are one black one in white: a Jacquard
+/// of either kind, and a chart.
 fn pictured(side: usize) -> [String; 3] {
     let sett = "wales_per_cm = 9\ncourses_per_cm = 13\n";
     let yarns = "[yarns.a]\ndiameter_mm = 0.1\n[yarns.b]\ndiameter_mm = 0.1\n";
@@ -117,7 +118,8 @@ fn a_repeat_that_no_gigabyte_holds_is_refused_before_it_is_laid() {
     assert!(output.status.code() == Some(3) && error.contains("a repeat of "), "{error}");
 }
 
-/// A Jacquard of two yarns on 1,024 needles and rows, of which one floats all the way: it takes less than a gigabyte beside what threads reserve.
+/// A Jacquard of two yarns on 1,024 needles and rows, of which one floats all the way: it takes
+/// less than a gigabyte beside what threads reserve.
 #[test]
 fn a_repeat_that_a_gigabyte_holds_is_laid() {
     let folder = picture(1024);
@@ -135,7 +137,8 @@ fn pictures_of_400_wales_and_courses_are_knitted() {
     }
 }
 
-/// A chart of one wale and 65,536 rows, by steps of memory: it is read, or the program says that memory is out.
+/// A chart of one wale and 65,536 rows, by steps of memory: it is read, or the program says that
+/// memory is out.
 #[test]
 fn memory_that_is_refused_is_a_failure_of_the_machine() {
     let rows = "k\np\n".repeat(32_768);

@@ -89,7 +89,8 @@ fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
     );
 }
 
-/// A 3/1 twill of yarns alike takes 1.5 diameters a thread: 0.45 mm. Ends of 0.4 mm are beyond that by an eighth.
+/// A 3/1 twill of yarns alike takes 1.5 diameters a thread: 0.45 mm. Ends of 0.4 mm are beyond that
+/// by an eighth.
 #[test]
 fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
     let folder = TempDir::new().unwrap();
@@ -131,7 +132,8 @@ fn how_exact_touching_is_can_be_said() {
 #[test]
 fn the_papers_shape_is_cured_by_the_round_one() {
     let folder = TempDir::new().unwrap();
-    // Less than two diameters apart: corners are cut, threads that bend round one another just pass.
+    // Less than two diameters apart: corners are cut, threads that bend round one another just
+    // pass.
     let path = twill(folder.path(), "shape = \"crossing\"", 0.59, 0.59);
     let (code, report) = check(&path, &[]);
     assert_eq!(code, 4);
@@ -229,8 +231,9 @@ fn knits_that_fall_apart_are_named_as_woven_cloth_is() {
     }
 }
 
-/// Rings follow even a hard twist, so that no tube is wrung: 2,000 turns a metre are four from pick to pick. 80,000 are half a turn from ring to
-/// ring in the finest mesh that twist leads to; that is told.
+/// Rings follow even a hard twist, so that no tube is wrung: 2,000 turns a metre are four from pick
+/// to pick. 80,000 are half a turn from ring to ring in the finest mesh that twist leads to; that
+/// is told.
 #[test]
 fn a_mesh_that_twist_wrings_is_told() {
     let folder = TempDir::new().unwrap();
@@ -262,7 +265,8 @@ fn a_mesh_that_twist_wrings_is_told() {
     assert!(stdout(&said).contains("wrung") && stderr(&said).contains("is wrung"), "{}", stderr(&said));
 }
 
-/// Knits have tubes that are as wide between rings as on them, as they are drawn where nothing is said, and in either frame.
+/// Knits have tubes that are as wide between rings as on them, as they are drawn where nothing is
+/// said, and in either frame.
 #[test]
 fn steep_yarns_are_not_wrung_and_equal_in_either_frame() {
     let folder = TempDir::new().unwrap();

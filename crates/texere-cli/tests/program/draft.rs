@@ -11,7 +11,8 @@ pub(crate) fn png_size(path: &Path) -> [u32; 2] {
     [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))
 }
 
-/// An image of two colours, black where a drawing has `#`: a BMP, the first row of which is the bottom one.
+/// An image of two colours, black where a drawing has `#`: a BMP, the first row of which is the
+/// bottom one.
 fn bmp(drawing: &[&str]) -> Vec<u8> {
     let (width, height) = (drawing[0].len() as u32, drawing.len() as u32);
     let mut bytes = b"BM".to_vec();
@@ -93,7 +94,8 @@ fn a_picture_is_written_and_its_size_told() {
     let output = texere(&["draft", &design("herringbone.wif"), "-o", target]);
     let [width, height] = png_size(&path);
     assert_eq!(stdout(&output), format!("{target}: {width} × {height} pixels\n"));
-    // The threading, the tie-up and the treadling need room that the back, point paper alone, does not.
+    // The threading, the tie-up and the treadling need room that the back, point paper alone, does
+    // not.
     let output = texere(&["draft", &design("herringbone.wif"), "--back", "-o", target]);
     assert!(output.status.success());
     let back = png_size(&path);

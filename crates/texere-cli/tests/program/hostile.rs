@@ -124,7 +124,8 @@ fn a_drafts_text_needs_no_memory_beside_the_design() {
     assert_eq!(stdout(&output), "10".repeat(8000) + "\n");
 }
 
-/// Mesa's layers complain of the environment whenever drivers are listed, which is nothing to a person who gets a mesh.
+/// Mesa's layers complain of the environment whenever drivers are listed, which is nothing to a
+/// person who gets a mesh.
 #[test]
 fn what_drivers_write_is_not_the_programs() {
     let folder = tempfile::tempdir().unwrap();

@@ -4,7 +4,8 @@ use serde_json::Value;
 
 use crate::{design, inspect, stdout, texere};
 
-/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round. As they are woven.
+/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round.
+/// As they are woven.
 const CLOTH: &str = "[weave]\nnotation = \"2/2\"\nends = 30\npicks = 24\n[finish]\nsettle = false\n[cloth]\nselvedge = true\n\
     [yarns.red]\ntex = 40.0\ncolor = \"#c81020\"\n[yarns.rust]\ntex = 50.0\ncolor = \"#C81020\"\n\
     [yarns.ecru]\ntex = 60.0\ncolor = \"#e9dfc7\"\n[warp]\nyarns = [\"2 red\", \"rust\"]\nspacing_mm = 0.8\n\
@@ -115,7 +116,8 @@ fn the_worst_places_have_a_weavers_names() {
     assert!((0.4..0.6).contains(&number(&ends["pitch_min_mm"])), "{ends}");
 }
 
-/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end: an end takes its own diameter and half a pick's.
+/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end: an
+/// end takes its own diameter and half a pick's.
 #[test]
 fn setts_stand_beside_the_greatest_of_the_weave() {
     let report = cloth();

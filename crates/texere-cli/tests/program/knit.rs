@@ -14,7 +14,8 @@ fn our_own_knits_settle_and_are_clean() {
     }
 }
 
-/// How a design's check ends, and what it reports: knitted without fault, at rest, and linked as it was.
+/// How a design's check ends, and what it reports: knitted without fault, at rest, and linked as it
+/// was.
 fn checked(name: &str) -> (Option<i32>, Value) {
     let output = texere(&["check", "--json", &design(&format!("{name}.toml"))]);
     let report: Value = serde_json::from_str(&stdout(&output)).unwrap();

@@ -97,7 +97,8 @@ mod unix {
 
     /// The program, making a mesh that takes it seconds.
     fn meshing(folder: &Path, shell: &str) -> Child {
-        // Whoever started the tests may have had signals ignored, as a shell has that of what it runs in the background.
+        // Whoever started the tests may have had signals ignored, as a shell has that of what it
+        // runs in the background.
         let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP,USR1,XFSZ"]);
         let program = Command::new("env")
             .args(heard.into_iter().flatten())

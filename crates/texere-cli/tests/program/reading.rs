@@ -1,4 +1,5 @@
-//! What readers had to assume or leave out is said by every command that reads a design, on standard error.
+//! What readers had to assume or leave out is said by every command that reads a design, on
+//! standard error.
 
 use std::fs;
 
@@ -14,7 +15,8 @@ const LIFTED: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=2\nTreadles=0\nRisin
 const EMPTY: &str = "[knit]\nchart = \"\"\"\nkmk\nkmk\n\"\"\"\nrepeat = [2, 2]\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\n\
                      diameter_mm = 0.1\n";
 
-/// Yarns that the hook can't take, one that is used before it is brought in, and loops that are left on needles.
+/// Yarns that the hook can't take, one that is used before it is brought in, and loops that are
+/// left on needles.
 const HOOKED: &str = ";!knitout-2\n;;Carriers: 1 2\ninhook 1\ninhook 2\nknit + f1 1\nknit + f2 1\nknit - f2 1\nknit - f1 1\nouthook 1\n";
 
 /// Two layers that nothing binds.

@@ -1,4 +1,5 @@
-//! Yarns that settle first: what is said of it, what is drawn, and which word counts, the design's or the command line's.
+//! Yarns that settle first: what is said of it, what is drawn, and which word counts, the design's
+//! or the command line's.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +16,8 @@ fn folder(name: &str, text: &str) -> TempDir {
     folder
 }
 
-/// Threads of 0.3 mm, of every three two `near` mm apart: too near for those that cross them. The third is 0.78 mm from both.
+/// Threads of 0.3 mm, of every three two `near` mm apart: too near for those that cross them. The
+/// third is 0.78 mm from both.
 fn doubled(near: f64, finish: &str) -> TempDir {
     let far = 1.56 - near;
     folder(
@@ -176,7 +178,8 @@ fn flags_that_make_no_sense_are_refused() {
     assert_eq!(fs::read(&plot).unwrap(), b"old");
 }
 
-/// A cloth that is stretched along its warp is longer and narrower, with as much yarn in it; beyond what its threads allow it is refused.
+/// A cloth that is stretched along its warp is longer and narrower, with as much yarn in it; beyond
+/// what its threads allow it is refused.
 #[test]
 fn stretched_cloth_keeps_its_yarn() {
     let sheeting = |finish: &str| {

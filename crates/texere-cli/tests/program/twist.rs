@@ -26,7 +26,8 @@ fn mesh(design: &Path, more: &[&str]) -> (Vec<u8>, String) {
     (std::fs::read(out).unwrap(), stdout(&output))
 }
 
-/// The corners of the rings of a PLY file, yarn after yarn: the tubes have six sides, and a yarn ends where the next ring is far away.
+/// The corners of the rings of a PLY file, yarn after yarn: the tubes have six sides, and a yarn
+/// ends where the next ring is far away.
 fn tubes(file: &[u8]) -> Vec<Vec<[[f64; 3]; 6]>> {
     let end = b"end_header\n";
     let start = file.windows(end.len()).position(|bytes| bytes == end).unwrap() + end.len();
@@ -69,8 +70,9 @@ fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// By how much a ring is turned against the one before, in degrees, right-handed along the yarn: both first corners are seen along the chord,
-/// which is nearly the same as carrying one to the other where steps are short.
+/// By how much a ring is turned against the one before, in degrees, right-handed along the yarn:
+/// both first corners are seen along the chord, which is nearly the same as carrying one to the
+/// other where steps are short.
 fn turn(one: &[[f64; 3]; 6], other: &[[f64; 3]; 6]) -> f64 {
     let chord = between(centre(one), centre(other));
     let along = chord.map(|each| each / length(chord));

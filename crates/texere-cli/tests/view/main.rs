@@ -107,7 +107,8 @@ impl Drop for Viewer {
     }
 }
 
-/// The rectangle of the cloth in a picture of its face: its least and greatest x and y. None where there is nothing coloured.
+/// The rectangle of the cloth in a picture of its face: its least and greatest x and y. None where
+/// there is nothing coloured.
 fn cloth(picture: &Picture) -> Option<[[u32; 2]; 2]> {
     let is_yarn = |at: &[u32; 2]| {
         let color = picture.at(*at);
@@ -247,7 +248,8 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Cloth that settles is shown at once, and again when it rests; a click in it names its threads then as before.
+/// Cloth that settles is shown at once, and again when it rests; a click in it names its threads
+/// then as before.
 #[test]
 fn cloth_is_shown_before_it_settles_and_after() {
     let folder = folder("settles");
@@ -329,10 +331,12 @@ fn a_file_that_changes_without_end_is_read_all_the_same() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Closing waits for nothing: neither for yarns that settle, nor for the device, which has a picture or a cloth to make.
+/// Closing waits for nothing: neither for yarns that settle, nor for the device, which has a
+/// picture or a cloth to make.
 #[test]
 fn a_window_that_is_closed_is_gone_at_once_whatever_runs() {
-    /// A machine that has other work besides takes longer than a second. What runs would take many times as long.
+    /// A machine that has other work besides takes longer than a second. What runs would take many
+    /// times as long.
     const CLOSING: Duration = Duration::from_secs(5);
     let folder = folder("closed");
     let file = folder.join("cloth.toml");

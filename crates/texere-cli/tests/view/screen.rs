@@ -138,8 +138,8 @@ impl Picture {
         self.pixels[(y * self.width + x) as usize]
     }
 
-    /// The mean difference of two pictures right of `left`, in levels of 255. How many samples a pixel has, which depends on how busy the machine
-    /// is, makes one or two.
+    /// The mean difference of two pictures right of `left`, in levels of 255. How many samples a
+    /// pixel has, which depends on how busy the machine is, makes one or two.
     pub(crate) fn off(&self, other: &Self, left: u32) -> f32 {
         let channels = self.places(left).flat_map(|at| (0..3).map(move |channel| (at, channel)));
         let (sum, count) = channels.fold((0, 0), |(sum, count), (at, channel)| {

@@ -24,9 +24,11 @@ pub(super) const SHORT: f64 = 1e-5;
 /// A step so short that it leads nowhere, in intervals.
 const CLOSE: f64 = 1e-7;
 
-/// The least curvature, of straight lines 1 less the cosine between them, of an approach that is taken for the only one thereabouts.
+/// The least curvature, of straight lines 1 less the cosine between them, of an approach that is
+/// taken for the only one thereabouts.
 ///
-/// At 0.06 `it_agrees_with_brute_force` is red in one of 30,000 tangles: an approach nearer by 0.0024 lay in a valley of less than 0.1.
+/// At 0.06 `it_agrees_with_brute_force` is red in one of 30,000 tangles: an approach nearer by
+/// 0.0024 lay in a valley of less than 0.1.
 const VALLEY: f64 = 0.2;
 
 /// One interval of a yarn, and what it is to its yarn.
@@ -50,7 +52,8 @@ impl Side<'_> {
         }
     }
 
-    /// Whether `t` is held outside of the interval, where it would go on outwards: what it is after is another's.
+    /// Whether `t` is held outside of the interval, where it would go on outwards: what it is after
+    /// is another's.
     pub(super) fn is_gone(&self, t: f64, direction: f64) -> bool {
         direction != 0.0 && self.held(t + CLOSE * direction.signum()) == t && self.own(t).is_none()
     }
@@ -66,7 +69,8 @@ impl Side<'_> {
 /// Where two round yarns come nearest to one another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Approach {
-    /// The distance over the sum of the radii: of the place of both intervals that is nearest to it, where it belongs to others.
+    /// The distance over the sum of the radii: of the place of both intervals that is nearest to
+    /// it, where it belongs to others.
     pub(super) ratio: f64,
     /// Its parameters; none where it belongs to other intervals.
     pub(super) own: Option<DVec2>,
@@ -94,9 +98,10 @@ fn ratio_of(a: &At, b: &At) -> f64 {
 
 /// The first parameter of an approach, if it is its interval's.
 ///
-/// At a knot within a yarn the earlier interval has it where the distance rises clearly at the knot, so that it is least before. Both intervals see
-/// the same slope there, and one that
-/// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) leaves out never has it.
+/// At a knot within a yarn the earlier interval has it where the distance rises clearly at the
+/// knot, so that it is least before. Both intervals see the same slope there, and one that
+/// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) leaves out
+/// never has it.
 fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64> {
     let knot = place.x.round();
     if (place.x - knot).abs() >= AT_KNOT || side.cut[usize::from(knot > 0.0)] {
@@ -109,16 +114,17 @@ fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64>
     (rises == (knot > 0.0)).then_some(knot)
 }
 
-/// Newton's method on (distance / sum of radii)², by way of |Δ|² - λ² (r₁ + r₂)², whose least value at the least λ is 0
-/// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967): the parameters, the ratio, and its least
-/// curvature there.
+/// Newton's method on (distance / sum of radii)², by way of |Δ|² - λ² (r₁ + r₂)², whose least value
+/// at the least λ is 0 (Dinkelbach, "On nonlinear fractional programming", Management Science 13,
+/// 1967): the parameters, the ratio, and its least curvature there.
 fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
     let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
     let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
     let mut place = held_at(start);
     let (mut a, mut b) = at(place);
     let mut lambda = ratio_of(&a, &b);
-    // The least curvature of half the squared distance, by the same measure that is used below: 1 - |cos| of straight lines.
+    // The least curvature of half the squared distance, by the same measure that is used below: 1 -
+    // |cos| of straight lines.
     let mut curved = f64::INFINITY;
     for _ in 0..STEPS {
         let (apart, radii) = (a.position - b.position, a.radius()[0] + b.radius()[0]);
@@ -135,8 +141,9 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
             (flat, bent)
         };
         let ((flat_a, bent_a), (flat_b, bent_b)) = (own(&a, 1.0), own(&b, -1.0));
-        // Where the distance is not convex, enough is added on the diagonal, by the measure of the straight lines through
-        // both places, that it becomes so. A little more keeps parallel lines where they are.
+        // Where the distance is not convex, enough is added on the diagonal, by the measure of the
+        // straight lines through both places, that it becomes so. A little more keeps parallel
+        // lines where they are.
         let scale = DVec2::new(flat_a, flat_b) + f64::MIN_POSITIVE;
         let (own, along) = (DVec2::new(bent_a, bent_b) / scale, across / (scale.x * scale.y).sqrt());
         curved = (own.x + own.y - (own.x - own.y).hypot(2.0 * along)) / 2.0;
@@ -176,7 +183,8 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
         };
         let step = if step.is_finite() { step } else { DVec2::ZERO };
         let mut step = step * (STRIDE / step.abs().max_element()).min(1.0);
-        // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth without end.
+        // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth
+        // without end.
         let moved = loop {
             let next = held_at(place + step);
             let moved = (next - place).abs().max_element();

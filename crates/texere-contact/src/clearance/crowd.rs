@@ -16,15 +16,16 @@ pub struct Crowd {
     pub thickness_mm: f64,
     /// Control intervals that lie there.
     pub intervals: usize,
-    /// The volume of their yarns over that of the box that holds them. Above 1 they can't but pierce one another or
-    /// fold, and some come within 1/√fill of touching. Up to 1 it is their number alone that is too high (see
-    /// [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)): control points lie much closer than the yarns are thick, or very
-    /// long intervals side by side.
+    /// The volume of their yarns over that of the box that holds them. Above 1 they can't but
+    /// pierce one another or fold, and some come within 1/√fill of touching. Up to 1 it is their
+    /// number alone that is too high (see [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)): control
+    /// points lie much closer than the yarns are thick, or very long intervals side by side.
     pub fill: f64,
 }
 
 impl Crowd {
-    /// What `parts` would be as a crowd; `place` makes a place of a part. None where there are no parts.
+    /// What `parts` would be as a crowd; `place` makes a place of a part. None where there are no
+    /// parts.
     pub(super) fn of<'p, 'a: 'p>(
         parts: &'p [Part<'a>],
         place: impl FnOnce(&'p Part<'a>) -> YarnPlace,

@@ -8,14 +8,16 @@ use super::support::Support;
 /// The share by which a yarn may bend tighter somewhere than where it is said to bend tightest.
 const ACCURACY: f64 = 1e-3;
 
-/// Times that an interval is halved. A velocity that turns round within so short a part turns straight back.
+/// Times that an interval is halved. A velocity that turns round within so short a part turns
+/// straight back.
 const HALVINGS: u32 = 20;
 
-/// Times that an interval is halved until a section that is no circle reaches as far everywhere in a part as in its
-/// middle.
+/// Times that an interval is halved until a section that is no circle reaches as far everywhere in
+/// a part as in its middle.
 const HALVINGS_FLAT: u32 = 3;
 
-/// A part of an interval as Bernstein coefficients, which bound what they stand for four times as closely in each half.
+/// A part of an interval as Bernstein coefficients, which bound what they stand for four times as
+/// closely in each half.
 #[derive(Debug, Clone, Copy)]
 struct Part {
     from: f64,
@@ -69,17 +71,19 @@ impl Part {
         [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
 
-    /// Velocity × acceleration, of degree two. The lengths of its coefficients are coefficients of no less than its length.
+    /// Velocity × acceleration, of degree two. The lengths of its coefficients are coefficients of
+    /// no less than its length.
     fn turn(&self) -> [DVec3; 3] {
         let [u, v, w] = self.velocity;
         [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn / self.length)
     }
 
-    /// Whether the radius of curvature is at least `least` all along the part: whether |v|³ ≥ least |v × a|.
+    /// Whether the radius of curvature is at least `least` all along the part: whether |v|³ ≥ least
+    /// |v × a|.
     ///
-    /// Either the slowest place is fast enough for the sharpest turn. Or, closer: |v|³ is a convex function of |v|² and
-    /// lies above its tangent, here at the middle's `speed_squared`. What is left to show is that a polynomial of degree
-    /// four is not negative: its coefficients are not.
+    /// Either the slowest place is fast enough for the sharpest turn. Or, closer: |v|³ is a convex
+    /// function of |v|² and lies above its tangent, here at the middle's `speed_squared`. What is
+    /// left to show is that a polynomial of degree four is not negative: its coefficients are not.
     fn bends_less(&self, least: f64, speed_squared: f64) -> bool {
         let (squares, turn) = (self.speed_squared(), self.turn());
         let slowest = squares.into_iter().fold(f64::INFINITY, f64::min);
@@ -190,7 +194,8 @@ impl Search<'_> {
         }
     }
 
-    /// How far the section reaches into the bend, mm: 0 or less where a polygon beside its axis lies on the outer side alone, which folds in no bend.
+    /// How far the section reaches into the bend, mm: 0 or less where a polygon beside its axis
+    /// lies on the outer side alone, which folds in no bend.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {
@@ -208,10 +213,12 @@ impl Search<'_> {
     }
 }
 
-/// The least radius of curvature of an interval over how far the section reaches into the bend, and where it is, unless
-/// `within` is about as little or less. It is exact to [`ACCURACY`], and 0 where the yarn turns straight back.
+/// The least radius of curvature of an interval over how far the section reaches into the bend, and
+/// where it is, unless `within` is about as little or less. It is exact to [`ACCURACY`], and 0
+/// where the yarn turns straight back.
 ///
-/// Sections stand upright; with `turning` they reach as far as they can, whichever way they are turned.
+/// Sections stand upright; with `turning` they reach as far as they can, whichever way they are
+/// turned.
 pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;

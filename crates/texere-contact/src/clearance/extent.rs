@@ -8,7 +8,8 @@ use super::support::Support;
 /// Sections that stand for an interval's: at its beginning, its middle and its end.
 const STATIONS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// The share of a second difference by which something may be larger between stations: 1/8 of a parabola.
+/// The share of a second difference by which something may be larger between stations: 1/8 of a
+/// parabola.
 const BETWEEN: f64 = 0.25;
 
 /// How far an interval of a yarn reaches whose sections stand upright.
@@ -39,7 +40,8 @@ impl Extent {
         first.max(middle).max(last) + BETWEEN * (first - 2.0 * middle + last).abs()
     }
 
-    /// Whether a plane at right angles to `direction` lies between both intervals when their sections are `near` times as large.
+    /// Whether a plane at right angles to `direction` lies between both intervals when their
+    /// sections are `near` times as large.
     fn parted(&self, other: &Self, direction: DVec3, near: f64) -> bool {
         let along = |one: &Self| one.hull.map(|corner| corner.dot(direction));
         let most = along(self).into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -47,8 +49,9 @@ impl Extent {
         least - most > near * (self.reach(direction) + other.reach(direction))
     }
 
-    /// Whether the surfaces are seen to be clear of one another when their sections are `near` times as large: by the way from one
-    /// to the other, and by that way at right angles to a flat thread's surface.
+    /// Whether the surfaces are seen to be clear of one another when their sections are `near`
+    /// times as large: by the way from one to the other, and by that way at right angles to a flat
+    /// thread's surface.
     pub(super) fn is_clear_of(&self, other: &Self, near: f64) -> bool {
         let apart = other.middle - self.middle;
         let [wide, high] = [0, 1].map(|half| self.halves[half] + other.halves[half]);

@@ -92,7 +92,8 @@ impl Found {
     }
 }
 
-/// Worst first; of two alike the one that comes first along the yarns, whatever order they were found in.
+/// Worst first; of two alike the one that comes first along the yarns, whatever order they were
+/// found in.
 fn by_ratio(a: &Contact, b: &Contact) -> Ordering {
     let place = |contact: &Contact| contact.places.map(|place| (place.yarn, place.interval));
     a.ratio.total_cmp(&b.ratio).then_with(|| place(a).cmp(&place(b)))

@@ -11,8 +11,8 @@ use super::support::upright;
 /// The most chords that stand for an interval.
 const CHORDS_MAX: usize = 12;
 
-/// How far an interval may lie from its chords, in radii of its yarn: so little that every approach of two yarns is one
-/// of their chords too, and that refinement starts where it converges.
+/// How far an interval may lie from its chords, in radii of its yarn: so little that every approach
+/// of two yarns is one of their chords too, and that refinement starts where it converges.
 pub(super) const SAGITTA: f64 = 0.1;
 
 /// The spline between two control points, as polynomials of t in \[0, 1\].
@@ -22,11 +22,13 @@ pub(super) struct Cubic {
     /// Half width and half height.
     halves: [[f64; 4]; 2],
     floors: [f64; 2],
-    /// The up directions of both ends, and the tangents there, where yarns leave the plane of their cloth.
+    /// The up directions of both ends, and the tangents there, where yarns leave the plane of their
+    /// cloth.
     ups: Option<[[DVec3; 2]; 2]>,
 }
 
-/// The cubic at one parameter: position, first and second derivative, and half width and half height with theirs.
+/// The cubic at one parameter: position, first and second derivative, and half width and half
+/// height with theirs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At {
     pub(super) position: DVec3,
@@ -48,7 +50,8 @@ impl At {
 }
 
 impl Cubic {
-    /// The interval between the middle two of four control points, with the factor `s` of the spline's tangents.
+    /// The interval between the middle two of four control points, with the factor `s` of the
+    /// spline's tangents.
     pub(super) fn new([before, start, end, after]: [ControlPoint; 4], s: f64) -> Self {
         let place = |point: ControlPoint| point.position().as_dvec3();
         let (p, q, r, u) = (place(before), place(start), place(end), place(after));
@@ -144,7 +147,8 @@ impl Cubic {
         self.is_round() && self.halves[0][1..] == [0.0; 3]
     }
 
-    /// Half width and half height as Bernstein coefficients, before they are held at [`Self::floors`].
+    /// Half width and half height as Bernstein coefficients, before they are held at
+    /// [`Self::floors`].
     pub(super) fn half_bounds(&self) -> [[f64; 4]; 2] {
         self.halves.map(|[r0, r1, r2, r3]| {
             let end = r0 + r1 + r2 + r3;
@@ -226,9 +230,10 @@ pub(super) struct Chords {
 }
 
 impl Chords {
-    /// Calls `start` with the parameters of two intervals at which their chords come nearest to one another, and those of the
-    /// chords' middles, for each pair of chords nearer than all pairs beside it, and nearer than `within`. With `edges` also for those at an
-    /// end of one interval that are nearer than the pairs beside them there: they may lead in to an approach.
+    /// Calls `start` with the parameters of two intervals at which their chords come nearest to one
+    /// another, and those of the chords' middles, for each pair of chords nearer than all pairs
+    /// beside it, and nearer than `within`. With `edges` also for those at an end of one interval
+    /// that are nearer than the pairs beside them there: they may lead in to an approach.
     pub(super) fn approaches(
         &self,
         other: &Self,
@@ -283,7 +288,8 @@ impl Chords {
     }
 }
 
-/// How far a curve of this Bézier polygon lies from the chord between its ends at most, at any parameter, mm.
+/// How far a curve of this Bézier polygon lies from the chord between its ends at most, at any
+/// parameter, mm.
 pub(super) fn off_chord([start, leaving, arriving, end]: [DVec3; 4]) -> f64 {
     // The inner two of the four Bézier weights add up to 3/4 at most.
     let one = (leaving - start.lerp(end, 1.0 / 3.0)).length_squared();
@@ -300,7 +306,8 @@ pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f
     let (c, b) = (along.dot(apart), along.dot(other));
     let mut s = share(b * f - c * e, a * e - b * b);
     let mut t = share(b * s + f, e);
-    // The other end's best place may lie off it; then the first one's best place for that end counts.
+    // The other end's best place may lie off it; then the first one's best place for that end
+    // counts.
     s = share(b * t - c, a);
     t = share(b * s + f, e);
     ((p + along * s).distance_squared(q + other * t), s, t)

@@ -37,8 +37,9 @@ pub(super) struct Line<'a> {
     ways: &'a [f64],
 }
 
-/// The way along the chords from the fabric's first control point to every 64th one, mm, from one yarn to the next as if
-/// they were one: the way between two points of a yarn is known without going it.
+/// The way along the chords from the fabric's first control point to every 64th one, mm, from one
+/// yarn to the next as if they were one: the way between two points of a yarn is known without
+/// going it.
 pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
     let stride = |start: usize| -> f64 {
         let chords = points[start..points.len().min(start + STRIDE + 1)].windows(2);
@@ -128,7 +129,8 @@ impl<'a> Line<'a> {
         let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.half_width());
         let heights = [before, start, end, after].map(|point| point.half_height());
         let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
-        // The Bézier polygon, of half widths too; the inner two of its corners may lie on either side.
+        // The Bézier polygon, of half widths too; the inner two of its corners may lie on either
+        // side.
         let s = self.s as f32 / 3.0;
         let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);
         let (low, high) =
@@ -141,10 +143,12 @@ impl<'a> Line<'a> {
         Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
     }
 
-    /// Whether the yarn leads on so straight from one interval to a later one that they meet in common knots alone.
+    /// Whether the yarn leads on so straight from one interval to a later one that they meet in
+    /// common knots alone.
     ///
-    /// Its tangents lie within 45 degrees of one direction. Then none of its parts leads back, and any two places that are
-    /// π/2 times their reach apart along it are more than [`CLEARANCE_NEAR`] times that apart, whatever the section.
+    /// Its tangents lie within 45 degrees of one direction. Then none of its parts leads back, and
+    /// any two places that are π/2 times their reach apart along it are more than
+    /// [`CLEARANCE_NEAR`] times that apart, whatever the section.
     pub(super) fn leads_on(&self, from: usize, to: usize) -> bool {
         if to - from > LEAD {
             return false;
@@ -158,8 +162,8 @@ impl<'a> Line<'a> {
         cubics.flat_map(Cubic::velocities).all(onward)
     }
 
-    /// Whether two places of the yarn, at `s` of interval `from` and at `t` of a later interval `to`, are less than `window`
-    /// apart along it, by its chords.
+    /// Whether two places of the yarn, at `s` of interval `from` and at `t` of a later interval
+    /// `to`, are less than `window` apart along it, by its chords.
     pub(super) fn within(&self, window: f64, (from, s): (usize, f64), (to, t): (usize, f64)) -> bool {
         let forward = |(from, s): (usize, f64), (to, t): (usize, f64)| {
             let (cubic, count, to_own) = (self.cubic(from), self.points.len(), to - self.first);
@@ -187,8 +191,8 @@ impl<'a> Line<'a> {
         forward((from, s), (to, t)) || (self.closed && forward((to, t), (from, s)))
     }
 
-    /// The way from the yarn's point `at` over whole strides towards its point `ahead`, and the point that they end at; none
-    /// where no whole stride begins there.
+    /// The way from the yarn's point `at` over whole strides towards its point `ahead`, and the
+    /// point that they end at; none where no whole stride begins there.
     fn strides(&self, at: usize, ahead: usize) -> Option<(f64, usize)> {
         let (from, to) = (self.first + at, (self.first + ahead) / STRIDE);
         let starts = from % STRIDE == 0 && from / STRIDE < to;

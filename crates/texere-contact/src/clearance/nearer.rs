@@ -1,4 +1,5 @@
-//! Whether two intervals of round yarns come nearer to one another anywhere than is known: both are halved until bounds decide it.
+//! Whether two intervals of round yarns come nearer to one another anywhere than is known: both are
+//! halved until bounds decide it.
 
 use glam::{DVec2, DVec4, Vec4Swizzles};
 
@@ -43,7 +44,8 @@ impl Piece {
         off_chord(self.corners.map(DVec4::xyz))
     }
 
-    /// How far another piece's polygon lies from this one's, by the direction between two places of their chords, mm.
+    /// How far another piece's polygon lies from this one's, by the direction between two places of
+    /// their chords, mm.
     fn levels(&self, other: &Self, s: f64, t: f64) -> f64 {
         let at = |piece: &Self, t: f64| piece.corners[0].xyz().lerp(piece.corners[3].xyz(), t);
         let towards = (at(other, t) - at(self, s)).normalize_or_zero();
@@ -64,10 +66,12 @@ impl Piece {
     }
 }
 
-/// A place where the distance of two round yarns over the sum of their radii is less than `below`, if there is one.
+/// A place where the distance of two round yarns over the sum of their radii is less than `below`,
+/// if there is one.
 ///
-/// Two pieces are at least as far apart as their chords, less how far they lie from these. Pieces that may come nearer than
-/// `below` are halved. This finds the nearer of two approaches in one valley, which are one to the chords that the search starts from.
+/// Two pieces are at least as far apart as their chords, less how far they lie from these. Pieces
+/// that may come nearer than `below` are halved. This finds the nearer of two approaches in one
+/// valley, which are one to the chords that the search starts from.
 pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
     let [floor, other_floor] = [one, other].map(|cubic| cubic.floors()[0]);
     if below <= 0.0 {

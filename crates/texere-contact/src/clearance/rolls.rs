@@ -33,8 +33,8 @@ pub(super) struct IntervalRolls {
 }
 
 impl Rolls {
-    /// **Errors**: [`ContactError::Settings`] for a yarn of more rings than a plan takes; [`ContactError::OutOfMemory`];
-    /// [`ContactError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::Settings`] for a yarn of more rings than a plan takes;
+    /// [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says so.
     pub(super) fn new(
         yarns: &Yarns,
         sampling: Sampling,
@@ -111,8 +111,8 @@ impl Rolls {
         Turn::from_turns(cubic.lean(0.0, velocity.normalize_or_zero()) as f32)
     }
 
-    /// By how much each ring of an interval is turned against the one before, and the first one of the interval that `next` steers;
-    /// without that the yarn ends there.
+    /// By how much each ring of an interval is turned against the one before, and the first one of
+    /// the interval that `next` steers; without that the yarn ends there.
     fn steps(
         &self,
         window: [ControlPoint; 4],
@@ -139,8 +139,8 @@ impl Rolls {
             .collect()
     }
 
-    /// The rolls of the interval that begins at control point `point` of the fabric and is steered by `window`, and the one after
-    /// it, if the yarn goes on, by `next`.
+    /// The rolls of the interval that begins at control point `point` of the fabric and is steered
+    /// by `window`, and the one after it, if the yarn goes on, by `next`.
     pub(super) fn of_interval(
         &self,
         yarn: usize,
@@ -168,7 +168,8 @@ impl IntervalRolls {
         self.at_rings.is_empty()
     }
 
-    /// Whether they are those of a section that is carried along, against the upright frame, rather than turns inside the outline.
+    /// Whether they are those of a section that is carried along, against the upright frame, rather
+    /// than turns inside the outline.
     pub(super) fn is_carried(&self) -> bool {
         self.minimizing.is_some()
     }

@@ -29,14 +29,15 @@ use crate::ContactError;
 use crate::grid::{Bounds, Grid};
 use crate::watch::Watch;
 
-/// The most intervals of a cell that are simply compared with one another. Threads that are clear of one another come to
-/// some 60, with one control point a crossing or several.
+/// The most intervals of a cell that are simply compared with one another. Threads that are clear
+/// of one another come to some 60, with one control point a crossing or several.
 pub(super) const FULL: usize = 256;
 
 /// Pairs between two reports of progress.
 const REPORT_EVERY: u64 = 1 << 14;
 
-/// How many times as far as its interval is long a section reaches that counts by its hull alone, untwisted.
+/// How many times as far as its interval is long a section reaches that counts by its hull alone,
+/// untwisted.
 const DISC: f64 = 64.0;
 
 /// What is worked out of an interval once it is asked for.
@@ -133,7 +134,8 @@ impl<'a> Probe<'a> {
 
     /// All contacts of intervals that meet in `cells`, one of them at least `fresh`.
     ///
-    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says
+    /// so.
     pub(super) fn search(
         &self,
         grid: &Grid,
@@ -193,7 +195,8 @@ impl<'a> Probe<'a> {
 
     /// All contacts of many intervals, or that they are a crowd.
     ///
-    /// A plane is moved over them, and each is compared with those that the plane meets when it comes to it.
+    /// A plane is moved over them, and each is compared with those that the plane meets when it
+    /// comes to it.
     fn sweep(
         &self,
         parts: &mut [Part<'_>],
@@ -294,10 +297,12 @@ impl<'a> Probe<'a> {
         let surfaces =
             [Surface { side: sides[0], rolls: &a.rolls }, Surface { side: sides[1], rolls: &b.rolls }];
         let surfaces = surfaces.each_ref();
-        // Of yarns so much thicker than their control points lie apart each interval is a disc: its tube is all there is to it.
+        // Of yarns so much thicker than their control points lie apart each interval is a disc: its
+        // tube is all there is to it.
         let discs = [a, b].into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && surfaces.iter().any(|surface| !surface.is_simple()) {
-            // Surfaces that have lobes or turn may come near in many places, whatever the centrelines do.
+            // Surfaces that have lobes or turn may come near in many places, whatever the
+            // centrelines do.
             let mut all = Vec::new();
             chords[0].approaches(chords[1], within, false, |starts| all.push(starts[0]));
             let touching = if all.is_empty() { None } else { touch(surfaces, &all, apart) };
@@ -330,7 +335,8 @@ impl<'a> Probe<'a> {
                 add(place, ratio, found);
             }
         };
-        // Of a yarn with itself, what lies beside the knot that two intervals share hides an approach further along.
+        // Of a yarn with itself, what lies beside the knot that two intervals share hides an
+        // approach further along.
         chords[0].approaches(chords[1], within, same && round, |starts| {
             // The first may lead out of the interval to an approach beside this one's own.
             let reached = starts.into_iter().find_map(|start| match round {
@@ -371,7 +377,8 @@ impl<'a> Probe<'a> {
         best
     }
 
-    /// The tightest bend of each interval of `span` for which `fresh` holds, where it is tighter than `ratio`.
+    /// The tightest bend of each interval of `span` for which `fresh` holds, where it is tighter
+    /// than `ratio`.
     pub(super) fn bends(
         &self,
         span: &Span<'a>,

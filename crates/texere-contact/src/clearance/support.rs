@@ -5,14 +5,16 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use texere_core::Section;
 
-/// Directions in which a section that is no circle is measured: between two of them its reach is off by 2e-5.
+/// Directions in which a section that is no circle is measured: between two of them its reach is
+/// off by 2e-5.
 const DIRECTIONS: usize = 512;
 
-/// Angles at which a section's outline is measured: between two of them it is off by 1e-5, or at a lens's two corners by 1e-3.
+/// Angles at which a section's outline is measured: between two of them it is off by 1e-5, or at a
+/// lens's two corners by 1e-3.
 const ANGLES: usize = 2048;
 
-/// A section's support function: the furthest point of its outline (of its hull, where it is not convex) in any
-/// direction, in radii of the yarn.
+/// A section's support function: the furthest point of its outline (of its hull, where it is not
+/// convex) in any direction, in radii of the yarn.
 #[derive(Debug, Clone)]
 pub(super) enum Support {
     Circle,
@@ -20,7 +22,8 @@ pub(super) enum Support {
         furthest: Vec<DVec2>,
         /// Points of the outline; of a polygon its corners.
         outline: Vec<DVec2>,
-        /// How far from the centre the outline lies, angle by angle; none of a polygon, whose corners may be narrower than that.
+        /// How far from the centre the outline lies, angle by angle; none of a polygon, whose
+        /// corners may be narrower than that.
         radii: Vec<f64>,
         smooth: bool,
         extent: f64,
@@ -103,8 +106,8 @@ impl Support {
         }
     }
 
-    /// The factor by which the section grows until its outline meets `point`: where its ray meets the outline more than once,
-    /// the outermost place.
+    /// The factor by which the section grows until its outline meets `point`: where its ray meets
+    /// the outline more than once, the outermost place.
     pub(super) fn growth_at(&self, point: DVec2) -> f64 {
         match self {
             Self::Circle => point.length(),
@@ -151,8 +154,8 @@ impl Support {
         }
     }
 
-    /// The section's furthest point in `direction` where a yarn has the upright frame `[side, up]` and half width and half
-    /// height `sizes`: from the centre, mm.
+    /// The section's furthest point in `direction` where a yarn has the upright frame `[side, up]`
+    /// and half width and half height `sizes`: from the centre, mm.
     pub(super) fn furthest(&self, [side, up]: [DVec3; 2], sizes: DVec2, direction: DVec3) -> DVec3 {
         // What flattening does to the points it does to directions the other way round.
         let across = DVec2::new(direction.dot(side), direction.dot(up)) * sizes;
@@ -168,7 +171,8 @@ impl Support {
     }
 }
 
-/// How far from the centre an outline lies at each of [`ANGLES`] angles: the outermost place of each ray.
+/// How far from the centre an outline lies at each of [`ANGLES`] angles: the outermost place of
+/// each ray.
 fn radii(outline: &[DVec2]) -> Vec<f64> {
     let mut radii = vec![0.0_f64; ANGLES];
     for k in 0..outline.len() {

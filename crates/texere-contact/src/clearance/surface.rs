@@ -43,8 +43,8 @@ impl Stand {
         self.frame[0] * point.x + self.frame[1] * point.y
     }
 
-    /// `direction` as points of the section that is turned already see it: flattening does to directions the other way round
-    /// what it does to points.
+    /// `direction` as points of the section that is turned already see it: flattening does to
+    /// directions the other way round what it does to points.
     fn across(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.frame[0]), direction.dot(self.frame[1])) * self.sizes
     }
@@ -76,7 +76,8 @@ impl Surface<'_> {
         Some(Stand { centre, tangent, frame, sizes, roll })
     }
 
-    /// No less than a section that stands so reaches in a direction whose length is 1, whatever its roll, mm.
+    /// No less than a section that stands so reaches in a direction whose length is 1, whatever its
+    /// roll, mm.
     pub(super) fn reach(&self, stand: &Stand, direction: DVec3) -> f64 {
         stand.across(direction).length() * self.side.support.extent()
     }
@@ -100,8 +101,9 @@ impl Surface<'_> {
         t
     }
 
-    /// The factor by which the section grows until the surface meets `point`, and where: near `t`. None where that is no longer
-    /// this interval's, or so far from the centreline that it is more than `most`.
+    /// The factor by which the section grows until the surface meets `point`, and where: near `t`.
+    /// None where that is no longer this interval's, or so far from the centreline that it is more
+    /// than `most`.
     pub(super) fn growth_at(&self, point: DVec3, t: f64, most: f64) -> Option<(f64, f64)> {
         let t = self.level_with(point, t);
         let reach = most * self.side.support.extent() * self.side.cubic.sizes(t).max_element();

@@ -1,8 +1,9 @@
-//! Where the surfaces of two intervals touch as both sections grow, of whatever section, flattening and roll.
+//! Where the surfaces of two intervals touch as both sections grow, of whatever section, flattening
+//! and roll.
 //!
-//! Points of one surface are tried against the other one, at the growth at which something touched so far: most of them lie
-//! outside and are done with. From those that lie inside, or nearly so, the way leads downhill to where the surfaces touch at
-//! the least growth close by.
+//! Points of one surface are tried against the other one, at the growth at which something touched
+//! so far: most of them lie outside and are done with. From those that lie inside, or nearly so,
+//! the way leads downhill to where the surfaces touch at the least growth close by.
 
 use std::f64::consts::TAU;
 
@@ -17,37 +18,41 @@ use super::tubes::{self, Nearest};
 const POINTS: usize = 48;
 const POINTS_LOBED: usize = 96;
 
-/// The step along the yarn from one section that is tried to the next, in the sum of both yarns' least half widths or heights.
+/// The step along the yarn from one section that is tried to the next, in the sum of both yarns'
+/// least half widths or heights.
 const STEP: f64 = 0.25;
 
 /// The same, in turns of either yarn's roll.
 const STEP_TURNS: f64 = 1.0 / 72.0;
 
-/// Lobes and flat sides that are no higher than this share of how far both surfaces reach don't show: so fine a yarn may turn as it
-/// likes beside such a thick one.
+/// Lobes and flat sides that are no higher than this share of how far both surfaces reach don't
+/// show: so fine a yarn may turn as it likes beside such a thick one.
 const RELIEF: f64 = 1e-3;
 
 /// Sections of an interval that are tried at most.
 const SECTIONS_MAX: usize = 4096;
 
-/// By which share of the least growth so far the growth at a place that is tried may exceed it for the way to lead downhill from
-/// there: as much as a lobe rises between two places.
+/// By which share of the least growth so far the growth at a place that is tried may exceed it for
+/// the way to lead downhill from there: as much as a lobe rises between two places.
 const SLACK: f64 = 0.015;
 
 /// After so many places only those count that touch at less than the least growth so far.
 const PLACES: usize = 16;
 
-/// Surfaces that touch at less than this growth pierce one another so deeply that nobody asks how deeply.
+/// Surfaces that touch at less than this growth pierce one another so deeply that nobody asks how
+/// deeply.
 const DEEP: f64 = 0.25;
 
-/// How much further from the other yarn's tangent than its surface a point may lie and still be inside of it, where the yarn
-/// bends.
+/// How much further from the other yarn's tangent than its surface a point may lie and still be
+/// inside of it, where the yarn bends.
 const BENT: f64 = 1.3;
 
-/// How far, in intervals, the place that a point is level with may lie from where the yarn's tangent has it.
+/// How far, in intervals, the place that a point is level with may lie from where the yarn's
+/// tangent has it.
 const SLANT: f64 = 0.2;
 
-/// The cosine of the angle up to which an interval may turn and have one place only that is level with a point near it.
+/// The cosine of the angle up to which an interval may turn and have one place only that is level
+/// with a point near it.
 const STRAIGHT: f64 = 0.7;
 
 /// Places of the other yarn this near to one another are one, in intervals.
@@ -66,8 +71,9 @@ const EXACT: f64 = 2e-5;
 /// Where surfaces touch: parameters of both, and the growth.
 type Touch = (DVec2, f64);
 
-/// The least growth at which the surfaces touch, and where, found from parameters `starts` on. `counts` says whether two
-/// parameters may touch. None where that is another interval's, or at more than [`CLEARANCE_NEAR`].
+/// The least growth at which the surfaces touch, and where, found from parameters `starts` on.
+/// `counts` says whether two parameters may touch. None where that is another interval's, or at
+/// more than [`CLEARANCE_NEAR`].
 pub(super) fn touch(
     surfaces: [&Surface<'_>; 2],
     starts: &[DVec2],
@@ -85,7 +91,8 @@ pub(super) fn touch(
     }
 }
 
-/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch: none where that is seen to be beyond `most`.
+/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch: none
+/// where that is seen to be beyond `most`.
 pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest) -> Option<Touch> {
     if tubes.ratio > most + if tubes.ended { OFF_ENDED } else { OFF } {
         return None;
@@ -102,14 +109,15 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest)
     within(surfaces, &beside, near(surfaces, &beside).unwrap_or((beside.place, beside.ratio)))
 }
 
-/// What the way downhill from where tubes touch has found, if their touch is these intervals': the way may lead on into a neighbour, whose own tubes
-/// may touch elsewhere or nowhere.
+/// What the way downhill from where tubes touch has found, if their touch is these intervals': the
+/// way may lead on into a neighbour, whose own tubes may touch elsewhere or nowhere.
 fn within(surfaces: [&Surface<'_>; 2], tubes: &Nearest, (place, growth): Touch) -> Option<Touch> {
     own(surfaces, (tubes.place, growth))?;
     Some((place.clamp(DVec2::ZERO, DVec2::ONE), growth))
 }
 
-/// Where the surfaces touch, downhill from where their tubes do; none where that point is clear of the true surface.
+/// Where the surfaces touch, downhill from where their tubes do; none where that point is clear of
+/// the true surface.
 fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     let Nearest { place, ratio, normal, .. } = *tubes;
     let [one, other] = surfaces;
@@ -121,7 +129,8 @@ fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     }
 }
 
-/// Whether the second is the thinner one, whose points are tried: so none of its shape falls between two points of the other.
+/// Whether the second is the thinner one, whose points are tried: so none of its shape falls
+/// between two points of the other.
 fn exchanged([one, other]: [&Surface<'_>; 2]) -> bool {
     other.side.cubic.half_bound() < one.side.cubic.half_bound()
 }
@@ -137,7 +146,8 @@ struct Search<'a, F> {
     counts: F,
 }
 
-/// A point of the thinner surface, its parameter along the yarn and its share of the way round the outline, and the other one's place and growth where they touch.
+/// A point of the thinner surface, its parameter along the yarn and its share of the way round the
+/// outline, and the other one's place and growth where they touch.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     t: f64,
@@ -283,7 +293,8 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         }
     }
 
-    /// Which place of the outline, of `rounds`, reaches furthest in a direction from the section at `t`.
+    /// Which place of the outline, of `rounds`, reaches furthest in a direction from the section at
+    /// `t`.
     fn facing(&self, t: f64, direction: DVec3, rounds: &[f64]) -> Option<f64> {
         let seen = self.surfaces[0].stand(t)?.seen(direction);
         let reach = |round: &f64| self.surfaces[0].side.support.point(*round).dot(seen);
@@ -307,15 +318,15 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }
 
-    /// By how much more the other surface must grow to meet a point of a section grown by `growth`, and where it does; none where
-    /// that is far.
+    /// By how much more the other surface must grow to meet a point of a section grown by `growth`,
+    /// and where it does; none where that is far.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
         let (needed, other) = self.surfaces[1].growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))
     }
 
-    /// Where the surfaces touch on the ray through the point `round` the outline of the section at `t`, at `level` at most; near
-    /// place `beside` of the other yarn.
+    /// Where the surfaces touch on the ray through the point `round` the outline of the section at
+    /// `t`, at `level` at most; near place `beside` of the other yarn.
     fn solve(&self, t: f64, round: f64, level: f64, beside: f64) -> Option<Found> {
         self.solve_at(&self.surfaces[0].stand(t)?, DVec2::new(t, round), level, beside)
     }

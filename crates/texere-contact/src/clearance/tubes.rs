@@ -1,5 +1,5 @@
-//! Where two intervals come nearest to one another if each is taken for the straight tube along its tangent: near the truth for
-//! sections that neither turn nor have lobes, and soon found.
+//! Where two intervals come nearest to one another if each is taken for the straight tube along its
+//! tangent: near the truth for sections that neither turn nor have lobes, and soon found.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,7 +9,8 @@ use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
 use super::contact::CLEARANCE_NEAR;
 use super::interval::At;
 
-/// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by its neighbours.
+/// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by
+/// its neighbours.
 const PARALLEL: f64 = 0.02;
 
 /// Tubes so far apart say that the surfaces are, too.
@@ -18,26 +19,27 @@ const FAR: f64 = CLEARANCE_NEAR + 0.1;
 /// The cosine of the angle up to which two yarns run beside one another.
 const BESIDE: f64 = 0.9;
 
-/// Steps of the golden section to the direction that separates two parallel yarns best, out of half a turn: they leave
-/// 5e-3 rad, and a ratio off by the square of that.
+/// Steps of the golden section to the direction that separates two parallel yarns best, out of half
+/// a turn: they leave 5e-3 rad, and a ratio off by the square of that.
 const AROUND: usize = 13;
 
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Where two tubes touch: parameters, the factor by which both sections could grow until then, and the way from the first to the
-/// other at right angles to both surfaces.
+/// Where two tubes touch: parameters, the factor by which both sections could grow until then, and
+/// the way from the first to the other at right angles to both surfaces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
     pub(super) place: DVec2,
     pub(super) ratio: f64,
     pub(super) normal: DVec3,
-    /// Whether the way to there has an end. Of two that run nearly side by side the touching point may leap to and fro.
+    /// Whether the way to there has an end. Of two that run nearly side by side the touching point
+    /// may leap to and fro.
     pub(super) ended: bool,
 }
 
-/// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each the touching point
-/// lies from its place, in intervals.
+/// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each
+/// the touching point lies from its place, in intervals.
 struct Touch {
     ratio: f64,
     offset: DVec2,
@@ -45,12 +47,13 @@ struct Touch {
     normal: DVec3,
 }
 
-/// Slides both places from `start` to where the tubes touch: parameters, and the factor by which both sections could grow until
-/// then. None where that leads to other intervals, or touches nothing.
+/// Slides both places from `start` to where the tubes touch: parameters, and the factor by which
+/// both sections could grow until then. None where that leads to other intervals, or touches
+/// nothing.
 ///
-/// Straight tubes touch where their common normal is N = t₁ × t₂; scaled by λ = N·Δ / (h₁(N) + h₂(-N)), h the sections'
-/// support functions, their surfaces meet in one point. On bent tubes that point must lie in the sections of the very
-/// two places: the places go towards it until it does.
+/// Straight tubes touch where their common normal is N = t₁ × t₂; scaled by λ = N·Δ / (h₁(N) +
+/// h₂(-N)), h the sections' support functions, their surfaces meet in one point. On bent tubes that
+/// point must lie in the sections of the very two places: the places go towards it until it does.
 pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let mut place = DVec2::new(one.held(start.x), other.held(start.y));
     let meeting = Meeting::new(one, other, place)?;
@@ -79,7 +82,8 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
     (!outside).then_some(Nearest { place, ratio: last.ratio, normal: last.normal, ended })
 }
 
-/// Where two tubes that run nearly side by side are nearest to one another: where their centrelines are.
+/// Where two tubes that run nearly side by side are nearest to one another: where their centrelines
+/// are.
 pub(super) fn nearest_beside(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let place = refine(one, other, start).own?;
     let Touch { ratio, normal, .. } = Meeting::new(one, other, place)?.beside();
@@ -120,8 +124,8 @@ impl<'a> Meeting<'a> {
         (normal.dot(on[0]) - normal.dot(on[1]), on)
     }
 
-    /// Whether both run beside one another, clear of one another by the way from one centreline to the other: no direction separates them
-    /// better than the best one does.
+    /// Whether both run beside one another, clear of one another by the way from one centreline to
+    /// the other: no direction separates them better than the best one does.
     fn passes_far_beside(&self) -> bool {
         let ([tangent, other], apart) = (self.tangents, self.apart());
         let level = apart - apart.dot(tangent) * tangent;
@@ -149,8 +153,8 @@ impl<'a> Meeting<'a> {
         Touch { ratio, offset: DVec2::new(alpha, beta) / self.speeds(), normal }
     }
 
-    /// Side by side: the direction that separates best, level with one another. The ratio, a linear function of the
-    /// direction over a convex one, has one maximum.
+    /// Side by side: the direction that separates best, level with one another. The ratio, a linear
+    /// function of the direction over a convex one, has one maximum.
     fn beside(&self) -> Touch {
         let ([tangent, tangent_b], apart) = (self.tangents, self.apart());
         let along = apart.dot(tangent);

@@ -6,13 +6,14 @@ use glam::DVec3;
 
 /// The linking integral of two polygons, over all pairs of their chords.
 ///
-/// That of two chords is 1/4π of the solid angle of the spherical quadrilateral whose corners are the directions between
-/// their ends.
+/// That of two chords is 1/4π of the solid angle of the spherical quadrilateral whose corners are
+/// the directions between their ends.
 ///
-/// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA", Biopolymers 54, 2000,
-/// method 1a. The solid angle is that of two triangles, each by van Oosterom and Strackee, "The solid angle of a
-/// plane triangle", IEEE Transactions on Biomedical Engineering 30, 1983, which takes one arctangent instead of four
-/// arcsines and stays exact where chords are nearly in one plane.
+/// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA",
+/// Biopolymers 54, 2000, method 1a. The solid angle is that of two triangles, each by van Oosterom
+/// and Strackee, "The solid angle of a plane triangle", IEEE Transactions on Biomedical Engineering
+/// 30, 1983, which takes one arctangent instead of four arcsines and stays exact where chords are
+/// nearly in one plane.
 pub(super) fn integral(one: &[DVec3], other: &[DVec3]) -> f64 {
     let mut sum = 0.0;
     for ends in one.windows(2) {
@@ -28,8 +29,8 @@ pub(super) fn integral(one: &[DVec3], other: &[DVec3]) -> f64 {
     sum / TAU
 }
 
-/// Half the solid angle of two chords, rad: the ways with their lengths from the first chord's start and end to the
-/// second's start, then to its end.
+/// Half the solid angle of two chords, rad: the ways with their lengths from the first chord's
+/// start and end to the second's start, then to its end.
 fn half_angle(
     [(p, p_long), (s, s_long)]: [(DVec3, f64); 2],
     [(q, q_long), (r, r_long)]: [(DVec3, f64); 2],

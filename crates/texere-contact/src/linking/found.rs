@@ -49,7 +49,8 @@ impl Found {
     }
 }
 
-/// Worst first; of two alike the one that comes first along the yarns, whatever order they were found in.
+/// Worst first; of two alike the one that comes first along the yarns, whatever order they were
+/// found in.
 fn by_change(a: &Passage, b: &Passage) -> Ordering {
     let place = |passage: &Passage| passage.places.map(|place| (place.yarn, place.interval));
     b.change.abs().total_cmp(&a.change.abs()).then_with(|| place(a).cmp(&place(b)))

@@ -10,9 +10,9 @@ use crate::grid::Bounds;
 /// The most intervals that are compared, with their copies.
 const LIMIT: u64 = 1 << 29;
 
-/// Which copies of an interval's box are looked at: the one that begins within the first repeat, and those some
-/// repeats before it that still reach into that. Any two boxes that meet do so once among them in such a way that of
-/// each axis one of them begins within the repeat.
+/// Which copies of an interval's box are looked at: the one that begins within the first repeat,
+/// and those some repeats before it that still reach into that. Any two boxes that meet do so once
+/// among them in such a way that of each axis one of them begins within the repeat.
 #[derive(Debug)]
 pub(super) struct Images {
     /// 0 where there is none, mm.
@@ -39,7 +39,8 @@ impl Image {
 }
 
 impl Images {
-    /// Those of the boxes in `spans`, which are numbered by the control points of which there are `points`.
+    /// Those of the boxes in `spans`, which are numbered by the control points of which there are
+    /// `points`.
     ///
     /// **Errors**: [`ContactError::LinkingSize`].
     pub(super) fn new<'s, I: Iterator<Item = (usize, Bounds)>>(
@@ -83,7 +84,8 @@ impl Images {
         })
     }
 
-    /// The copies of interval `number` that are looked at, with a number for each, and its box in each.
+    /// The copies of interval `number` that are looked at, with a number for each, and its box in
+    /// each.
     pub(super) fn of(&self, (number, each): (usize, Bounds)) -> impl Iterator<Item = (usize, Bounds)> {
         let count = self.count(&each);
         (0..count[1]).flat_map(move |y| (0..count[0]).map(move |x| [x, y])).map(move |back| {

@@ -24,7 +24,8 @@ impl Chord {
         squared(0, 0).max(squared(0, 1)).max(squared(1, 0)).max(squared(1, 1)).sqrt()
     }
 
-    /// Whether the two may come within `apart` mm on the way; `motion` is how far they move against one another at most.
+    /// Whether the two may come within `apart` mm on the way; `motion` is how far they move against
+    /// one another at most.
     pub(super) fn may_meet(&self, other: &Self, motion: f32, apart: f32) -> bool {
         let distance = |time: f32| distance(self.at(time), other.at(time));
         let start = distance(0.0);
@@ -33,8 +34,8 @@ impl Chord {
     }
 }
 
-/// Whether a distance that changes by `motion` at most in the time from 0 to 1 may fall to `apart` between two times
-/// at which it is known.
+/// Whether a distance that changes by `motion` at most in the time from 0 to 1 may fall to `apart`
+/// between two times at which it is known.
 fn meets(
     distance: &impl Fn(f32) -> f32,
     motion: f32,
@@ -64,7 +65,8 @@ fn distance([p, p_end]: [Vec3A; 2], [q, q_end]: [Vec3A; 2]) -> f32 {
     let (a, e, f) = (along.length_squared(), other.length_squared(), other.dot(apart));
     let (c, b) = (along.dot(apart), along.dot(other));
     let s = share(b * f - c * e, a * e - b * b);
-    // The other end's best place may lie off it; then the first one's best place for that end counts.
+    // The other end's best place may lie off it; then the first one's best place for that end
+    // counts.
     let t = share(b * s + f, e);
     let s = share(b * t - c, a);
     (p + along * s).distance(q + other * t)

@@ -21,12 +21,14 @@ pub(super) struct Part {
     corners: [[Vec3A; 3]; 2],
     /// How far the centreline may lie from the chords between these, with all rounding, mm.
     sagitta: f32,
-    /// How far the ends lie from the middle before and after, and how differently they have moved, mm.
+    /// How far the ends lie from the middle before and after, and how differently they have moved,
+    /// mm.
     spread: [f32; 3],
 }
 
 impl Part {
-    /// The copy of interval `number` that begins `back` repeats before the first one in the shape that `grid` is of.
+    /// The copy of interval `number` that begins `back` repeats before the first one in the shape
+    /// that `grid` is of.
     pub(super) fn new(
         shapes: &Shapes<'_>,
         (number, back): (usize, [u64; 2]),
@@ -60,13 +62,14 @@ impl Part {
         }
     }
 
-    /// Whether one has moved so far against the other that near places don't tell what has met on the way.
+    /// Whether one has moved so far against the other that near places don't tell what has met on
+    /// the way.
     fn is_afar(&self, other: &Self, motion: f32) -> bool {
         motion > 2.0 * (self.motion.margin + other.motion.margin)
     }
 
-    /// Whether the two intervals may have met on a straight way from the one shape to the other, or have moved too
-    /// far to say.
+    /// Whether the two intervals may have met on a straight way from the one shape to the other, or
+    /// have moved too far to say.
     pub(super) fn may_have_passed(&self, other: &Self) -> bool {
         let apart = self.sagitta + other.sagitta;
         let [before, after] = [0, 1].map(|shape| self.corners[shape][1] - other.corners[shape][1]);

@@ -1,5 +1,5 @@
-//! The search: which intervals are near one another, which of them may have passed, and by how much their linking has
-//! changed.
+//! The search: which intervals are near one another, which of them may have passed, and by how much
+//! their linking has changed.
 
 use std::ops::Range;
 
@@ -25,8 +25,8 @@ pub(super) const SEARCH: u64 = 1 << 32;
 /// Intervals between two reports of progress.
 const REPORT_EVERY: u64 = 256;
 
-/// Two intervals of one yarn that follow one another sooner than that are not compared: their windows, an interval
-/// apart, would be too short to see a passage.
+/// Two intervals of one yarn that follow one another sooner than that are not compared: their
+/// windows, an interval apart, would be too short to see a passage.
 const NEIGHBOURS: f64 = 6.0;
 
 /// The yarns in both shapes, and the cells that their intervals lie in in one of them.
@@ -47,7 +47,8 @@ impl<'a> Search<'a> {
 
     /// All passages of intervals that meet in `cells`.
     ///
-    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says
+    /// so.
     pub(super) fn cells(&self, cells: Range<usize>, watch: &Watch<'_>) -> Result<Found, ContactError> {
         let mut found = Found::default();
         let (mut numbers, mut parts) = (Vec::new(), Vec::new());
@@ -93,8 +94,8 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Whether two intervals of a cell are near one another, and are compared here and now: two copies of them may
-    /// meet in several cells, and be near both before and after.
+    /// Whether two intervals of a cell are near one another, and are compared here and now: two
+    /// copies of them may meet in several cells, and be near both before and after.
     fn counts(&self, one: &Part, other: &Part, cell: usize) -> bool {
         let meet = |shape: Shape| one.bounds[shape as usize].meets(&other.bounds[shape as usize]);
         let begins_here = (0..2).all(|axis| one.image.back[axis] == 0 || other.image.back[axis] == 0)

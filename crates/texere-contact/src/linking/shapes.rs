@@ -40,13 +40,15 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Whether the interval has moved further than its margin. Of two that have met and were not near before one has.
+    /// Whether the interval has moved further than its margin. Of two that have met and were not
+    /// near before one has.
     pub(super) fn is_far(&self) -> bool {
         self.moved > self.margin
     }
 }
 
-/// The same yarns in two shapes. An interval bears the number, in the fabric, of the control point that it starts from.
+/// The same yarns in two shapes. An interval bears the number, in the fabric, of the control point
+/// that it starts from.
 #[derive(Debug)]
 pub(super) struct Shapes<'a> {
     yarns: [&'a Yarns; 2],
@@ -108,8 +110,8 @@ impl<'a> Shapes<'a> {
         (yarn, number - offsets[yarn] as usize)
     }
 
-    /// The source of the middle of an interval, as [`YarnPlace`](texere_core::YarnPlace) has it, if the yarns before have
-    /// sources.
+    /// The source of the middle of an interval, as [`YarnPlace`](texere_core::YarnPlace) has it, if
+    /// the yarns before have sources.
     pub(super) fn source(&self, yarn: usize, interval: usize) -> Option<u32> {
         let range = self.yarns[0].range(yarn)?;
         let nearer = range.start + (interval + 1) % range.len();
@@ -128,7 +130,8 @@ impl<'a> Shapes<'a> {
             .collect()
     }
 
-    /// The numbers of a span's intervals, and the boxes that these and all that is near them reach into in one shape.
+    /// The numbers of a span's intervals, and the boxes that these and all that is near them reach
+    /// into in one shape.
     pub(super) fn rooms(&self, span: &Span, shape: Shape) -> impl Iterator<Item = (usize, Bounds)> {
         let strand = self.strands(span.yarn)[shape as usize];
         let first = self.yarns[0].layout().offsets()[span.yarn] as usize;
@@ -148,8 +151,9 @@ impl<'a> Shapes<'a> {
         self.motions.par_iter().any(Motion::is_far)
     }
 
-    /// Two places that meet on a straight way are no further from one another before than they move against one
-    /// another. So that is how far the margins reach, as far as that makes a difference to windows.
+    /// Two places that meet on a straight way are no further from one another before than they move
+    /// against one another. So that is how far the margins reach, as far as that makes a difference
+    /// to windows.
     fn measure(&self, number: usize, shift: Vec3A) -> Motion {
         let (yarn, interval) = self.yarn_of(number);
         let strands = self.strands(yarn);
@@ -161,7 +165,8 @@ impl<'a> Shapes<'a> {
         let moved = moved.fold(0.0, f32::max).sqrt();
         let half = strands.iter().map(|strand| strand.half(interval)).fold(0.0, f32::max);
         let length = before[0].distance(before[1]) + before[1].distance(before[2]);
-        // A quarter of half a window: at twice that from one another windows are linked by a third of a passage.
+        // A quarter of half a window: at twice that from one another windows are linked by a third
+        // of a passage.
         let most = (WINDOW_INTERVALS as f32 / 8.0 * length).max(WINDOW_REACH as f32 / 2.0 * half);
         Motion { moved, margin: moved.min(most) }
     }
@@ -173,7 +178,8 @@ pub(super) fn room([low, high]: [Vec3A; 2], margin: f32) -> Bounds {
     Bounds { low: low - margin, high: high + margin }
 }
 
-/// How far all points have moved on average, mm: the same to the bit whatever the number of threads.
+/// How far all points have moved on average, mm: the same to the bit whatever the number of
+/// threads.
 fn shift(before: &[ControlPoint], after: &[ControlPoint]) -> DVec3 {
     let sum = |(before, after): (&[ControlPoint], &[ControlPoint])| -> DVec3 {
         let moves = before.iter().zip(after);

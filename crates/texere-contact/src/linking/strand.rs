@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3A};
 use texere_core::{ControlPoint, Ends};
 
-/// One yarn in one of its shapes. Its intervals are counted on past its last control point where it is closed or repeats.
+/// One yarn in one of its shapes. Its intervals are counted on past its last control point where it
+/// is closed or repeats.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Strand<'a> {
     pub(super) points: &'a [ControlPoint],
@@ -14,8 +15,8 @@ pub(super) struct Strand<'a> {
     pub(super) s: f64,
 }
 
-/// The corners of an interval's Bézier polygon, whose hull holds the centreline, in single precision: for finding out what
-/// may have passed.
+/// The corners of an interval's Bézier polygon, whose hull holds the centreline, in single
+/// precision: for finding out what may have passed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hull([Vec3A; 4]);
 
@@ -56,7 +57,8 @@ impl Strand<'_> {
         ends.iter().map(|point| point.half_width().max(point.half_height())).fold(0.0, f32::max)
     }
 
-    /// The centreline at `way` intervals from the first control point; of an open yarn no further than its ends.
+    /// The centreline at `way` intervals from the first control point; of an open yarn no further
+    /// than its ends.
     pub(super) fn at(&self, way: f64) -> DVec3 {
         let last = match self.ends {
             Ends::Open => self.points.len() as f64 - 2.0,
@@ -74,8 +76,9 @@ impl Strand<'_> {
         (from..to).map(|index| self.point(index).distance(self.point(index + 1))).sum()
     }
 
-    /// How many intervals further along the same yarn `to` lies than `from`, where the yarn that `to` is on is moved by
-    /// `moved` whole repeats; the shorter way round of a closed yarn. None where that makes it a copy, another yarn.
+    /// How many intervals further along the same yarn `to` lies than `from`, where the yarn that
+    /// `to` is on is moved by `moved` whole repeats; the shorter way round of a closed yarn. None
+    /// where that makes it a copy, another yarn.
     pub(super) fn gap(&self, from: usize, to: usize, moved: [f64; 2]) -> Option<f64> {
         let (ahead, count) = (to as f64 - from as f64, self.points.len() as f64);
         match self.ends {
@@ -104,8 +107,8 @@ impl Hull {
         [start, (start + end + (leaving + arriving) * 3.0) / 8.0, end]
     }
 
-    /// How far the centreline may lie from these chords, mm: an eighth of the second derivative times the square of
-    /// their half.
+    /// How far the centreline may lie from these chords, mm: an eighth of the second derivative
+    /// times the square of their half.
     pub(super) fn sagitta(&self) -> f32 {
         let [start, leaving, arriving, end] = self.0;
         let bend = |a: Vec3A, b: Vec3A, c: Vec3A| (a - 2.0 * b + c).length_squared();

@@ -6,7 +6,8 @@ use texere_core::Ends;
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
 
-/// Chords that stand for a window. With twice as many no change differs by more than 0.01, with half as many by 0.02.
+/// Chords that stand for a window. With twice as many no change differs by more than 0.01, with
+/// half as many by 0.02.
 const CHORDS: usize = 2 * WINDOW_INTERVALS;
 
 /// The corners of a window's chords.
@@ -20,7 +21,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Round the middle of `interval`; `diameter` is the mean one of both yarns, mm. No longer than `most` intervals.
+    /// Round the middle of `interval`; `diameter` is the mean one of both yarns, mm. No longer than
+    /// `most` intervals.
     pub(super) fn around(strand: &Strand<'_>, interval: usize, diameter: f64, most: f64) -> Self {
         let (start, half) = (interval as i64, WINDOW_INTERVALS as i64 / 2);
         let count = strand.points.len();

@@ -9,13 +9,14 @@ pub const DAMPING: f32 = 1e-3;
 /// A pivot is never less than that.
 pub const PIVOT: f32 = 1e-9;
 
-/// The energy's slope and curvature in the eight unknowns of a crossing, by Gauss and Newton: every term is a weight times the square of a
-/// residual.
+/// The energy's slope and curvature in the eight unknowns of a crossing, by Gauss and Newton: every
+/// term is a weight times the square of a residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossingBlock {
     /// Half the energy's gradient.
     pub gradient: [f32; UNKNOWNS],
-    /// At least half the energy's curvature, when neighbours step as well: up to the diagonal, as it is symmetric.
+    /// At least half the energy's curvature, when neighbours step as well: up to the diagonal, as
+    /// it is symmetric.
     pub curvature: [[f32; UNKNOWNS]; UNKNOWNS],
     /// The least distance of two threads here, over what they need: 1 where they touch.
     pub clearance: f32,
@@ -25,10 +26,12 @@ impl CrossingBlock {
     pub(crate) const NOTHING: Self =
         Self { gradient: [0.0; UNKNOWNS], curvature: [[0.0; UNKNOWNS]; UNKNOWNS], clearance: f32::INFINITY };
 
-    /// Adds the term `weight` times `residual` squared, whose residual has these slopes in the unknowns of this crossing.
+    /// Adds the term `weight` times `residual` squared, whose residual has these slopes in the
+    /// unknowns of this crossing.
     ///
-    /// All crossings step at once. `share` is by how much this one's step has to be shorter than if it stepped alone: the sum of all
-    /// crossings' slopes over its own, which keeps the term from growing.
+    /// All crossings step at once. `share` is by how much this one's step has to be shorter than if
+    /// it stepped alone: the sum of all crossings' slopes over its own, which keeps the term from
+    /// growing.
     pub(crate) fn add<const N: usize>(
         &mut self,
         weight: f32,

@@ -37,7 +37,8 @@ impl Set {
     }
 }
 
-/// How a thread lies at a crossing. All lengths are in the plan's [`unit`](super::CrossingsPlan::unit).
+/// How a thread lies at a crossing. All lengths are in the plan's
+/// [`unit`](super::CrossingsPlan::unit).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct Lie {

@@ -1,9 +1,12 @@
-//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so nothing has to be searched: at every crossing both
-//! threads shift sideways, rise, widen and flatten, until an energy is least that keeps them from piercing one another.
+//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so nothing has
+//! to be searched: at every crossing both threads shift sideways, rise, widen and flatten, until an
+//! energy is least that keeps them from piercing one another.
 //!
-//! A [`Crossings`] says what is asked, a [`CrossingsPlan`] works out every table, a [`CrossingsSettler`] does the passes on a device, and
-//! [`settle`] leads it. What all devices agree on is here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
-//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] says where its neighbours meet it next.
+//! A [`Crossings`] says what is asked, a [`CrossingsPlan`] works out every table, a
+//! [`CrossingsSettler`] does the passes on a device, and [`settle`] leads it. What all devices
+//! agree on is here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
+//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] says where its neighbours meet
+//! it next.
 
 mod block;
 mod crossing;

@@ -9,11 +9,12 @@ pub const CURVED: f32 = 0.1;
 /// The longest turn of a step, radians.
 pub const TURN: f32 = 0.5;
 
-/// A straight passage over the first of two crossed threads and under the second one, at the slope that leaves most room.
+/// A straight passage over the first of two crossed threads and under the second one, at the slope
+/// that leaves most room.
 ///
-/// A line at slope t clears an upright ellipse by its support, sqrt((a sin t)² + (b cos t)²). So between two ellipses that lie
-/// `across` and `rise` apart a thread of half thicknesses `b` fits where across sin t + rise cos t is at least both supports
-/// and both half thicknesses.
+/// A line at slope t clears an upright ellipse by its support, sqrt((a sin t)² + (b cos t)²). So
+/// between two ellipses that lie `across` and `rise` apart a thread of half thicknesses `b` fits
+/// where across sin t + rise cos t is at least both supports and both half thicknesses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightPassage {
     /// Cosine and sine of the slope, 0 to a right angle.
@@ -27,8 +28,9 @@ pub struct StraightPassage {
 }
 
 impl StraightPassage {
-    /// The passage between two ellipses `across` and `rise` apart (the second one's middle above the first one's counts as positive), with
-    /// the half width and half height of each; `thread` is what the passing thread takes, both its half heights.
+    /// The passage between two ellipses `across` and `rise` apart (the second one's middle above
+    /// the first one's counts as positive), with the half width and half height of each; `thread`
+    /// is what the passing thread takes, both its half heights.
     ///
     /// ```
     /// use texere_core::crossings::StraightPassage;
@@ -40,7 +42,8 @@ impl StraightPassage {
     pub fn new(across: f32, rise: f32, halves: [[f32; 2]; 2], thread: f32) -> Self {
         let distance = (across * across + rise * rise).sqrt();
         let excess = halves.map(|[a, b]| a * a - b * b);
-        // The best slope of round threads, level or upright: wide ellipses leave most room at one of these.
+        // The best slope of round threads, level or upright: wide ellipses leave most room at one
+        // of these.
         let round = if rise > 0.0 { [rise / distance, across / distance] } else { [0.0, 1.0] };
         let left = |[c, s]: [f32; 2]| {
             let [first, second] = reach(c, s, halves);

@@ -62,7 +62,8 @@ pub struct Row {
     pub height: f32,
     /// Its level.
     pub level: i32,
-    /// How many threads before it, and after it, the next one of its level lies; 0 where there is none near enough to touch it.
+    /// How many threads before it, and after it, the next one of its level lies; 0 where there is
+    /// none near enough to touch it.
     pub beside: [i32; 2],
 }
 
@@ -113,8 +114,8 @@ pub struct CrossingsPlan {
 impl CrossingsPlan {
     /// Checks a problem and makes its tables.
     ///
-    /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a set, and values that are out of range or not
-    /// finite.
+    /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a
+    /// set, and values that are out of range or not finite.
     pub fn new(problem: &Crossings) -> Result<Self, CrossingsError> {
         let [ends, picks] = [0, 1].map(|set| problem.threads[set].len());
         for (what, count) in [("end", ends), ("pick", picks)] {
@@ -167,7 +168,8 @@ impl CrossingsPlan {
         self.ups.len()
     }
 
-    /// Bytes that a settler holds beside the plan: all crossings as they are, as others find them, and as they will find them.
+    /// Bytes that a settler holds beside the plan: all crossings as they are, as others find them,
+    /// and as they will find them.
     #[must_use]
     pub const fn settler_bytes(&self) -> u64 {
         3 * size_of::<CrossingState>() as u64 * self.ups.len() as u64
@@ -250,7 +252,8 @@ impl CrossingsPlan {
         if self.ups[self.number(site)] == (set == Set::Warp) { 1.0 } else { -1.0 }
     }
 
-    /// The crossing so many further along a thread of `set`, and so many threads of that set across, as far as there are threads. None beyond an edge.
+    /// The crossing so many further along a thread of `set`, and so many threads of that set
+    /// across, as far as there are threads. None beyond an edge.
     #[must_use]
     pub fn beside(&self, site: Site, set: Set, along: i32, across: i32) -> Option<Site> {
         let [ends, picks] = match set {
@@ -262,8 +265,8 @@ impl CrossingsPlan {
         Some(Site { end, pick })
     }
 
-    /// All crossings before the first pass: thin round threads at the heights of their levels; where these do not part them, one on top of
-    /// the other.
+    /// All crossings before the first pass: thin round threads at the heights of their levels;
+    /// where these do not part them, one on top of the other.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn start(&self) -> Result<Vec<CrossingState>, BackendError> {
@@ -313,7 +316,8 @@ impl CrossingsPlan {
         self.bounded(crossing, step.map(|step| share * step), site)
     }
 
-    /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum carries it on.
+    /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum
+    /// carries it on.
     #[must_use]
     pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
         let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];

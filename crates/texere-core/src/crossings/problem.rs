@@ -3,14 +3,16 @@
 /// A thread of the warp or the weft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingThread {
-    /// From its middle to that of the next thread of its set, mm. The last one's leads to the first of the next repeat.
+    /// From its middle to that of the next thread of its set, mm. The last one's leads to the first
+    /// of the next repeat.
     pub pitch: f32,
     /// The diameter of a circle with its section's area, mm, before it loses any.
     pub diameter: f32,
     /// How stiff it is against bending, 1 for a cotton yarn of its diameter.
     pub stiffness: f32,
-    /// Its level among the threads of its set, 0 for the lowest one. Threads of one level lie side by side, those of others above or below:
-    /// the picks of a double cloth have two levels by turns. Where warp and weft have as many, a level of both is a layer of the cloth.
+    /// Its level among the threads of its set, 0 for the lowest one. Threads of one level lie side
+    /// by side, those of others above or below: the picks of a double cloth have two levels by
+    /// turns. Where warp and weft have as many, a level of both is a layer of the cloth.
     pub level: u32,
 }
 
@@ -35,20 +37,23 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// A repeat, endless along both axes. `ups` says where the warp lies on the face: pick after pick, and in each pick end after end.
+    /// A repeat, endless along both axes. `ups` says where the warp lies on the face: pick after
+    /// pick, and in each pick end after end.
     #[must_use]
     pub const fn new(ups: Vec<bool>, warp: Vec<CrossingThread>, weft: Vec<CrossingThread>) -> Self {
         Self { ups, threads: [warp, weft], repeats: [true; 2], tension: [1.0; 2], press: 1.0, passes: 400 }
     }
 
-    /// Whether the cloth goes on beyond its last end, and beyond its last pick. Where it does not, nothing holds its edge.
+    /// Whether the cloth goes on beyond its last end, and beyond its last pick. Where it does not,
+    /// nothing holds its edge.
     #[must_use]
     pub const fn repeats(mut self, ends: bool, picks: bool) -> Self {
         self.repeats = [ends, picks];
         self
     }
 
-    /// How taut warp and weft are, 1 for relaxed cloth: more of it straightens a set at the cost of the other one. 0 to 10.
+    /// How taut warp and weft are, 1 for relaxed cloth: more of it straightens a set at the cost of
+    /// the other one. 0 to 10.
     #[must_use]
     pub const fn tension(mut self, warp: f32, weft: f32) -> Self {
         self.tension = [warp, weft];

@@ -14,8 +14,8 @@ const THIN: f64 = 0.4;
 /// Penalties at first and in the end.
 const PENALTIES: [f64; 2] = [30.0, 1000.0];
 
-/// It is at rest where no unknown has moved further than that in so many passes, in the plan's unit. One pass would not do: what swings
-/// stands still where it turns.
+/// It is at rest where no unknown has moved further than that in so many passes, in the plan's
+/// unit. One pass would not do: what swings stands still where it turns.
 const STILL: f32 = 5e-5;
 const STILL_PASSES: u32 = 10;
 
@@ -57,11 +57,12 @@ pub struct CrossingsRest {
     pub seen: CrossingsSeen,
 }
 
-/// Lets crossings come to rest on a device, and leaves them there. `watch` sees every pass, and may break it off: after it, or after the
-/// passes that were asked for with it, ten at most.
+/// Lets crossings come to rest on a device, and leaves them there. `watch` sees every pass, and may
+/// break it off: after it, or after the passes that were asked for with it, ten at most.
 ///
-/// Threads grow from four tenths of their area and are parted by penalties that harden, in fifty passes. Then passes go on until nothing
-/// moves, as many as the problem allows. A device is asked at once for as many passes as rest is away at least.
+/// Threads grow from four tenths of their area and are parted by penalties that harden, in fifty
+/// passes. Then passes go on until nothing moves, as many as the problem allows. A device is asked
+/// at once for as many passes as rest is away at least.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(

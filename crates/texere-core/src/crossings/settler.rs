@@ -28,7 +28,8 @@ impl CrossingsSeen {
     }
 }
 
-/// Crossings on one device. [`settle`](super::settle) calls it: `upload` comes first, with as many crossings as the plan has.
+/// Crossings on one device. [`settle`](super::settle) calls it: `upload` comes first, with as many
+/// crossings as the plan has.
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
 pub trait CrossingsSettler: Any + Debug + Send {
@@ -38,11 +39,12 @@ pub trait CrossingsSettler: Any + Debug + Send {
     /// Takes all crossings, none of which is moving.
     fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError>;
 
-    /// Moves every crossing once. Each reads where all were found before the pass, and says where it is found after it.
+    /// Moves every crossing once. Each reads where all were found before the pass, and says where
+    /// it is found after it.
     fn pass(&mut self, pass: &CrossingsPass) -> Result<CrossingsSeen, BackendError>;
 
-    /// Makes passes one after the other, and hands over what each has seen. A device that is waited for may make all of them first; another one
-    /// makes no more where `watch` breaks off.
+    /// Makes passes one after the other, and hands over what each has seen. A device that is waited
+    /// for may make all of them first; another one makes no more where `watch` breaks off.
     fn passes(
         &mut self,
         passes: &[CrossingsPass],

@@ -1,16 +1,19 @@
 //! The energy: what threads want, and what keeps them apart.
 //!
-//! Each term is a weight times the square of a residual. A term of several crossings is worked out by each of them, which keeps the slopes in
-//! its own unknowns: so all is gathered and nothing scattered. The sum over all crossings counts each term once.
+//! Each term is a weight times the square of a residual. A term of several crossings is worked out
+//! by each of them, which keeps the slopes in its own unknowns: so all is gathered and nothing
+//! scattered. The sum over all crossings counts each term once.
 
 use super::{CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Lie, Set, Site, StraightPassage};
 
-/// Weights of second differences of heights and of shifts, times the fourth power of a diameter over the third power of a pitch.
+/// Weights of second differences of heights and of shifts, times the fourth power of a diameter
+/// over the third power of a pitch.
 pub const BEND: f32 = 1.0;
 /// See [`BEND`]. Threads that skew collide at corners that no passage sees.
 pub const SIDEWAYS_BEND: f32 = 20.0;
 
-/// Weights of first differences of heights and of shifts, times the square of a diameter over a pitch.
+/// Weights of first differences of heights and of shifts, times the square of a diameter over a
+/// pitch.
 pub const TENSION: f32 = 1.0;
 /// See [`TENSION`].
 pub const SIDEWAYS_TENSION: f32 = 0.1;
@@ -34,11 +37,12 @@ pub const AREA_GAIN: f32 = 100.0;
 /// Threads are kept so far apart, in units, since penalties give way a little.
 pub const MARGIN: f32 = 0.003;
 
-/// Threads that are so near to touching, in units, are felt already: they do not pull, but make each other's steps short. Without it
-/// contacts that come and go make momentum swing.
+/// Threads that are so near to touching, in units, are felt already: they do not pull, but make
+/// each other's steps short. Without it contacts that come and go make momentum swing.
 pub const NEAR: f32 = 0.02;
 
-/// Between two crossings a thread of a layer is so many times steeper than the straight line, since it bends where it binds.
+/// Between two crossings a thread of a layer is so many times steeper than the straight line, since
+/// it bends where it binds.
 pub const STEEPER: f32 = 1.4;
 
 // Unknowns of a thread, after the first of its set.
@@ -86,7 +90,8 @@ fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
     let [end, pick] = [warp, weft].map(|thread| thread.lie(site));
     let side = plan.side(site, Set::Warp);
     let apart = side * (end.height - pick.height);
-    // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+    // Threads of two layers slope where they cross: along the slope of the other one an ellipse
+    // reaches further.
     let reaches = [(end, weft), (pick, warp)].map(|(lie, other)| {
         Reach::new(lie, if plan.are_apart(site) { STEEPER * other.steepest() } else { 0.0 })
     });
@@ -107,7 +112,8 @@ fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
     }
 }
 
-/// How far an ellipse reaches upright where what lies on it slopes, and the slopes of that in the slope, its half width and its half height.
+/// How far an ellipse reaches upright where what lies on it slopes, and the slopes of that in the
+/// slope, its half width and its half height.
 struct Reach {
     reach: f32,
     steeper: f32,
@@ -164,7 +170,8 @@ impl Here<'_> {
         way
     }
 
-    /// The way to the nearest threads of a set on the level of the one here: -1 or 1, and how many threads that is. 0 where there is none.
+    /// The way to the nearest threads of a set on the level of the one here: -1 or 1, and how many
+    /// threads that is. 0 where there is none.
     fn of_level(&self, set: Set) -> [(i32, i32); 2] {
         let [before, after] = self.plan.rows(set)[self.site.thread(set)].beside;
         [(-1, before), (1, after)]
@@ -246,8 +253,9 @@ impl Here<'_> {
         }
     }
 
-    /// The thread stays on its side between two crossings `way` apart, the `second` of which is this one or else the first. Where it slopes it
-    /// clears the shoulder of the thread under its upper end.
+    /// The thread stays on its side between two crossings `way` apart, the `second` of which is
+    /// this one or else the first. Where it slopes it clears the shoulder of the thread under its
+    /// upper end.
     fn shoulder(&self, block: &mut CrossingBlock, sites: [Site; 2], way: f32, second: bool) {
         let crossed = self.set.other();
         let [first, last] = sites.map(|site| self.crossing(site));
@@ -287,7 +295,8 @@ impl Here<'_> {
         }
     }
 
-    /// The thread changes sides between two crossings `way` apart, the `second` of which is this one or else the first.
+    /// The thread changes sides between two crossings `way` apart, the `second` of which is this
+    /// one or else the first.
     fn passage(&self, block: &mut CrossingBlock, [first, last]: [Site; 2], way: f32, second: bool) {
         let side = self.plan.side(first, self.set);
         let crossed = self.set.other();
@@ -322,7 +331,8 @@ impl Here<'_> {
         self.way(self.set, lower, across.abs())
     }
 
-    /// Neighbours of one level keep to their own places at a crossing, whatever their heights, and are clear of one another beside it.
+    /// Neighbours of one level keep to their own places at a crossing, whatever their heights, and
+    /// are clear of one another beside it.
     fn neighbour(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
         if across == 0 {
@@ -399,7 +409,8 @@ impl Here<'_> {
     }
 }
 
-/// Two sections beside one another: from the middle of the one to that of the other, and both half widths and half heights together.
+/// Two sections beside one another: from the middle of the one to that of the other, and both half
+/// widths and half heights together.
 struct Ellipses {
     apart: f32,
     rise: f32,

@@ -24,7 +24,8 @@ pub enum BackendError {
         /// The feature of the crate `texere`.
         feature: &'static str,
     },
-    /// An environment variable names vector instructions that the processor does not have, or that texere does not know.
+    /// An environment variable names vector instructions that the processor does not have, or that
+    /// texere does not know.
     #[error("{variable} is \"{wanted}\"; this processor has: {}", .found.join(", "))]
     NoInstructionSet {
         /// The variable.
@@ -58,7 +59,8 @@ pub enum BackendError {
     /// Memory could not be had.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// Yarns that lie so thick over one another that a settling would have to look at too many pairs of them.
+    /// Yarns that lie so thick over one another that a settling would have to look at too many
+    /// pairs of them.
     #[error(
         "more than {limit} pairs of neighbours among {chords}: too many yarns lie in one place to settle", chords = counted(*.chords, "chord"))]
     Crowded {
@@ -91,7 +93,8 @@ pub enum BackendError {
         /// The driver's whole log.
         log: String,
     },
-    /// An engine was asked to work on a chunk that is not loaded, or belongs to another plan. A session never does this.
+    /// An engine was asked to work on a chunk that is not loaded, or belongs to another plan. A
+    /// session never does this.
     #[error("chunk {chunk} is not loaded")]
     NotLoaded {
         /// The chunk's index.

@@ -13,11 +13,11 @@ use crate::yarns::check_points;
 use crate::{ControlPoint, PlanError, Yarn};
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
-    /// Takes control points, the first of which is number `first` of the fabric as it is now. All rings that they have a part in are made
-    /// again by the next [`LiveMesh::update`].
+    /// Takes control points, the first of which is number `first` of the fabric as it is now. All
+    /// rings that they have a part in are made again by the next [`LiveMesh::update`].
     ///
-    /// **Errors**: [`SessionError::UploadRange`] past the last control point, [`SessionError::Yarns`] for a point that is not sound, and what
-    /// the device says.
+    /// **Errors**: [`SessionError::UploadRange`] past the last control point,
+    /// [`SessionError::Yarns`] for a point that is not sound, and what the device says.
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
         let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
         if end > total {
@@ -43,14 +43,16 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Makes yarn number `yarn`, from 0, another one, of other control points, perhaps of more or fewer.
+    /// Makes yarn number `yarn`, from 0, another one, of other control points, perhaps of more or
+    /// fewer.
     ///
     /// **Errors**: those of [`LiveMesh::set_yarns`].
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), SessionError> {
         self.set_yarns(&Edits::from([(yarn, (what, points))]))
     }
 
-    /// Makes many yarns others at once, each of other control points, perhaps of more or fewer. The mesh is planned once for all of them.
+    /// Makes many yarns others at once, each of other control points, perhaps of more or fewer. The
+    /// mesh is planned once for all of them.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -77,8 +79,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// Their splines have the tension of the plan's [layout](crate::Layout::tension), as those of
     /// all other yarns.
     ///
-    /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited_all`]; [`SessionError::Yarns`] for a point that is not sound; and what the device
-    /// says. All but the last leave everything as it was, whichever of the yarns is refused.
+    /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited_all`]; [`SessionError::Yarns`]
+    /// for a point that is not sound; and what the device says. All but the last leave everything
+    /// as it was, whichever of the yarns is refused.
     pub fn set_yarns(&mut self, edits: &Edits<'_>) -> Result<(), SessionError> {
         let yarns = self.plan.layout().yarns().len();
         if let Some((&yarn, _)) = edits.range(yarns..).next() {
@@ -102,8 +105,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Takes control points of some yarns, and notes which of them stand otherwise with these: have become steep, lie flat again, or lean in
-    /// another way.
+    /// Takes control points of some yarns, and notes which of them stand otherwise with these: have
+    /// become steep, lie flat again, or lean in another way.
     fn note_stands(
         &mut self,
         first: u64,
@@ -146,13 +149,14 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// The rings that control points `own` of `yarn`, counted from its first, have a part in. A yarn with rolls has all of them: what turns at
-    /// one place turns the rest.
+    /// The rings that control points `own` of `yarn`, counted from its first, have a part in. A
+    /// yarn with rolls has all of them: what turns at one place turns the rest.
     fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
         let rings = self.plan.rings(yarn);
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
         let (first, end) = (own.start as u64, own.end as u64);
-        // A point has a part in the two intervals before it and the two behind, the last ring of which is that of a knot.
+        // A point has a part in the two intervals before it and the two behind, the last ring of
+        // which is that of a knot.
         let (from, to) = (first.saturating_sub(2) * per_interval, (end + 1).saturating_mul(per_interval) + 1);
         if self.attributes || self.plan.needs_scan() || self.plan.yarn(yarn).closed {
             return 0..rings;

@@ -2,14 +2,15 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Rings in a full block. 64 rings of six vertices are nine kilobytes, which fit a core's first cache; on a GPU a block is
-/// a workgroup.
+/// Rings in a full block. 64 rings of six vertices are nine kilobytes, which fit a core's first
+/// cache; on a GPU a block is a workgroup.
 pub const BLOCK_RINGS: u32 = 64;
 
-/// Up to [`BLOCK_RINGS`] consecutive rings of one yarn: a row of the table from which every kernel learns its yarn, without
-/// a search.
+/// Up to [`BLOCK_RINGS`] consecutive rings of one yarn: a row of the table from which every kernel
+/// learns its yarn, without a search.
 ///
-/// **Shape**: eight `u32`, 32 bytes. All but `yarn` and `first_ring` count from the start of the chunk.
+/// **Shape**: eight `u32`, 32 bytes. All but `yarn` and `first_ring` count from the start of the
+/// chunk.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Block {
@@ -19,9 +20,11 @@ pub struct Block {
     pub first_ring: u32,
     /// Rings whose vertices the block writes, 1 to 64.
     pub rings: u32,
-    /// Rings whose quads, to the ring after each, the block writes: `rings`, or one less at the end of a part.
+    /// Rings whose quads, to the ring after each, the block writes: `rings`, or one less at the end
+    /// of a part.
     pub quads: u32,
-    /// Padded control point `P[j-1]` of the first ring's interval, from the start of the chunk's window.
+    /// Padded control point `P[j-1]` of the first ring's interval, from the start of the chunk's
+    /// window.
     pub first_point: u32,
     /// The first ring among the chunk's.
     pub chunk_ring: u32,

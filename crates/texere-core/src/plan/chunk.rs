@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::{Block, PlanId};
 use crate::End;
 
-/// A run of one yarn's rings in a chunk. All but `yarn` and `first_ring` count from the start of the chunk.
+/// A run of one yarn's rings in a chunk. All but `yarn` and `first_ring` count from the start of
+/// the chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
     /// The yarn, from 0 among all.
@@ -38,9 +39,10 @@ pub struct Cap {
 
 /// A range of blocks that is launched, read and drawn together.
 ///
-/// It holds all that a launch needs: the block table, the parts that it makes, and its place in the whole. Where it
-/// ends inside a yarn it repeats the next ring, so that its triangles use its own vertices alone. Only [`Plan::chunks`](crate::backend::Plan::chunks)
-/// makes chunks, and they can't be changed, so a kernel need not check their tables.
+/// It holds all that a launch needs: the block table, the parts that it makes, and its place in the
+/// whole. Where it ends inside a yarn it repeats the next ring, so that its triangles use its own
+/// vertices alone. Only [`Plan::chunks`](crate::backend::Plan::chunks) makes chunks, and they can't
+/// be changed, so a kernel need not check their tables.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -87,8 +89,9 @@ impl Chunk {
         self.index
     }
 
-    /// Its blocks among all blocks of the plan, the first to the last; those of a plan of a [region](crate::backend::Plan::within) may be fewer. The table has a
-    /// row more for each ring that is repeated.
+    /// Its blocks among all blocks of the plan, the first to the last; those of a plan of a
+    /// [region](crate::backend::Plan::within) may be fewer. The table has a row more for each ring
+    /// that is repeated.
     #[must_use]
     pub const fn block_range(&self) -> Range<u64> {
         self.tables.blocks.start..self.tables.blocks.end
@@ -100,7 +103,8 @@ impl Chunk {
         &self.tables
     }
 
-    /// The padded control points that it reads, from a multiple of [`WINDOW_POINTS`](crate::backend::WINDOW_POINTS) on.
+    /// The padded control points that it reads, from a multiple of
+    /// [`WINDOW_POINTS`](crate::backend::WINDOW_POINTS) on.
     #[must_use]
     pub const fn window(&self) -> Range<u64> {
         self.window.start..self.window.end
@@ -130,7 +134,8 @@ impl Chunk {
         self.repeats_ring
     }
 
-    /// Rings, the repeated one included, and those that there is only [room](crate::backend::Plan::with_room) for.
+    /// Rings, the repeated one included, and those that there is only
+    /// [room](crate::backend::Plan::with_room) for.
     #[must_use]
     pub const fn rings(&self) -> u32 {
         self.rings
@@ -142,7 +147,8 @@ impl Chunk {
         self.vertices
     }
 
-    /// Indices that it holds, likewise; none but with [`Topology::Indexed`](crate::Topology::Indexed).
+    /// Indices that it holds, likewise; none but with
+    /// [`Topology::Indexed`](crate::Topology::Indexed).
     #[must_use]
     pub const fn indices(&self) -> u32 {
         self.indices
@@ -174,12 +180,13 @@ impl Chunk {
     }
 }
 
-/// Identifies the tables of a chunk within its plan: chunks of one plan with the same identity have the same tables, and differ at most in their
-/// place in the whole.
+/// Identifies the tables of a chunk within its plan: chunks of one plan with the same identity have
+/// the same tables, and differ at most in their place in the whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TablesId {
     pub(super) blocks: Range<u64>,
-    /// 0 for a chunk as the plan cuts it. A patch, and a chunk that was cut again, has a number that no other has.
+    /// 0 for a chunk as the plan cuts it. A patch, and a chunk that was cut again, has a number
+    /// that no other has.
     pub(super) edit: u64,
 }
 
@@ -191,7 +198,8 @@ impl TablesId {
 }
 
 impl Cap {
-    /// At place `place` among the chunk's caps; where their vertices and indices begin is known only after the last tube's.
+    /// At place `place` among the chunk's caps; where their vertices and indices begin is known
+    /// only after the last tube's.
     pub(super) fn at(place: u32, yarn: usize, end: End, chunk_ring: u32) -> Self {
         Self { yarn: yarn as u32, end, chunk_ring, first_vertex: place, first_index: place }
     }

@@ -1,4 +1,5 @@
-//! What lies in a chunk: its block table, parts and caps; as the plan cuts it, cut again after an edit, or patched.
+//! What lies in a chunk: its block table, parts and caps; as the plan cuts it, cut again after an
+//! edit, or patched.
 
 use std::ops::Range;
 
@@ -7,8 +8,8 @@ use super::{BLOCK_RINGS, Block, Plan};
 use crate::{End, Topology};
 
 impl Plan {
-    /// `chunk`, one of this plan or of one that it was [edited](Plan::edited) from, with the block table, the parts and the caps that it has
-    /// in this plan.
+    /// `chunk`, one of this plan or of one that it was [edited](Plan::edited) from, with the block
+    /// table, the parts and the caps that it has in this plan.
     #[must_use]
     pub fn recut(&self, chunk: &Chunk) -> Chunk {
         let mut cut = Chunk {
@@ -28,8 +29,9 @@ impl Plan {
         cut
     }
 
-    /// A chunk of some rows of the block table of `chunk`, one of this plan's, with the caps of their yarns. All that it makes lies where
-    /// `chunk` has it, so memory for that is room for it. `rows` are in order and do not overlap.
+    /// A chunk of some rows of the block table of `chunk`, one of this plan's, with the caps of
+    /// their yarns. All that it makes lies where `chunk` has it, so memory for that is room for it.
+    /// `rows` are in order and do not overlap.
     ///
     /// **Panics** for no rows, for rows past the last, and for a chunk of another plan.
     #[must_use]
@@ -58,7 +60,8 @@ impl Plan {
 }
 
 impl Plan {
-    /// Rings of block `block` of `yarn` that there is room for: first, count, and whether the yarn may go on after it.
+    /// Rings of block `block` of `yarn` that there is room for: first, count, and whether the yarn
+    /// may go on after it.
     pub(super) fn block_rings(&self, yarn: usize, block: u64) -> (u32, u32, bool) {
         let offsets = self.ring_offsets();
         let first = (block - self.block_offsets()[yarn]) as u32 * BLOCK_RINGS;
@@ -66,8 +69,8 @@ impl Plan {
         (first, left.min(BLOCK_RINGS), left > BLOCK_RINGS)
     }
 
-    /// Writes the block table, the parts and the caps of `chunk`. What there is room for has a place, but only the rings that yarns have get a
-    /// row.
+    /// Writes the block table, the parts and the caps of `chunk`. What there is room for has a
+    /// place, but only the rings that yarns have get a row.
     pub(super) fn fill(&self, chunk: &mut Chunk) {
         let (settings, roomy) = (self.settings(), self.is_roomy());
         let (sides, indexed) = (settings.sides, settings.topology == Topology::Indexed);
@@ -139,7 +142,8 @@ impl Plan {
     /// A row for the rings that come next.
     fn push_block(&self, chunk: &mut Chunk, yarn: usize, first_ring: u32, rings: u32, quads: u32) {
         let settings = self.settings();
-        // Kernels work out interval and remainder alike for all rings, so the table has the plain interval of the first.
+        // Kernels work out interval and remainder alike for all rings, so the table has the plain
+        // interval of the first.
         let interval = u64::from(first_ring) / (u64::from(settings.subdivisions) + 1);
         let point = self.padded_offsets()[yarn] + interval;
         chunk.blocks.push(Block {

@@ -7,7 +7,8 @@ use super::{BLOCK_RINGS, Block, Limits, Plan};
 use crate::definitions::Ring;
 use crate::{ControlPoint, PlanError, Topology, Vertex};
 
-/// Windows start at multiples of this many control points: 256 bytes, an offset that every device allows for a binding.
+/// Windows start at multiples of this many control points: 256 bytes, an offset that every device
+/// allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;
 
 /// What a chunk takes, in the units of [`Limits`].
@@ -59,7 +60,8 @@ impl Plan {
     /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
     /// `limits.memory_bytes` together.
     ///
-    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
+    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one
+    /// block fits.
     pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
         Chunks::new(self, *limits)
     }
@@ -78,7 +80,8 @@ pub struct Chunks<'a> {
     first_index: u64,
 }
 
-/// A block of a plan: the run that it lies in, its number and its yarn. Past the last run there is none.
+/// A block of a plan: the run that it lies in, its number and its yarn. Past the last run there is
+/// none.
 #[derive(Debug, Clone, Copy)]
 struct Cursor {
     run: usize,
@@ -104,7 +107,8 @@ impl<'a> Chunks<'a> {
 
     pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
         let chunks = Self::of(plan, limits);
-        // Where any block fits, yarns need not be looked at one by one: a session asks for chunks with each scan.
+        // Where any block fits, yarns need not be looked at one by one: a session asks for chunks
+        // with each scan.
         if chunks.largest_block().excess(plan.resident_bytes(), &limits).is_none() {
             return Ok(chunks);
         }
@@ -145,23 +149,26 @@ impl<'a> Chunks<'a> {
             rings,
             vertices: (rings + 2) * sides,
             indices: (rings + 1) * sides * 6,
-            // Each ring in an interval of its own, then the other points that the last one and the step to the next ring read.
+            // Each ring in an interval of its own, then the other points that the last one and the
+            // step to the next ring read.
             window: rings + 5 + WINDOW_POINTS,
         }
     }
 
-    /// The padded control points that `count` rings of `yarn` from `first` read, and the step to the ring after them.
+    /// The padded control points that `count` rings of `yarn` from `first` read, and the step to
+    /// the ring after them.
     fn points_read(&self, yarn: usize, first: u32, count: u32) -> Range<u64> {
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
         let start = self.plan.padded_offsets()[yarn];
         let end = self.plan.padded_offsets()[yarn + 1];
-        // The ring after the last one read falls in interval (first + count) / (K + 1), which reads four points.
+        // The ring after the last one read falls in interval (first + count) / (K + 1), which reads
+        // four points.
         let last = (u64::from(first) + u64::from(count)) / per_interval + 4;
         start + self.first_interval(yarn, first)..(start + last).min(end)
     }
 
-    /// The interval whose points ring `ring` of `yarn` is evaluated from: the last ring of an open yarn is t = 1 of the
-    /// interval before.
+    /// The interval whose points ring `ring` of `yarn` is evaluated from: the last ring of an open
+    /// yarn is t = 1 of the interval before.
     fn first_interval(&self, yarn: usize, ring: u32) -> u64 {
         let interval = u64::from(ring) / (u64::from(self.plan.settings().subdivisions) + 1);
         // Where the yarn may be resized, any ring may become its last.
@@ -170,7 +177,8 @@ impl<'a> Chunks<'a> {
         if at_end { interval.saturating_sub(1) } else { interval }
     }
 
-    /// Caps of a block that there is room for. A yarn that may be resized may end in any of its blocks, but only in one.
+    /// Caps of a block that there is room for. A yarn that may be resized may end in any of its
+    /// blocks, but only in one.
     fn cap_count(&self, yarn: usize, first: u32, goes_on: bool) -> u64 {
         if self.plan.settings().caps && !self.plan.yarn(yarn).closed {
             u64::from(first == 0) + u64::from(!goes_on || self.plan.is_roomy())
@@ -179,13 +187,15 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// `size` with one block more: as it is when others follow, and as it is when the chunk ends there, where a ring
-    /// may have to be repeated. `window` is where the chunk's control points start.
+    /// `size` with one block more: as it is when others follow, and as it is when the chunk ends
+    /// there, where a ring may have to be repeated. `window` is where the chunk's control points
+    /// start.
     fn extended(&self, size: &Size, window: Option<u64>, yarn: usize, block: u64) -> (Size, Size) {
         self.with_rings(size, window, yarn, self.plan.block_rings(yarn, block))
     }
 
-    /// The same with rings of a yarn that are one block: the first, how many, and whether others follow.
+    /// The same with rings of a yarn that are one block: the first, how many, and whether others
+    /// follow.
     fn with_rings(
         &self,
         size: &Size,
@@ -198,7 +208,8 @@ impl<'a> Chunks<'a> {
         let caps = self.cap_count(yarn, first, goes_on);
         let quads = u64::from(if goes_on { rings } else { rings - 1 });
         let points = self.points_read(yarn, first, rings + u32::from(goes_on));
-        // Where the window is not known yet, the worst case: it starts up to WINDOW_POINTS - 1 points earlier, to be aligned.
+        // Where the window is not known yet, the worst case: it starts up to WINDOW_POINTS - 1
+        // points earlier, to be aligned.
         let window = window.unwrap_or(points.start.saturating_sub(WINDOW_POINTS - 1));
         let inner = Size {
             blocks: size.blocks + 1,
@@ -217,8 +228,9 @@ impl<'a> Chunks<'a> {
         (inner, ended)
     }
 
-    /// `size` with the whole yarn that begins at `at`, and the block after it. None where the run ends before that, or the yarn has room: then what
-    /// its blocks take is not what they take together.
+    /// `size` with the whole yarn that begins at `at`, and the block after it. None where the run
+    /// ends before that, or the yarn has room: then what its blocks take is not what they take
+    /// together.
     fn with_yarn(&self, size: &Size, window: u64, at: Cursor) -> Option<(Size, Cursor)> {
         let blocks = &self.plan.block_offsets()[at.yarn..at.yarn + 2];
         let is_whole = at.block == blocks[0] && blocks[1] < self.plan.runs()[at.run].end;
@@ -230,7 +242,8 @@ impl<'a> Chunks<'a> {
         Some((size, Cursor { block: blocks[1], yarn: at.yarn + 1, ..at }))
     }
 
-    /// The end of the next chunk: the block that the one after it begins with, and the end of its window.
+    /// The end of the next chunk: the block that the one after it begins with, and the end of its
+    /// window.
     fn cut(&self, window: u64) -> (Cursor, u64) {
         let (mut size, mut at) = (Size::default(), self.next);
         let mut cut = (at, window);
@@ -346,7 +359,8 @@ mod tests {
         }
     }
 
-    /// Chunks end as far on as their limits allow, whether yarns are taken as a whole or block by block.
+    /// Chunks end as far on as their limits allow, whether yarns are taken as a whole or block by
+    /// block.
     #[test]
     fn a_chunk_ends_at_the_last_block_that_fits() {
         let mut yarns = Yarns::builder();

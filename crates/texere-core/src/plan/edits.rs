@@ -14,20 +14,24 @@ use crate::{ControlPoint, PlanError, TWIST_LIMIT, Yarn};
 pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
 
 impl Plan {
-    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which say whether it is [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). Offsets stay, and so both plans own one another's
-    /// chunks: of those, the ones that hold some of the yarn are out of date ([`Plan::recut`]).
+    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which
+    /// say whether it is [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). Offsets
+    /// stay, and so both plans own one another's chunks: of those, the ones that hold some of the
+    /// yarn are out of date ([`Plan::recut`]).
     ///
-    /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points, [`PlanError::TooFewPoints`], and
-    /// [`PlanError::OtherPlan`] for what takes a new plan: an open yarn that is closed or the other way round, a section that the layout
-    /// lacks, a twist that is not sound, or one where no yarn's rolls are scanned.
+    /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points,
+    /// [`PlanError::TooFewPoints`], and [`PlanError::OtherPlan`] for what takes a new plan: an open
+    /// yarn that is closed or the other way round, a section that the layout lacks, a twist that is
+    /// not sound, or one where no yarn's rolls are scanned.
     ///
     /// **Panics** past the last yarn.
     pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
         self.edited_all(&Edits::from([(yarn, (what, points))]))
     }
 
-    /// Makes many yarns others at once, in the time of one new plan. Each is judged by this plan: a twist is refused where no yarn's rolls are scanned in it, though another edit
-    /// may make a yarn steep.
+    /// Makes many yarns others at once, in the time of one new plan. Each is judged by this plan: a
+    /// twist is refused where no yarn's rolls are scanned in it, though another edit may make a
+    /// yarn steep.
     ///
     /// ```
     /// use texere_core::backend::{Edits, Plan};
@@ -85,7 +89,8 @@ impl Plan {
             .into()
     }
 
-    /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number `yarn`. No plan is made.
+    /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number
+    /// `yarn`. No plan is made.
     ///
     /// **Errors** and **panics**: those of [`Plan::edited`].
     pub fn check_edit(&self, yarn: usize, what: &Yarn, points: u64) -> Result<(), PlanError> {

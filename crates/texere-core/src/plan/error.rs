@@ -95,7 +95,8 @@ pub enum PlanError {
         /// Bytes allowed.
         limit: u64,
     },
-    /// Not even one block fits what a launch may count: see [`Limits::blocks`](crate::Limits::blocks).
+    /// Not even one block fits what a launch may count: see
+    /// [`Limits::blocks`](crate::Limits::blocks).
     #[error("one block of {rings} takes {needed} {what}, but the limit is {limit}", rings = counted(*.rings, "ring"))]
     BlockOverCount {
         /// Rings in the block.

@@ -6,9 +6,10 @@ use crate::definitions::SIDES_MAX;
 
 /// The limits that chunks are cut to.
 ///
-/// By default a buffer of a chunk has 64 MiB at most: with six sides some 466,000 rings and 5.6 million triangles. So two
-/// chunks take less than 300 MB whatever the fabric, progress comes in steps of that size, and a cancellation takes effect
-/// at the next one. All that a larger chunk would save is a launch.
+/// By default a buffer of a chunk has 64 MiB at most: with six sides some 466,000 rings and 5.6
+/// million triangles. So two chunks take less than 300 MB whatever the fabric, progress comes in
+/// steps of that size, and a cancellation takes effect at the next one. All that a larger chunk
+/// would save is a launch.
 ///
 /// ```
 /// use texere_core::Limits;

@@ -5,7 +5,8 @@ use crate::{End, Topology};
 
 /// Where on its yarn a vertex or a triangle lies.
 ///
-/// A triangle has the place of the vertex of its quad that comes first: between that ring and the next, between that side and the next.
+/// A triangle has the place of the vertex of its quad that comes first: between that ring and the
+/// next, between that side and the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MeshPlace {
     /// The yarn, from 0 among all.
@@ -19,8 +20,9 @@ pub struct MeshPlace {
 }
 
 impl Plan {
-    /// Where vertex number `vertex` of `chunk`, one of this plan's, lies: in time that grows with the logarithm of the chunk's blocks. None past the last
-    /// vertex, and where there is only [room](Plan::with_room).
+    /// Where vertex number `vertex` of `chunk`, one of this plan's, lies: in time that grows with
+    /// the logarithm of the chunk's blocks. None past the last vertex, and where there is only
+    /// [room](Plan::with_room).
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -54,8 +56,9 @@ impl Plan {
         Some(MeshPlace { side: vertex - cap.first_vertex, ..self.place_of_cap(cap.yarn, cap.end) })
     }
 
-    /// Where triangle number `triangle` of `chunk`, one of this plan's, lies, likewise: that of its indices `3 * triangle` and the two behind it. None past the
-    /// last, where there is only room, and with another topology than [`Topology::Indexed`].
+    /// Where triangle number `triangle` of `chunk`, one of this plan's, lies, likewise: that of its
+    /// indices `3 * triangle` and the two behind it. None past the last, where there is only room,
+    /// and with another topology than [`Topology::Indexed`].
     #[must_use]
     pub fn place_of_triangle(&self, chunk: &Chunk, triangle: u32) -> Option<MeshPlace> {
         if self.settings().topology != Topology::Indexed {
@@ -76,8 +79,8 @@ impl Plan {
         Some(self.place_of_cap(cap.yarn, cap.end))
     }
 
-    /// The control interval of a ring, from 0 along its yarn, and how far along it the ring lies, in \[0, 1). The last ring of an open yarn is at the start of
-    /// one interval more.
+    /// The control interval of a ring, from 0 along its yarn, and how far along it the ring lies,
+    /// in \[0, 1). The last ring of an open yarn is at the start of one interval more.
     #[must_use]
     pub fn interval(&self, ring: u32) -> (u32, f32) {
         let per_interval = self.settings().subdivisions + 1;

@@ -66,8 +66,8 @@ impl Default for Settings {
     }
 }
 
-/// The most rings that one plan may have, 2³⁶. More would be over ten terabytes of mesh with six sides: a mistake in the
-/// input.
+/// The most rings that one plan may have, 2³⁶. More would be over ten terabytes of mesh with six
+/// sides: a mistake in the input.
 pub const RINGS_MAX: u64 = 1 << 36;
 
 /// The most rings that one yarn may have: what a `u32` counts.
@@ -105,14 +105,15 @@ pub struct Plan {
 impl Plan {
     /// Plans `layout` with `settings`.
     ///
-    /// **Errors**: [`PlanError`] for settings out of range, a polygon section whose corners are not as many as the
-    /// sides, more than [`YARN_RINGS_MAX`] rings in a yarn or [`RINGS_MAX`] in all.
+    /// **Errors**: [`PlanError`] for settings out of range, a polygon section whose corners are not
+    /// as many as the sides, more than [`YARN_RINGS_MAX`] rings in a yarn or [`RINGS_MAX`] in all.
     pub fn new(layout: Arc<Layout>, settings: Settings) -> Result<Self, PlanError> {
         Self::planned(layout, settings, None)
     }
 
-    /// The same with room for more control points: `room` says how many a yarn, by its number, may have at most. So many lie between the
-    /// offsets of one yarn and the next, and [`Plan::edited`] changes how many of them there are, but no offset.
+    /// The same with room for more control points: `room` says how many a yarn, by its number, may
+    /// have at most. So many lie between the offsets of one yarn and the next, and [`Plan::edited`]
+    /// changes how many of them there are, but no offset.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -181,7 +182,8 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether `chunk` was cut from this plan, a clone of it, one [edited](Plan::edited) or one of a [region](Plan::within), so that its tables fit the plan's offsets.
+    /// Whether `chunk` was cut from this plan, a clone of it, one [edited](Plan::edited) or one of
+    /// a [region](Plan::within), so that its tables fit the plan's offsets.
     #[must_use]
     pub fn owns(&self, chunk: &Chunk) -> bool {
         chunk.plan() == self.id
@@ -221,8 +223,9 @@ impl Plan {
         &self.counts
     }
 
-    /// Where each yarn's rings start among all, and their total last (the paper's Ωp): yarns + 1 values. Times sides,
-    /// these are the paper's ΩM. [Room](Plan::with_room) for more counts as if it were used, here and in all other offsets.
+    /// Where each yarn's rings start among all, and their total last (the paper's Ωp): yarns + 1
+    /// values. Times sides, these are the paper's ΩM. [Room](Plan::with_room) for more counts as if
+    /// it were used, here and in all other offsets.
     #[must_use]
     pub fn ring_offsets(&self) -> &[u64] {
         &self.offsets.rings
@@ -230,9 +233,10 @@ impl Plan {
 
     /// Where each yarn's *padded* control points start, and their total last: yarns + 1 values.
     ///
-    /// A yarn of m control points is stored as `[virtual start, m points, virtual end]` when open and as
-    /// `[P[m-1], m points, P[0], P[1], P[2]]` when closed. Interval j reads `padded[j..j + 4]`, without end cases; the
-    /// last ring of a closed yarn falls in interval m, whose points are those of interval 0.
+    /// A yarn of m control points is stored as `[virtual start, m points, virtual end]` when open
+    /// and as `[P[m-1], m points, P[0], P[1], P[2]]` when closed. Interval j reads
+    /// `padded[j..j + 4]`, without end cases; the last ring of a closed yarn falls in interval m,
+    /// whose points are those of interval 0.
     #[must_use]
     pub fn padded_offsets(&self) -> &[u64] {
         &self.offsets.padded
@@ -276,7 +280,8 @@ impl Plan {
         &self.layout.yarns()[yarn]
     }
 
-    /// A yarn's twist ([`Yarn::twist`]) in turns per mm, as [`Frame::step`](crate::Frame::step) and the kernels take it.
+    /// A yarn's twist ([`Yarn::twist`]) in turns per mm, as [`Frame::step`](crate::Frame::step) and
+    /// the kernels take it.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -284,7 +289,8 @@ impl Plan {
         (f64::from(self.yarn(yarn).twist) / std::f64::consts::TAU) as f32
     }
 
-    /// How the sections of `yarn` are oriented: as the settings say, but where the yarn is [steep](Layout::is_steep).
+    /// How the sections of `yarn` are oriented: as the settings say, but where the yarn is
+    /// [steep](Layout::is_steep).
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -300,7 +306,8 @@ impl Plan {
         self.leans.contains_key(&yarn) || !self.frame(yarn).is_level(self.yarn(yarn).twist)
     }
 
-    /// The lean of each ring of `yarn`; none of a yarn that has no [up directions to stand by](Layout::ups), and past the last yarn.
+    /// The lean of each ring of `yarn`; none of a yarn that has no [up directions to stand
+    /// by](Layout::ups), and past the last yarn.
     #[must_use]
     #[inline]
     pub fn leans(&self, yarn: usize) -> Option<&[Turn]> {
@@ -346,7 +353,8 @@ impl Plan {
         &self.cap_triangles[section]
     }
 
-    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of the first one's or any since did.
+    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of
+    /// the first one's or any since did.
     #[must_use]
     pub const fn needs_scan(&self) -> bool {
         self.needs_scan
@@ -358,8 +366,9 @@ impl Plan {
         self.offsets.padded.last().copied().unwrap_or(0) * size_of::<ControlPoint>() as u64
     }
 
-    /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU at its peak: the mesh, the padded
-    /// control points, the block table and, where any yarn turns, the rolls. The yarns, which the caller has, are not in it.
+    /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU at its
+    /// peak: the mesh, the padded control points, the block table and, where any yarn turns, the
+    /// rolls. The yarns, which the caller has, are not in it.
     #[must_use]
     pub fn host_bytes(&self) -> u64 {
         let rings = self.offsets.rings.last().copied().unwrap_or(0);
@@ -376,8 +385,8 @@ impl Plan {
     }
 }
 
-/// Identifies the offsets of a plan within the process, which never change: its clones have the same identity, resized ones, and those of a
-/// region of it.
+/// Identifies the offsets of a plan within the process, which never change: its clones have the
+/// same identity, resized ones, and those of a region of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlanId(u64);
 

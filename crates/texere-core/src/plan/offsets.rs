@@ -51,7 +51,8 @@ impl Offsets {
 }
 
 impl Plan {
-    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same one, so that all their offsets are the same.
+    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same one, so
+    /// that all their offsets are the same.
     #[must_use]
     pub fn shares_offsets(&self, other: &Self) -> bool {
         self.id == other.id

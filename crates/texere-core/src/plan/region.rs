@@ -8,12 +8,14 @@ use super::{BLOCK_RINGS, Bounds, Plan};
 use crate::backend::PaddedPoints;
 
 impl Plan {
-    /// The same plan but that it makes only what lies in a box: those blocks of [`BLOCK_RINGS`] rings whose own
-    /// [box](Plan::part_bounds) touches `bounds`. So what lies in it is all there, as in the whole mesh to the bit, and up to a block of each yarn
-    /// beyond. `points` are this plan's.
+    /// The same plan but that it makes only what lies in a box: those blocks of [`BLOCK_RINGS`]
+    /// rings whose own [box](Plan::part_bounds) touches `bounds`. So what lies in it is all there,
+    /// as in the whole mesh to the bit, and up to a block of each yarn beyond. `points` are this
+    /// plan's.
     ///
-    /// Numbers of yarns, rings and control points stay, and all offsets; a session of either plan makes chunks of both. Only
-    /// [counts](Plan::counts) and [chunks](Plan::chunks) are of the region.
+    /// Numbers of yarns, rings and control points stay, and all offsets; a session of either plan
+    /// makes chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks) are of the
+    /// region.
     ///
     /// ```
     /// use texere_core::backend::{PaddedPoints, Plan};

@@ -11,11 +11,12 @@ use bytemuck::{Pod, Zeroable};
 
 /// The shape of a yarn's cross-section, in units of the yarn's radius.
 ///
-/// Every shape but the polygon encloses the area of the unit circle, so that a yarn keeps its volume, and with it its
-/// weight, whatever its shape. x is the section's side (level in cloth), y its up (out of the fabric).
+/// Every shape but the polygon encloses the area of the unit circle, so that a yarn keeps its
+/// volume, and with it its weight, whatever its shape. x is the section's side (level in cloth), y
+/// its up (out of the fabric).
 ///
-/// **Source** of ellipse, power ellipse and lenticular: Sherburn, "Geometric and mechanical modelling of textiles",
-/// PhD thesis, Nottingham, 2007 (the TexGen library).
+/// **Source** of ellipse, power ellipse and lenticular: Sherburn, "Geometric and mechanical
+/// modelling of textiles", PhD thesis, Nottingham, 2007 (the TexGen library).
 ///
 /// ```
 /// use texere_core::Section;
@@ -55,8 +56,8 @@ pub enum Section {
         /// Number of plies.
         plies: u32,
     },
-    /// The caller's own outline: counter-clockwise corners, in radii of the yarn. A plan that uses it must have as many
-    /// sides as it has corners.
+    /// The caller's own outline: counter-clockwise corners, in radii of the yarn. A plan that uses
+    /// it must have as many sides as it has corners.
     Polygon(Vec<[f32; 2]>),
 }
 
@@ -79,7 +80,8 @@ pub struct SectionPoint {
 const _: () = assert!(size_of::<SectionPoint>() == 16);
 
 impl SectionPoint {
-    /// Position · normal: how much of the radius' growth this point's surface feels. 1 all round a circle.
+    /// Position · normal: how much of the radius' growth this point's surface feels. 1 all round a
+    /// circle.
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.x * self.normal_x + self.y * self.normal_y
@@ -101,8 +103,8 @@ pub const SIDES_MIN: u32 = 3;
 /// The most sides a tube can have: far beyond what a yarn a few pixels wide can show.
 pub const SIDES_MAX: u32 = 256;
 
-/// Points at which the extent and the area of a section are measured: a polygon of 1,024 sides misses 6e-6 of a
-/// circle's area.
+/// Points at which the extent and the area of a section are measured: a polygon of 1,024 sides
+/// misses 6e-6 of a circle's area.
 const MEASURE_POINTS: u32 = 1024;
 
 impl Section {
@@ -135,7 +137,8 @@ impl Section {
 
     /// The outline as `sides` points, counter-clockwise seen against the tangent.
     ///
-    /// A polygon is given back corner by corner, whatever `sides` says: a plan refuses the two when they differ.
+    /// A polygon is given back corner by corner, whatever `sides` says: a plan refuses the two when
+    /// they differ.
     #[must_use]
     pub fn outline(&self, sides: u32) -> Vec<SectionPoint> {
         outline::outline(self, sides)

@@ -6,8 +6,8 @@ use crate::definitions::{SIDES_MAX, SIDES_MIN, Turn, atan2_turns};
 
 /// How deep the valley between two plies goes at most, as a share of the yarn's radius.
 ///
-/// Two round plies that just touch leave a valley down to the axis; real plies press flat against each other and
-/// their loose fibres fill the rest.
+/// Two round plies that just touch leave a valley down to the axis; real plies press flat against
+/// each other and their loose fibres fill the rest.
 const VALLEY: f32 = 0.5;
 
 /// A unit circle's sine and cosine at `k / count` of a turn.
@@ -72,12 +72,14 @@ fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
     with_normal(radius * sin, distortion + up * (radius * cos - (radius - rise)), sin, up * cos)
 }
 
-/// `1 - depth (1 - cos(plies θ))`: touches the unit circle at each ply and falls to the valley between two.
+/// `1 - depth (1 - cos(plies θ))`: touches the unit circle at each ply and falls to the valley
+/// between two.
 fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
     let (sin, cos) = sin_cos_at(k, count);
     let turn = ((u64::from(k) << 32) / u64::from(count)) as u32;
     let (lobe_sin, lobe_cos) = Turn(turn.wrapping_mul(plies)).sin_cos();
-    // Valley between two touching round plies whose centres lie `c` from the axis: c cos(π / plies).
+    // Valley between two touching round plies whose centres lie `c` from the axis: c cos(π /
+    // plies).
     let (half_sin, half_cos) = sin_cos_at(1, 2 * plies);
     let valley = (half_cos / (1.0 + half_sin)).max(VALLEY);
     let depth = (1.0 - valley) / 2.0;
@@ -154,7 +156,8 @@ pub(super) fn validate_polygon(corners: &[[f32; 2]]) -> Result<(), SectionError>
             if apart && intersect(corners[first], corners[next], corners[second], corners[after]) {
                 return Err(SectionError::SelfIntersecting { first, second });
             }
-            // Two edges that share a corner and lie on one another: the outline turns back on itself.
+            // Two edges that share a corner and lie on one another: the outline turns back on
+            // itself.
             if next == second && folds(corners[first], corners[next], corners[after]) {
                 return Err(SectionError::SelfIntersecting { first, second });
             }

@@ -2,10 +2,11 @@
 
 use super::SectionPoint;
 
-/// Corner numbers of the `n - 2` triangles that fill an outline of `n` points, counter-clockwise like the outline.
+/// Corner numbers of the `n - 2` triangles that fill an outline of `n` points, counter-clockwise
+/// like the outline.
 ///
-/// Ear clipping (Meisters 1975), since lobed sections are not convex. It always gives `n - 2` triangles; where rounding
-/// leaves no clean ear, the corner that turns most is cut.
+/// Ear clipping (Meisters 1975), since lobed sections are not convex. It always gives `n - 2`
+/// triangles; where rounding leaves no clean ear, the corner that turns most is cut.
 ///
 /// ```
 /// use texere_core::definitions::triangulate;
@@ -27,8 +28,8 @@ pub fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The place in `left` of the corner to cut: of those whose triangle holds no other corner, the one whose triangle is
-/// fattest, which keeps slivers away.
+/// The place in `left` of the corner to cut: of those whose triangle holds no other corner, the one
+/// whose triangle is fattest, which keeps slivers away.
 fn sharpest_ear(outline: &[SectionPoint], left: &[u32]) -> usize {
     let count = left.len();
     let at = |place: usize| {

@@ -4,7 +4,8 @@ use thiserror::Error;
 
 use crate::{BackendError, OutOfMemory, PlanError, YarnError};
 
-/// A session's call that failed: misuse, reported alike on every backend, or a failure of the backend.
+/// A session's call that failed: misuse, reported alike on every backend, or a failure of the
+/// backend.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {

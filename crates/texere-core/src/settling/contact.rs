@@ -30,7 +30,8 @@ impl Chord {
         self.at.wrapping_add(scale.step(self.span * 0.5))
     }
 
-    /// Where this chord and one that begins `way` from its beginning come nearest to one another: shares of both.
+    /// Where this chord and one that begins `way` from its beginning come nearest to one another:
+    /// shares of both.
     #[must_use]
     #[inline]
     pub fn nearest(&self, other: &Self, way: Vec3) -> [f32; 2] {
@@ -45,14 +46,15 @@ impl Chord {
     }
 }
 
-/// The least squared length that a chord or a velocity is taken to have, mm²: its square is still a normal number.
+/// The least squared length that a chord or a velocity is taken to have, mm²: its square is still a
+/// normal number.
 pub const SHORT: f32 = 1e-15;
 
 /// The squared sine of the angle below which two chords are parallel.
 pub const PARALLEL: f32 = 1e-6;
 
-/// The least that Newton's method takes the second derivative of the squared distance for, over the squared velocity; and the least of
-/// the determinant, over the product of both.
+/// The least that Newton's method takes the second derivative of the squared distance for, over the
+/// squared velocity; and the least of the determinant, over the product of both.
 pub const STIFF: f32 = 0.2;
 /// See [`STIFF`].
 pub const SKEW: f32 = 0.05;
@@ -67,7 +69,8 @@ pub(super) fn share(value: f32) -> f32 {
     value.max(0.0).min(1.0)
 }
 
-/// How much further than where they touch two yarns may be from one another for their nearest places to be worked out.
+/// How much further than where they touch two yarns may be from one another for their nearest
+/// places to be worked out.
 pub const NEAR: f32 = 1.1;
 
 /// How much thicker than they are yarns come to rest, so that they are clear when settling ends.
@@ -100,9 +103,11 @@ impl Pair<'_> {
         Approach { at, way, distance: way.length_squared().sqrt() }
     }
 
-    /// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes nearer.
+    /// The exact places near `at`: one step of Newton's method of at most `stride`, where that
+    /// comes nearer.
     ///
-    /// On chords alone yarns seem clear that are not: 0.998 of what they need where the spline has 0.92.
+    /// On chords alone yarns seem clear that are not: 0.998 of what they need where the spline has
+    /// 0.92.
     #[must_use]
     #[inline]
     pub fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Approach {
@@ -126,8 +131,8 @@ impl Pair<'_> {
 }
 
 impl Approach {
-    /// The direction from the first interval's place to the other's. Where both are one, it is square to both yarns: the
-    /// other's view of it is then the opposite one.
+    /// The direction from the first interval's place to the other's. Where both are one, it is
+    /// square to both yarns: the other's view of it is then the opposite one.
     #[must_use]
     #[inline]
     pub fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {

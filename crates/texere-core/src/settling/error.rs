@@ -42,7 +42,8 @@ pub enum SettlingError {
         /// The thinnest yarn's diameter, mm.
         diameter: f32,
     },
-    /// A yarn so much longer than it is thick, from one control point to the next, that it takes too many chords.
+    /// A yarn so much longer than it is thick, from one control point to the next, that it takes
+    /// too many chords.
     #[error(
         "yarn {}: from one of its control points to the next, along {axis}, {chords} are needed, more than {limit}: it is too long for its thickness",
         .yarn + 1, chords = counted(*.chords, "chord"))]
@@ -56,7 +57,8 @@ pub enum SettlingError {
         /// How many are taken at most.
         limit: u64,
     },
-    /// Yarns that in all are so much longer than they are thick that they take too many chords for their control points.
+    /// Yarns that in all are so much longer than they are thick that they take too many chords for
+    /// their control points.
     #[error(
         "yarns of {points} need {chords}, more than {limit}: they are too long for their thickness", points = counted(*.points, "control point"), chords = counted(*.chords, "chord"))]
     LongYarns {

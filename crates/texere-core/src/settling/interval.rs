@@ -6,7 +6,8 @@ use super::{Place, Scale};
 use crate::definitions::VERTICAL;
 use crate::spline::coefficients;
 
-/// The spline between two control points, from the first of them on, and how thick the yarn is there.
+/// The spline between two control points, from the first of them on, and how thick the yarn is
+/// there.
 #[derive(Debug, Clone, Copy)]
 pub struct Interval {
     /// Where it begins, units.
@@ -29,8 +30,9 @@ impl Interval {
         Self { start, terms: coefficients(a, b, c, s), halves: [halves[0], growth] }
     }
 
-    /// An interval from four rows, as backends keep it: where it begins (as bits) and the growth of its half width; what goes with
-    /// u and its half width at the beginning; with u² and its half height; with u³ and the growth of that.
+    /// An interval from four rows, as backends keep it: where it begins (as bits) and the growth of
+    /// its half width; what goes with u and its half width at the beginning; with u² and its half
+    /// height; with u³ and the growth of that.
     #[must_use]
     pub fn from_rows(rows: &[[f32; 4]; 4]) -> Self {
         let [[x, y, z, width_growth], [.., width], [.., height], [.., height_growth]] = *rows;
@@ -63,8 +65,8 @@ impl Interval {
         c2 * 2.0 + c3 * (6.0 * u)
     }
 
-    /// How far the yarn reaches from its centreline at `u` in direction `towards`, a unit vector, mm. It stands upright: half
-    /// its width level, half its height out of the cloth.
+    /// How far the yarn reaches from its centreline at `u` in direction `towards`, a unit vector,
+    /// mm. It stands upright: half its width level, half its height out of the cloth.
     #[must_use]
     #[inline]
     pub fn reach(&self, u: f32, towards: Vec3) -> f32 {
@@ -104,7 +106,8 @@ impl Interval {
         mean * (to - from)
     }
 
-    /// Its length by Gauss's rule of three places, mm, and the direction from its beginning to its end.
+    /// Its length by Gauss's rule of three places, mm, and the direction from its beginning to its
+    /// end.
     #[must_use]
     #[inline]
     pub fn arc(&self) -> (f32, Vec3) {
@@ -133,7 +136,8 @@ pub fn weights(u: f32, s: f32) -> [f32; 4] {
     [before, 1.0 - before - end - after, end, after]
 }
 
-/// What each of an interval's four control points counts in its second derivative at `u`: their sum is 0.
+/// What each of an interval's four control points counts in its second derivative at `u`: their sum
+/// is 0.
 #[must_use]
 #[inline]
 pub fn bends(u: f32, s: f32) -> [f32; 4] {

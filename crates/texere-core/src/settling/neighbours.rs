@@ -1,5 +1,5 @@
-//! Which chords are neighbours. Each chord's neighbours are listed in the order of their numbers, so that the way in which they
-//! were found does not matter.
+//! Which chords are neighbours. Each chord's neighbours are listed in the order of their numbers,
+//! so that the way in which they were found does not matter.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -23,7 +23,8 @@ pub struct Listed<'a> {
     pub pieces: u32,
 }
 
-/// Chords of one yarn are no neighbours where less than that is between them, in the sum of both radii: it can't come back so soon.
+/// Chords of one yarn are no neighbours where less than that is between them, in the sum of both
+/// radii: it can't come back so soon.
 pub const LEADS_ON: f32 = FRAC_PI_2;
 
 impl<'a> Listed<'a> {
@@ -43,8 +44,8 @@ impl<'a> Listed<'a> {
 }
 
 impl SettlingPlan {
-    /// Which image of a chord lies nearest to another one that begins `way` units before it: how many repeats away, by their
-    /// middles.
+    /// Which image of a chord lies nearest to another one that begins `way` units before it: how
+    /// many repeats away, by their middles.
     #[must_use]
     #[inline]
     pub fn image(&self, [one, other]: [&Chord; 2], way: IVec3) -> [i32; 2] {
@@ -65,8 +66,8 @@ impl SettlingPlan {
         )
     }
 
-    /// Whether two chords are neighbours while yarns have `growth` of their thickness: near one another, and not so close along
-    /// the same yarn that they can't be clear of one another.
+    /// Whether two chords are neighbours while yarns have `growth` of their thickness: near one
+    /// another, and not so close along the same yarn that they can't be clear of one another.
     #[must_use]
     pub fn are_neighbours(&self, one: Listed<'_>, other: Listed<'_>, growth: f32) -> bool {
         let way = other.chord.at.wrapping_sub(one.chord.at);
@@ -82,8 +83,9 @@ impl SettlingPlan {
             && !(yarn == other_yarn && self.leads_on(yarn, chords, image, thickness))
     }
 
-    /// Whether two chords of a yarn lie so close along it that they can't be clear of one another: less than a half circle of
-    /// their thickness is between them. The second one is seen so many repeats away.
+    /// Whether two chords of a yarn lie so close along it that they can't be clear of one another:
+    /// less than a half circle of their thickness is between them. The second one is seen so many
+    /// repeats away.
     #[must_use]
     pub fn leads_on(&self, yarn: u32, chords: [u32; 2], image: [i32; 2], thickness: f32) -> bool {
         let strand = &self.strands()[yarn as usize];
@@ -99,8 +101,8 @@ impl SettlingPlan {
         here || goes_on
     }
 
-    /// The size of cells in which a chord's neighbours lie in its own cell or one beside it, mm, where no chord is longer than
-    /// `longest`.
+    /// The size of cells in which a chord's neighbours lie in its own cell or one beside it, mm,
+    /// where no chord is longer than `longest`.
     #[must_use]
     pub fn cell(&self, growth: f32, longest: f32) -> f32 {
         let spans = self.spans();

@@ -1,7 +1,8 @@
 //! One pass: what pulls at an interval's four control points, and the step that each point takes.
 //!
-//! A pass only gathers: every interval reads places and writes its own [`Pull`], then every control point reads the pulls of the
-//! four intervals that it steers. Sums go in one order, so every schedule gives the same bits.
+//! A pass only gathers: every interval reads places and writes its own [`Pull`], then every control
+//! point reads the pulls of the four intervals that it steers. Sums go in one order, so every
+//! schedule gives the same bits.
 
 use glam::Vec3;
 
@@ -15,8 +16,8 @@ pub enum Form {
     /// Contacts, bends and length each have their mean, and their steps add up. Soon near rest.
     #[default]
     Weighted,
-    /// One step that suits all of them best, along the directions in which they pull: slower, but it comes to rest where others
-    /// would pull to and fro.
+    /// One step that suits all of them best, along the directions in which they pull: slower, but
+    /// it comes to rest where others would pull to and fro.
     Block,
 }
 
@@ -27,7 +28,8 @@ pub struct Pass {
     pub form: Form,
     /// The share of their thickness that yarns have.
     pub growth: f32,
-    /// The share of what eases the way to rest and is gone when it is reached: soft bends, tension, plates.
+    /// The share of what eases the way to rest and is gone when it is reached: soft bends, tension,
+    /// plates.
     pub ease: f32,
     /// The share of the last step that each point goes on with.
     pub momentum: f32,
@@ -39,7 +41,8 @@ pub const BEND_RADIUS: f32 = 0.6;
 /// How much larger than that radii are made.
 pub const BEND_MARGIN: f32 = 1.02;
 
-/// How stiff yarns are where they bend less than they may, as a share of what they are beyond, while that eases.
+/// How stiff yarns are where they bend less than they may, as a share of what they are beyond,
+/// while that eases.
 pub const SOFT_BEND: f32 = 0.02;
 
 /// How much contacts count.
@@ -70,7 +73,8 @@ pub const CONTACTS_MIN: f32 = 0.64;
 /// See [`CONTACTS_MIN`].
 pub const BENDS_MIN: f32 = 0.3;
 
-/// Yarns nearer than that, over both reaches, obey contact alone; what else pulls at them grows by that share with what is more.
+/// Yarns nearer than that, over both reaches, obey contact alone; what else pulls at them grows by
+/// that share with what is more.
 pub const CROSSING: f32 = 0.3;
 /// See [`CROSSING`].
 pub const CROSSING_SHARE: f32 = 2.5;
@@ -83,16 +87,17 @@ pub const STEP_DIAMETER: f32 = 0.1;
 /// What keeps a point where it is, against all that pulls at it in the block form.
 pub const INERTIA: f32 = 0.12;
 
-/// Bends are looked at in so many equal parts of an interval, at the ends of all of them, and of all its chords where it has more:
-/// with three places a yarn has 0.51 where 0.60 is claimed.
+/// Bends are looked at in so many equal parts of an interval, at the ends of all of them, and of
+/// all its chords where it has more: with three places a yarn has 0.51 where 0.60 is claimed.
 pub const BEND_PARTS: u32 = 8;
 
 /// What pulls at the control points of an interval.
 #[derive(Debug, Clone, Copy)]
 pub struct Pull {
-    /// What pulls at each of the four: with [`Form::Weighted`] the sum of contacts' ways, mm, and of their weights, then the same
-    /// of bends, and a zero; with [`Form::Block`] the sum of all ways, mm, and of the squares of their directions, each with
-    /// its weight: xx, xy, xz, yy, yz, zz.
+    /// What pulls at each of the four: with [`Form::Weighted`] the sum of contacts' ways, mm, and
+    /// of their weights, then the same of bends, and a zero; with [`Form::Block`] the sum of all
+    /// ways, mm, and of the squares of their directions, each with its weight: xx, xy, xz, yy, yz,
+    /// zz.
     pub slots: [[f32; 9]; 4],
     /// Half of the length that the interval has too much, along its chord, mm.
     pub length: Vec3,
@@ -248,7 +253,8 @@ impl Pass {
     }
 }
 
-/// The pulls that a control point gathers: of the intervals that begin one place behind it, at it, one and two places before it.
+/// The pulls that a control point gathers: of the intervals that begin one place behind it, at it,
+/// one and two places before it.
 #[derive(Debug, Clone, Copy)]
 pub struct Gathered<'a>(pub [Option<&'a Pull>; 4]);
 
@@ -309,8 +315,8 @@ fn solved([xx, xy, xz, yy, yz, zz]: [f32; 6], right: Vec3) -> Vec3 {
     )
 }
 
-/// The length that an interval is to have after a pass in which lengths are free: `arcs` are those of the interval before it,
-/// its own and the next one's.
+/// The length that an interval is to have after a pass in which lengths are free: `arcs` are those
+/// of the interval before it, its own and the next one's.
 #[must_use]
 #[inline]
 pub fn freed(length: f32, start: f32, arcs: [Option<f32>; 3], tension: f32) -> f32 {

@@ -1,4 +1,5 @@
-//! Places of control points that settle: whole numbers, so that a cloth ten metres out rests as one at the origin does.
+//! Places of control points that settle: whole numbers, so that a cloth ten metres out rests as one
+//! at the origin does.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, IVec3, Vec3};
@@ -7,8 +8,8 @@ use crate::{ControlPoint, Halves};
 
 /// A control point that settles.
 ///
-/// Coordinates are whole multiples of a [`Scale`]'s unit. The difference of two is exact however far they lie from the origin,
-/// and a cloth that is moved by whole units rests in the same bits.
+/// Coordinates are whole multiples of a [`Scale`]'s unit. The difference of two is exact however
+/// far they lie from the origin, and a cloth that is moved by whole units rests in the same bits.
 ///
 /// **Shape**: three `i32` and two half floats, 16 bytes.
 #[repr(C)]
@@ -35,7 +36,8 @@ impl Place {
         Self { at: (self.units().wrapping_add(units)).to_array(), ..self }
     }
 
-    /// `2 self - other`: the virtual end of an open yarn (the paper's equations 3 and 4). It is as thick as `self`.
+    /// `2 self - other`: the virtual end of an open yarn (the paper's equations 3 and 4). It is as
+    /// thick as `self`.
     #[must_use]
     #[inline]
     pub fn reflected(self, other: Self) -> Self {
@@ -56,12 +58,14 @@ const FINEST: f32 = 1.0 / (1 << 20) as f32;
 /// Nor may they be coarser than this one, which leaves 131,000 diameters either way.
 const COARSEST: f32 = 1.0 / (1 << 11) as f32;
 
-/// How many units a place may lie from the origin: virtual ends may lie three times as far, and the way to them is to fit an `i32`.
+/// How many units a place may lie from the origin: virtual ends may lie three times as far, and the
+/// way to them is to fit an `i32`.
 const REACH: f32 = (1 << 28) as f32;
 
 impl Scale {
-    /// The finest scale for places up to `extent` mm from `origin`, on yarns of which the thinnest is `diameter` mm thick: its
-    /// unit is a power of two. None where that is coarser than 1/2048 of the diameter.
+    /// The finest scale for places up to `extent` mm from `origin`, on yarns of which the thinnest
+    /// is `diameter` mm thick: its unit is a power of two. None where that is coarser than 1/2048
+    /// of the diameter.
     #[must_use]
     pub fn new(origin: DVec3, extent: f32, diameter: f32) -> Option<Self> {
         let power = |least: f32| least.log2().ceil().exp2();

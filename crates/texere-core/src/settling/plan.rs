@@ -19,17 +19,20 @@ const CHORD_MOST: f32 = 0.6;
 /// An interval has no more chords than that.
 const CHORDS_MAX: f32 = 4096.0;
 
-/// Yarns have so many chords at most, and so many more for each control point. Those of usual cloth have 3 to 10 a point, cables of
-/// 12 over 12 loops 34. Loops of a metre of yarn as thin as 0.1 mm have 1,390: a settling of 16 of them took a minute.
+/// Yarns have so many chords at most, and so many more for each control point. Those of usual cloth
+/// have 3 to 10 a point, cables of 12 over 12 loops 34. Loops of a metre of yarn as thin as 0.1 mm
+/// have 1,390: a settling of 16 of them took a minute.
 const CHORDS_FREE: u64 = 1 << 16;
 const CHORDS_A_POINT: u64 = 256;
 
-/// So many neighbours are listed at most, and so many more for each chord. Usual cloth has 1 to 6 a chord, cables of 12 over 12 loops
-/// 32, and of 20 over 20, which find no rest, 60. Underlaps over 511 needles of a cloth of four wales have 1,457.
+/// So many neighbours are listed at most, and so many more for each chord. Usual cloth has 1 to 6 a
+/// chord, cables of 12 over 12 loops 32, and of 20 over 20, which find no rest, 60. Underlaps over
+/// 511 needles of a cloth of four wales have 1,457.
 const NEIGHBOURS_FREE: u64 = 1 << 20;
 const NEIGHBOURS_A_CHORD: u64 = 32;
 
-/// How much further apart than they touch at two chords may be and still be listed as neighbours, in mean diameters.
+/// How much further apart than they touch at two chords may be and still be listed as neighbours,
+/// in mean diameters.
 pub const SKIN: f32 = 0.2;
 
 /// How much further a chord may move than its interval's control points do.
@@ -46,7 +49,8 @@ pub struct SettlingCounts {
     pub chords: u64,
 }
 
-/// Counts, tables and places of a settling. Lengths of slices are [`SettlingCounts::places`] unless they say otherwise.
+/// Counts, tables and places of a settling. Lengths of slices are [`SettlingCounts::places`] unless
+/// they say otherwise.
 #[derive(Debug, Clone)]
 pub struct SettlingPlan {
     pub(crate) scale: Scale,
@@ -83,7 +87,8 @@ pub struct Spans {
 impl SettlingPlan {
     /// Plans a settling.
     ///
-    /// **Errors**: [`SettlingError`] for ends, repeats, pins or settings that are not sound, and for cloths too large.
+    /// **Errors**: [`SettlingError`] for ends, repeats, pins or settings that are not sound, and
+    /// for cloths too large.
     pub fn new(settling: &Settling<'_>) -> Result<Self, SettlingError> {
         let (layout, points) = (settling.layout(), settling.points());
         let yarns = layout.yarns().len();
@@ -142,7 +147,8 @@ impl SettlingPlan {
         self.counts
     }
 
-    /// Whether so many neighbours of all chords may be listed: as many as chords of usual cloth have, many times over.
+    /// Whether so many neighbours of all chords may be listed: as many as chords of usual cloth
+    /// have, many times over.
     ///
     /// **Errors**: [`BackendError::Crowded`].
     pub fn allow_neighbours(&self, neighbours: u64) -> Result<(), BackendError> {
@@ -211,7 +217,8 @@ impl SettlingPlan {
         &self.yarns
     }
 
-    /// The number of the first chord of each place's interval, and of all chords last: one more than places.
+    /// The number of the first chord of each place's interval, and of all chords last: one more
+    /// than places.
     #[must_use]
     pub fn chords(&self) -> &[u32] {
         &self.chords
@@ -223,7 +230,8 @@ impl SettlingPlan {
         &self.lengths
     }
 
-    /// How far along its yarn each chord begins and ends, in units of [`Spans::along`]: as many as chords.
+    /// How far along its yarn each chord begins and ends, in units of [`Spans::along`]: as many as
+    /// chords.
     #[must_use]
     pub fn along(&self) -> &[[u32; 2]] {
         &self.along
@@ -235,7 +243,8 @@ impl SettlingPlan {
         &self.places
     }
 
-    /// Writes the places of control points, `points`, with those beyond yarns' ends between them to `places`.
+    /// Writes the places of control points, `points`, with those beyond yarns' ends between them to
+    /// `places`.
     pub fn pad(&self, points: impl IntoIterator<Item = Place>, places: &mut [Place]) {
         let mut points = points.into_iter();
         for strand in &self.strands {
@@ -282,8 +291,8 @@ impl SettlingPlan {
         Interval::new(&window, &self.scale, self.s)
     }
 
-    /// What control points count, where one of the four stands beyond an open yarn's end: those that it is made of count
-    /// instead.
+    /// What control points count, where one of the four stands beyond an open yarn's end: those
+    /// that it is made of count instead.
     #[must_use]
     #[inline]
     pub fn folded(tags: u32, mut weights: [f32; 4]) -> [f32; 4] {
@@ -393,7 +402,8 @@ impl SettlingPlan {
         Ok(())
     }
 
-    /// The shortest repeat that is taken, mm: of two chords that are neighbours the middles are then nearer than half of it.
+    /// The shortest repeat that is taken, mm: of two chords that are neighbours the middles are
+    /// then nearer than half of it.
     #[must_use]
     pub fn least_repeat(&self) -> f32 {
         let Spans { diameter, thickest, longest_chord, .. } = self.spans;

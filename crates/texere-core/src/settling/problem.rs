@@ -9,15 +9,16 @@ pub enum Length {
     Held,
     /// Every interval is to have so many times the length that it has, 0.5 to 2.
     Given(f32),
-    /// Yarns take the length that their course needs, evenly all along, and are drawn in by a tension, in shares of their
-    /// length a pass, while bends are still soft.
+    /// Yarns take the length that their course needs, evenly all along, and are drawn in by a
+    /// tension, in shares of their length a pass, while bends are still soft.
     Free {
         /// Tension, 0 for none, 0.1 at most.
         tension: f32,
     },
 }
 
-/// Yarns that are to come to rest: until they nowhere pierce one another, nowhere fold, and have the length that is asked for.
+/// Yarns that are to come to rest: until they nowhere pierce one another, nowhere fold, and have
+/// the length that is asked for.
 ///
 /// ```
 /// use texere_core::settling::{Settling, SettlingPlan};
@@ -76,14 +77,16 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// Presses the cloth between two plates `gap` mm apart, half of it on either side of z = 0, while bends are soft.
+    /// Presses the cloth between two plates `gap` mm apart, half of it on either side of z = 0,
+    /// while bends are soft.
     #[must_use]
     pub const fn plates(mut self, gap: f32) -> Self {
         self.plates = Some(gap);
         self
     }
 
-    /// The most passes of either form with yarns of their full thickness, 1 to a million. Forty in which they grow come before.
+    /// The most passes of either form with yarns of their full thickness, 1 to a million. Forty in
+    /// which they grow come before.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

@@ -17,10 +17,12 @@ const THIN: f32 = 0.25;
 const STEPS: u32 = 10;
 const STEP_PASSES: u32 = 4;
 
-/// Up to which share of the last stage what eases the way has its full strength, and from which on it has none.
+/// Up to which share of the last stage what eases the way has its full strength, and from which on
+/// it has none.
 const EASES: [f32; 2] = [0.3, 0.6];
 
-/// How far points are moved at the start, in diameters: symmetrical yarns may balance where they can't stay.
+/// How far points are moved at the start, in diameters: symmetrical yarns may balance where they
+/// can't stay.
 const JITTER: f32 = 0.01;
 
 /// Yarns are clear of one another where their distance over both reaches is that.
@@ -55,11 +57,13 @@ pub struct Rest {
     pub end: SettlingSeen,
 }
 
-/// Settles on a device, and leaves there the best places that were seen: by clearance, then by bends, then by length. `watch`
-/// sees every pass; where it breaks off, the best until then are left.
+/// Settles on a device, and leaves there the best places that were seen: by clearance, then by
+/// bends, then by length. `watch` sees every pass; where it breaks off, the best until then are
+/// left.
 ///
-/// Yarns grow from a quarter of their thickness, and bends are soft at first. The weighted form of the pass goes on until all is at
-/// rest or until it stalls; then the block form does, with as many passes at most.
+/// Yarns grow from a quarter of their thickness, and bends are soft at first. The weighted form of
+/// the pass goes on until all is at rest or until it stalls; then the block form does, with as many
+/// passes at most.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(
@@ -86,7 +90,8 @@ struct Run<'a, W> {
     watch: W,
     /// Whether `watch` has broken off.
     stopped: bool,
-    /// The growth at which neighbours were listed last, and how far points have moved at most since, mm.
+    /// The growth at which neighbours were listed last, and how far points have moved at most
+    /// since, mm.
     listed: f32,
     moved: f32,
     /// What was lacking when a tenth was last taken off it, and in which pass that was.
@@ -228,7 +233,8 @@ fn hash(seed: u32) -> f32 {
     (bits >> 8) as f32 / (1 << 23) as f32 - 1.0
 }
 
-/// The control points where everything lies now. `points` are those that the plan was made of: one that has not moved is the same.
+/// The control points where everything lies now. `points` are those that the plan was made of: one
+/// that has not moved is the same.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settled(
@@ -266,9 +272,10 @@ impl Rest {
 }
 
 impl SettlingSeen {
-    /// Whether it is better: by clearance in thousandths, where that is the same by the radius of curvature in steps of 0.002 diameters,
-    /// then by length in steps of 0.0005, and last by what is lacking to rest. A clearance of 0.985 is enough, as are a radius of
-    /// 0.585 diameters and a length that is off by 1 %: what is more does not count.
+    /// Whether it is better: by clearance in thousandths, where that is the same by the radius of
+    /// curvature in steps of 0.002 diameters, then by length in steps of 0.0005, and last by what
+    /// is lacking to rest. A clearance of 0.985 is enough, as are a radius of 0.585 diameters and a
+    /// length that is off by 1 %: what is more does not count.
     #[must_use]
     pub fn is_better_than(&self, other: &Self) -> bool {
         self.rank() > other.rank()

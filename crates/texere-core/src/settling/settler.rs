@@ -26,18 +26,20 @@ pub struct SettlingSeen {
 /// A settling on one device. [`settle`](super::settle) calls it, and keeps these rules:
 ///
 /// - `upload` comes first, with as many places as the plan has control points.
-/// - `list` comes before the first pass, and again before any chord has moved so far, or yarns have grown so much, that
-///   neighbours may be missing.
+/// - `list` comes before the first pass, and again before any chord has moved so far, or yarns have
+///   grown so much, that neighbours may be missing.
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
 pub trait Settler: Any + Debug + Send {
     /// The plan that it works on.
     fn plan(&self) -> &Arc<SettlingPlan>;
 
-    /// Takes the places of all control points, with the halves that the plan has. Sets all steps to zero, and lengths to the plan's.
+    /// Takes the places of all control points, with the halves that the plan has. Sets all steps to
+    /// zero, and lengths to the plan's.
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
 
-    /// Finds every chord's neighbours while yarns have `growth` of their thickness. Gives back how many there are in all.
+    /// Finds every chord's neighbours while yarns have `growth` of their thickness. Gives back how
+    /// many there are in all.
     fn list(&mut self, growth: f32) -> Result<u64, BackendError>;
 
     /// Moves every control point once.
@@ -46,8 +48,8 @@ pub trait Settler: Any + Debug + Send {
     /// Keeps the places that the last pass has seen, before it moved them, in place of any others.
     fn keep(&mut self) -> Result<(), BackendError>;
 
-    /// Goes back to the places that were kept, if any were, and sets all steps to zero. Lengths stay as they are, and neighbours have to be
-    /// listed again before a pass.
+    /// Goes back to the places that were kept, if any were, and sets all steps to zero. Lengths
+    /// stay as they are, and neighbours have to be listed again before a pass.
     fn recall(&mut self) -> Result<(), BackendError>;
 
     /// Writes the present places of all control points.

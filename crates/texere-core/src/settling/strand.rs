@@ -49,7 +49,8 @@ impl SettlingYarn {
         }
     }
 
-    /// The place of interval `interval`, counted from its first one, which may be before or behind it; none where it has none.
+    /// The place of interval `interval`, counted from its first one, which may be before or behind
+    /// it; none where it has none.
     #[must_use]
     pub fn interval(&self, interval: i64) -> Option<usize> {
         let count = i64::from(self.intervals());

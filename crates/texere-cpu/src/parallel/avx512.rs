@@ -19,9 +19,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
-// SAFETY, for all blocks in this file: the instructions need AVX-512 F and DQ. An `Avx512` proves that the processor has
-// them, since `detect` alone makes one. So does a vector or a mask, since it is made with an `Avx512` or from another of them:
-// their fields are private, and nothing outside this file makes one. What is said at a block is about its pointers.
+// SAFETY, for all blocks in this file: the instructions need AVX-512 F and DQ. An `Avx512` proves
+// that the processor has them, since `detect` alone makes one. So does a vector or a mask, since it
+// is made with an `Avx512` or from another of them: their fields are private, and nothing outside
+// this file makes one. What is said at a block is about its pointers.
 
 /// Proof that the processor has AVX-512, its parts F and DQ.
 #[derive(Debug, Clone, Copy)]
@@ -134,8 +135,8 @@ impl Simd for Avx512 {
         let points = points[..16].as_flattened();
         let (a, b) = (self.load(points), self.load(&points[16..]));
         let (c, d) = (self.load(&points[32..]), self.load(&points[48..]));
-        // Four of lanes 0, 4, 8 and 12 are the components of points 0 to 3: the order has to be turned, too.
-        // SAFETY: no pointers.
+        // Four of lanes 0, 4, 8 and 12 are the components of points 0 to 3: the order has to be
+        // turned, too. SAFETY: no pointers.
         let order =
             U32x16(unsafe { _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) });
         let [x, y, z, w] = self.tiles([a, b, c, d]);
@@ -202,7 +203,8 @@ impl Simd for Avx512 {
     fn scatter(self, rows: [F32x16; 4], out: &mut [f32], stride: usize) {
         let out = &mut out[..15 * stride + 4];
         let to = out.as_mut_ptr();
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
+        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does;
+        // stores need not be aligned.
         unsafe {
             for (lane, F32x16(column)) in self.tiles(rows).into_iter().enumerate() {
                 _mm_storeu_ps(to.add(lane * stride), _mm512_extractf32x4_ps::<0>(column));
@@ -218,7 +220,8 @@ impl Simd for Avx512 {
         let out = &mut out[..15 * stride + 8];
         let to = out.as_mut_ptr();
         let (low, high) = (self.tiles([a, b, c, d]), self.tiles([e, f, g, h]));
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
+        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does;
+        // stores need not be aligned.
         unsafe {
             let first = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
             let last = _mm512_setr_epi32(8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31);

@@ -1,4 +1,5 @@
-//! Yarns whose outlines lean, by the reference's own functions. All blocks of a call are of one yarn and follow each other.
+//! Yarns whose outlines lean, by the reference's own functions. All blocks of a call are of one
+//! yarn and follow each other.
 
 use texere_core::Vertex;
 use texere_core::backend::{BLOCK_RINGS, Block};

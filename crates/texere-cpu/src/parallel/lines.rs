@@ -1,7 +1,8 @@
 //! Output in whole cache lines, which can go past the caches.
 //!
-//! A line that is written past the caches costs no read before it, but only so many such lines can be under way. They are
-//! sent a few at a time between other work, so that the processor need not wait for memory.
+//! A line that is written past the caches costs no read before it, but only so many such lines can
+//! be under way. They are sent a few at a time between other work, so that the processor need not
+//! wait for memory.
 
 use std::ops::Range;
 
@@ -29,10 +30,11 @@ impl<'a> Lines<'a> {
 
 /// Vertices on their way.
 ///
-/// They are written to scratch memory, where they lie as they will lie in memory: lines start at multiples of a line's
-/// length. Whole lines are sent, half of them at once and half while the next rings are worked out, and what is left moves
-/// to the front of a second scratch memory, which takes turns with the first. Each is that of one vector of rings, so that
-/// both stay in the nearest cache.
+/// They are written to scratch memory, where they lie as they will lie in memory: lines start at
+/// multiples of a line's length. Whole lines are sent, half of them at once and half while the next
+/// rings are worked out, and what is left moves to the front of a second scratch memory, which
+/// takes turns with the first. Each is that of one vector of rings, so that both stay in the
+/// nearest cache.
 #[derive(Debug)]
 pub(super) struct VertexLines<'a> {
     out: Lines<'a>,
@@ -65,7 +67,8 @@ impl<'a> VertexLines<'a> {
         &mut self.scratch[self.end..]
     }
 
-    /// Begins to send `floats` values that have been written, once what waited before is on its way.
+    /// Begins to send `floats` values that have been written, once what waited before is on its
+    /// way.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn send(&mut self, simd: impl Simd, floats: usize) {
         let mut first = 0;
@@ -141,7 +144,8 @@ impl IndexTable {
 #[derive(Debug)]
 pub(super) struct IndexLines<'a> {
     out: Lines<'a>,
-    /// The pattern from the first whole line on, over and over, each time with `base` grown by `growth`.
+    /// The pattern from the first whole line on, over and over, each time with `base` grown by
+    /// `growth`.
     pattern: &'a [[u32; LINE]],
     growth: u32,
     base: u32,
@@ -150,7 +154,8 @@ pub(super) struct IndexLines<'a> {
 }
 
 impl<'a> IndexLines<'a> {
-    /// The indices of consecutive rings' quads, the first ring's vertices starting at `first_vertex`.
+    /// The indices of consecutive rings' quads, the first ring's vertices starting at
+    /// `first_vertex`.
     pub(super) fn new(out: &'a mut [u32], streams: bool, table: &'a IndexTable, first_vertex: u32) -> Self {
         let out = Lines::new(bytemuck::cast_slice_mut(out), streams);
         put(out.head, &table.table, first_vertex);

@@ -50,11 +50,13 @@ use vertices::{Surface, VERTEX};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parallel(InstructionSet);
 
-/// Bytes of output from which on stores go past the caches: as much as the last cache of a large processor holds.
+/// Bytes of output from which on stores go past the caches: as much as the last cache of a large
+/// processor holds.
 const STREAM_BYTES: usize = 32 << 20;
 
 impl Parallel {
-    /// With the vectors that `TEXERE_SIMD` names or, without it, the widest ones that the processor has.
+    /// With the vectors that `TEXERE_SIMD` names or, without it, the widest ones that the processor
+    /// has.
     ///
     /// **Errors**: [`BackendError::NoInstructionSet`] where it has none of that name.
     pub(crate) fn new() -> Result<Self, BackendError> {
@@ -133,7 +135,8 @@ impl<'a> Maker<'a> {
         Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
-    /// Makes `piece`, a function of its own if any of its rings may be flattened: so the loops of round yarns stay small.
+    /// Makes `piece`, a function of its own if any of its rings may be flattened: so the loops of
+    /// round yarns stay small.
     #[cfg_attr(optimized, inline(always))]
     fn make<S: Simd>(&self, simd: S, piece: impl Piece, blocks: &[Block]) {
         if self.source().all_round(Stretch::of(blocks)) {
@@ -152,8 +155,9 @@ impl<'a> Maker<'a> {
         Source { plan: &self.work.plan, points: &self.work.points, seats: &self.seats }
     }
 
-    /// Gives `sink` the rings of `blocks`, which are one yarn's and follow each other: a vector of rings at a time, with their
-    /// rolls, and how many of them there are. Without `FLATTENED` all are taken for round.
+    /// Gives `sink` the rings of `blocks`, which are one yarn's and follow each other: a vector of
+    /// rings at a time, with their rolls, and how many of them there are. Without `FLATTENED` all
+    /// are taken for round.
     #[cfg_attr(optimized, inline(always))]
     fn rings<S: Simd, const FLATTENED: bool>(&self, simd: S, blocks: &[Block], sink: &mut impl Sink) {
         let (Work { plan, rolls, .. }, stretch) = (self.work, Stretch::of(blocks));
@@ -190,8 +194,8 @@ impl<P: Piece> Job for Flattened<P> {
 
 /// What becomes of rings.
 trait Sink {
-    /// Takes the first `count` rings of a vector, whose rolls are all zero unless they are `rolled`. It must be inlined, so that it is
-    /// compiled for the instructions of its path.
+    /// Takes the first `count` rings of a vector, whose rolls are all zero unless they are
+    /// `rolled`. It must be inlined, so that it is compiled for the instructions of its path.
     fn take<S: Simd, const FLATTENED: bool>(
         &mut self,
         simd: S,

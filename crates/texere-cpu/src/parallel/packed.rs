@@ -1,5 +1,5 @@
-//! Packed vertices: those of a few blocks are made in memory that stays in the core's cache, packed there in lanes, and sent on in whole
-//! lines.
+//! Packed vertices: those of a few blocks are made in memory that stays in the core's cache, packed
+//! there in lanes, and sent on in whole lines.
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk};

@@ -1,7 +1,8 @@
 //! Where rotation-minimising frames have nothing to do, told from the control points.
 //!
-//! A thread that keeps to a plane of constant x, or of constant y, and never turns back there, as woven ones do, has its
-//! sides along that axis. Their products with chords and tangents are zero, so that each step is zero, to the bit.
+//! A thread that keeps to a plane of constant x, or of constant y, and never turns back there, as
+//! woven ones do, has its sides along that axis. Their products with chords and tangents are zero,
+//! so that each step is zero, to the bit.
 
 use texere_core::definitions::NO_LENGTH;
 
@@ -9,9 +10,10 @@ use super::rings::{Source, Stretch};
 use super::simd::{Floats, Mask, Simd, difference};
 use super::spline::{neighbours, xyz};
 
-/// The least velocity along the plane, as a share of the interval's extent (the distances of its four points in all axes,
-/// added up), that counts as going on. It is far above the rounding of velocities (some 1e-5), at which one could seem to
-/// go backwards, and of what counts as standing still or as vertical (1e-6), where frames have rules of their own.
+/// The least velocity along the plane, as a share of the interval's extent (the distances of its
+/// four points in all axes, added up), that counts as going on. It is far above the rounding of
+/// velocities (some 1e-5), at which one could seem to go backwards, and of what counts as standing
+/// still or as vertical (1e-6), where frames have rules of their own.
 const ONWARD: f32 = 1e-3;
 
 /// The largest extent, mm: its square is well within the range of `f32`.
@@ -23,7 +25,8 @@ pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stre
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
     let intervals = (plan.rings(stretch.yarn) - 1) / per_interval;
-    // An open yarn's last ring belongs to the interval that it ends, a closed yarn's to one after that.
+    // An open yarn's last ring belongs to the interval that it ends, a closed yarn's to one after
+    // that.
     let last = if plan.yarn(stretch.yarn).closed { intervals } else { intervals - 1 };
     let end = ((stretch.first + stretch.count - 1) / per_interval).min(last) + 1;
     let mut first = stretch.first / per_interval;
@@ -42,10 +45,11 @@ pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stre
     true
 }
 
-/// The intervals, `LANES` from number `first` on, that go on forwards in x and backwards in x at constant y, forwards in y
-/// and backwards in y at constant x: a bit for each.
+/// The intervals, `LANES` from number `first` on, that go on forwards in x and backwards in x at
+/// constant y, forwards in y and backwards in y at constant x: a bit for each.
 ///
-/// A cubic's velocity lies between the three values of its Bézier form, of which the outer ones are those at the ends.
+/// A cubic's velocity lies between the three values of its Bézier form, of which the outer ones are
+/// those at the ends.
 #[cfg_attr(optimized, inline(always))]
 fn ways_on<S: Simd>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> [u32; 4] {
     let [before, start, end, after] = neighbours(simd, points, first);

@@ -1,8 +1,8 @@
 //! Stage 1 in lanes: consecutive rings of a yarn, a vector of them at a time.
 //!
-//! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the same. Where those
-//! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
-//! own functions are called for that ring.
+//! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the
+//! same. Where those branch for a rare case (a yarn at rest, a tangent along z, a yarn's last
+//! ring), the lanes only notice it, and the core's own functions are called for that ring.
 
 use texere_core::ControlPoint;
 use texere_core::backend::{Block, PaddedPoints, Plan};
@@ -33,7 +33,8 @@ impl<'a> Source<'a> {
     pub(super) fn all_round(&self, stretch: Stretch) -> bool {
         let (points, per_interval) = (self.yarn(stretch.yarn), self.seats.len());
         let first = stretch.first as usize / per_interval;
-        // The last ring's interval, and the three points after it; an open yarn's last ring has no interval of its own.
+        // The last ring's interval, and the three points after it; an open yarn's last ring has no
+        // interval of its own.
         let end = (stretch.first + stretch.count - 1) as usize / per_interval + 4;
         all_round(&points[first..end.min(points.len())])
     }
@@ -56,7 +57,8 @@ impl Stretch {
     }
 }
 
-/// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all are taken for round.
+/// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all are
+/// taken for round.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) centre: [S::Floats; 3],
@@ -65,7 +67,8 @@ pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// The frame that the section stands in: turned by the roll where the yarn is round, upright where it is flattened.
+    /// The frame that the section stands in: turned by the roll where the yarn is round, upright
+    /// where it is flattened.
     pub(super) side: [S::Floats; 3],
     pub(super) up: [S::Floats; 3],
     /// Sine and cosine of the roll.
@@ -175,8 +178,9 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
 /// What a ring that is mended has new.
 const FIELDS: usize = 16;
 
-/// The fields of a vector of rings in memory. They are aligned as vectors are, so that a compiler that finds them on the stack
-/// aligns the stack, and with it all vectors that it puts there for want of registers.
+/// The fields of a vector of rings in memory. They are aligned as vectors are, so that a compiler
+/// that finds them on the stack aligns the stack, and with it all vectors that it puts there for
+/// want of registers.
 #[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
@@ -226,8 +230,9 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     }
 }
 
-/// The seats of a stretch's last rings, whose others are `seats`: an open yarn's last ring lies at the end of the interval
-/// before. There is none where that ring is a vector's first: a bit for it that the core has to mend.
+/// The seats of a stretch's last rings, whose others are `seats`: an open yarn's last ring lies at
+/// the end of the interval before. There is none where that ring is a vector's first: a bit for it
+/// that the core has to mend.
 #[cold]
 #[inline(never)]
 fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {
@@ -265,8 +270,8 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
     }
 }
 
-/// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit for each that the core
-/// has to mend.
+/// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit
+/// for each that the core has to mend.
 #[cfg_attr(optimized, inline(always))]
 fn upright<S: Simd, const FLATTENED: bool>(
     simd: S,

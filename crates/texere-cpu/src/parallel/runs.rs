@@ -4,8 +4,8 @@ use texere_core::Vertex;
 use texere_core::backend::{Block, Chunk, MeshMut};
 use texere_core::definitions::Ring;
 
-/// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. Enough to make the hand-over cheap, few enough
-/// that a fabric of a few thousand rings still feeds several cores.
+/// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. Enough to make the hand-over
+/// cheap, few enough that a fabric of a few thousand rings still feeds several cores.
 const RUN_BLOCKS: usize = 32;
 
 /// A run of blocks and where their rings go.
@@ -19,7 +19,8 @@ pub(super) struct RingRun<'a> {
 /// A run of blocks and where their mesh goes.
 pub(super) struct MeshRun<'a> {
     pub(super) blocks: &'a [Block],
-    /// Number of the first vertex of `vertices` among the chunk's, and of the first index of `indices`.
+    /// Number of the first vertex of `vertices` among the chunk's, and of the first index of
+    /// `indices`.
     pub(super) first_vertex: u32,
     pub(super) first_index: u32,
     pub(super) vertices: &'a mut [Vertex],

@@ -98,8 +98,8 @@ impl Job for ScanRun<'_> {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
         let (frame, twist) = (source.plan.frame(yarn), source.plan.turns_per_mm(yarn));
-        // Of so many rings from there on: one more than the blocks' own, unless the yarn ends, since the step to that one is
-        // the last block's.
+        // Of so many rings from there on: one more than the blocks' own, unless the yarn ends,
+        // since the step to that one is the last block's.
         let stretch =
             |first: u32, rings: u32| Stretch { yarn, first, count: (rings + 1).min(of_yarn - first) };
         let mut first = first_ring;

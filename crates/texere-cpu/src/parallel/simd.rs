@@ -21,10 +21,12 @@ pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 
 
 /// A set of vector instructions, and proof that the processor has it.
 ///
-/// Only an implementation's own detection makes a value of the type. Vectors and masks are made with such a value or from other
-/// vectors, so they prove the same, and all methods are safe to call. The values have no size: passing them on costs nothing.
+/// Only an implementation's own detection makes a value of the type. Vectors and masks are made
+/// with such a value or from other vectors, so they prove the same, and all methods are safe to
+/// call. The values have no size: passing them on costs nothing.
 ///
-/// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation gives the same bits.
+/// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation
+/// gives the same bits.
 pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// Lanes of a vector: a power of two, from 4 to [`LANES_MAX`].
     const LANES: usize;
@@ -70,8 +72,9 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// Tiles of four by four values, transposed: lane 4j + c of column q is lane 4j + q of row c.
     fn tiles(self, rows: [Self::Floats; 4]) -> [Self::Floats; 4];
 
-    /// Makes lines of columns: with n lines for every four lanes, line jn + i becomes lanes 4j to 4j + 3 of columns 4i to
-    /// 4i + 3. They go past the caches if `STREAM` says so and the processor can.
+    /// Makes lines of columns: with n lines for every four lanes, line jn + i becomes lanes 4j to
+    /// 4j + 3 of columns 4i to 4i + 3. They go past the caches if `STREAM` says so and the
+    /// processor can.
     fn arrange<const STREAM: bool>(self, columns: &[f32], lines: &mut [Line]);
 
     /// Stores lane l of row r at `out[l * stride + r]`.
@@ -84,11 +87,12 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
         self.scatter([e, f, g, h], &mut out[4..], stride);
     }
 
-    /// Copies a line past the caches, where the processor can: for outputs that no cache would hold anyway. Other threads are
-    /// sure to see the copy only after a [`Simd::fence`].
+    /// Copies a line past the caches, where the processor can: for outputs that no cache would hold
+    /// anyway. Other threads are sure to see the copy only after a [`Simd::fence`].
     fn stream(self, from: &[f32; LINE], to: &mut Line);
 
-    /// Writes the line `base + table[i]`, `base` the same in all lanes, past the caches where the processor can.
+    /// Writes the line `base + table[i]`, `base` the same in all lanes, past the caches where the
+    /// processor can.
     fn stream_indices(self, table: &[u32; LINE], base: Self::Integers, to: &mut Line);
 
     /// Ends streaming: other threads see what was written.

@@ -5,8 +5,8 @@ use texere_core::definitions::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCI
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot};
 
-/// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the first one's, and its
-/// parameter.
+/// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the
+/// first one's, and its parameter.
 #[derive(Debug)]
 pub(super) struct Seats {
     pub(super) interval: [u32; LANES_MAX],
@@ -55,7 +55,8 @@ pub(super) struct Sampled<S: Simd> {
 }
 
 impl<S: Simd> Cubics<S> {
-    /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
+    /// The cubics of the intervals from number `first` on; interval j reads the padded points from
+    /// number j on.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new<const FLATTENED: bool>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
         let [mut before, mut start, mut end, mut after] = neighbours(simd, points, first);
@@ -118,7 +119,8 @@ impl<S: Simd> Widths<S> {
         Self { start, terms, floor: start.min(end) * simd.splat(RADIUS_FLOOR) }
     }
 
-    /// The size at `t` of each lane's interval, and its growth along the yarn, where `inverse` is one over the speed.
+    /// The size at `t` of each lane's interval, and its growth along the yarn, where `inverse` is
+    /// one over the speed.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn sample(
         &self,
@@ -146,8 +148,8 @@ pub(super) fn held_size<S: Simd>(
     (held.select(floor, size), held.select(simd.splat(0.0), growth.max(-limit).min(limit)))
 }
 
-/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at `a` and the one after
-/// next at `c`.
+/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at
+/// `a` and the one after next at `c`.
 #[cfg_attr(optimized, inline(always))]
 fn coefficients<S: Simd>(simd: S, a: S::Floats, b: S::Floats, c: S::Floats, s: f32) -> [S::Floats; 3] {
     let (doubled, rest, less) = (simd.splat(2.0 * s), simd.splat(3.0 - 2.0 * s), simd.splat(s - 2.0));
@@ -174,8 +176,8 @@ fn low_halves<F: Floats<Integers: Integers<Floats = F>>>(halves: F) -> F {
     halves.to_bits().shift_left::<16>().bit_cast()
 }
 
-/// The sizes at an interval's four points, which are half floats in the high 16 bits of `before` and `after`: each is worked
-/// out once, since the points between are other lanes of these.
+/// The sizes at an interval's four points, which are half floats in the high 16 bits of `before`
+/// and `after`: each is worked out once, since the points between are other lanes of these.
 #[cfg_attr(optimized, inline(always))]
 fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4] {
     let (before, after) = (from_half(simd, before), from_half(simd, after));
@@ -192,7 +194,8 @@ fn from_half<S: Simd>(simd: S, half: S::Floats) -> S::Floats {
     const BIAS: f32 = (1u128 << 112) as f32;
     /// The bits of a float that a half has, too.
     const SIGN_AND_SIZE: u32 = 0x8fff_e000;
-    // Exponent and fraction where a float has them. Halves that are subnormal are so here, too, until they are multiplied.
+    // Exponent and fraction where a float has them. Halves that are subnormal are so here, too,
+    // until they are multiplied.
     half.to_bits().shift_right_signed::<3>().masked(SIGN_AND_SIZE).bit_cast() * simd.splat(BIAS)
 }
 

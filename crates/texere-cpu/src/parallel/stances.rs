@@ -8,8 +8,8 @@ use super::vertices::VERTEX;
 
 /// A vector of rings with what all their vertices share.
 pub(super) trait Stances<S: Simd> {
-    /// The vertex of each ring at `point`, which is number `number` of the outline: rows of x, y, z and of the normal's, a ring
-    /// in each lane.
+    /// The vertex of each ring at `point`, which is number `number` of the outline: rows of x, y, z
+    /// and of the normal's, a ring in each lane.
     fn vertex(&self, simd: S, number: usize, point: &SectionPoint) -> [S::Floats; VERTEX];
 }
 

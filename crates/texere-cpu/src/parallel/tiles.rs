@@ -1,10 +1,11 @@
-//! Vertices that become whole lines in registers, where rings start at quarters of lines: with an even number of sides, in
-//! memory aligned to 16 bytes.
+//! Vertices that become whole lines in registers, where rings start at quarters of lines: with an
+//! even number of sides, in memory aligned to 16 bytes.
 //!
-//! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface) gives a column for each
-//! quarter of four rings, in which the same quarters of the four rings after them, and so on, lie side by side; quarters of
-//! four columns in a row are lines. Columns pass through memory, aligned and read as they were stored, so that they need not
-//! wait for the lines before them, which are slow to go past the caches.
+//! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
+//! gives a column for each quarter of four rings, in which the same quarters of the four rings
+//! after them, and so on, lie side by side; quarters of four columns in a row are lines. Columns
+//! pass through memory, aligned and read as they were stored, so that they need not wait for the
+//! lines before them, which are slow to go past the caches.
 
 use super::lines::Lines;
 use super::runs::take;
@@ -33,8 +34,8 @@ pub(super) struct TileLines<'a> {
 }
 
 impl<'a> TileLines<'a> {
-    /// Whether vertices of `floats` a ring are quarters of the lines of `out`, and go past the caches: lines that do not are
-    /// better written in order.
+    /// Whether vertices of `floats` a ring are quarters of the lines of `out`, and go past the
+    /// caches: lines that do not are better written in order.
     pub(super) fn fit(out: &Lines<'_>, floats: usize) -> bool {
         out.streams && floats.is_multiple_of(QUARTER) && out.head.len().is_multiple_of(QUARTER)
     }
@@ -63,7 +64,8 @@ impl<'a> TileLines<'a> {
         let (before, here) = self.columns.split_at_mut(BEFORE * S::LANES);
         let last = &here[(4 * self.quarters - BEFORE) * S::LANES..][..BEFORE * S::LANES];
         for (before, last) in before.chunks_exact_mut(S::LANES).zip(last.chunks_exact(S::LANES)) {
-            // What comes before ring 0 is of the rings before; what comes before ring 4 is of ring 3.
+            // What comes before ring 0 is of the rings before; what comes before ring 4 is of ring
+            // 3.
             simd.load(last).shift_in_four(simd.load(before)).store(before);
         }
 

@@ -40,7 +40,8 @@ impl<S: Simd> Steps<S> {
         }
     }
 
-    /// The step to each of the next rings from the one before it. That to the very first means nothing.
+    /// The step to each of the next rings from the one before it. That to the very first means
+    /// nothing.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self, rings: &Rings<S, false>) -> S::Integers {
         let here =

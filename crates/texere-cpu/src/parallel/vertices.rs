@@ -1,4 +1,5 @@
-//! Stage 2 in lanes: vertices of several rings at a time, a ring in each lane, then a transpose into place.
+//! Stage 2 in lanes: vertices of several rings at a time, a ring in each lane, then a transpose
+//! into place.
 
 use texere_core::SectionPoint;
 
@@ -33,8 +34,8 @@ impl<'a> Surface<'a> {
         Self { outline, round, opposed }
     }
 
-    /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
-    /// [`TileLines`](super::tiles::TileLines) wants.
+    /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as
+    /// the `COLUMNS` that [`TileLines`](super::tiles::TileLines) wants.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<S: Simd, const FLATTENED: bool, const COLUMNS: bool>(
         &self,
@@ -109,8 +110,8 @@ fn vertices<S: Simd, V: Stances<S>, const COLUMNS: bool>(
     }
 }
 
-/// All vertices of a vector of rings in columns. A column has the same four floats of every fourth ring; first come those of
-/// ring 0, from its first floats to its last, then those of ring 1.
+/// All vertices of a vector of rings in columns. A column has the same four floats of every fourth
+/// ring; first come those of ring 0, from its first floats to its last, then those of ring 1.
 #[cfg_attr(optimized, inline(always))]
 fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();
@@ -127,8 +128,8 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     }
 }
 
-/// All vertices of a vector of rings, the last ones first: a store that reaches over the end of its ring is then followed by
-/// the next ring's own.
+/// All vertices of a vector of rings, the last ones first: a store that reaches over the end of its
+/// ring is then followed by the next ring's own.
 #[cfg_attr(optimized, inline(always))]
 fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;

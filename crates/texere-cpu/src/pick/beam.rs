@@ -2,7 +2,8 @@
 
 use texere_core::{Bounds, Ray};
 
-/// A component of a direction whose largest is between 1 and 2 counts as zero below this: along it the ray stays where it is.
+/// A component of a direction whose largest is between 1 and 2 counts as zero below this: along it
+/// the ray stays where it is.
 const NO_WAY: f64 = 1e-290;
 
 /// Entry into a box and way out are each off by three roundings at most.
@@ -61,7 +62,8 @@ impl Beam {
         along * self.scale
     }
 
-    /// Where the ray comes into a box, 0 where it begins inside; none if it passes by, or comes there only after `most`.
+    /// Where the ray comes into a box, 0 where it begins inside; none if it passes by, or comes
+    /// there only after `most`.
     pub(super) fn enters(&self, bounds: &Bounds, most: f64) -> Option<f64> {
         let (mut entry, mut exit) = (0.0f64, most);
         for axis in 0..3 {
@@ -82,11 +84,12 @@ impl Beam {
 
     /// Where the ray hits a triangle, from either side.
     ///
-    /// The triangle is sheared so that the ray is an axis, and what lies to which side of an edge is decided by a product that is the same for
-    /// both triangles at the edge but for its sign: no ray goes through between two triangles.
+    /// The triangle is sheared so that the ray is an axis, and what lies to which side of an edge
+    /// is decided by a product that is the same for both triangles at the edge but for its sign: no
+    /// ray goes through between two triangles.
     ///
-    /// **Source**: Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013. Where the paper turns to double precision
-    /// all is in double precision here.
+    /// **Source**: Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013.
+    /// Where the paper turns to double precision all is in double precision here.
     pub(super) fn touches(&self, corners: [[f32; 3]; 3]) -> Option<Touch> {
         let ([x, y, z], [across, up, along]) = (self.axes, self.shear);
         let [a, b, c] = corners.map(|corner| {

@@ -1,7 +1,8 @@
 //! Which triangle of a mesh a ray hits first, without the mesh.
 //!
-//! Boxes stand round the blocks of each yarn, in a tree along the yarn, and a tree of the yarns' boxes above them. Rings and triangles are made
-//! only where the ray comes by, by the functions of the serial backend: they are those of the mesh, to the bit.
+//! Boxes stand round the blocks of each yarn, in a tree along the yarn, and a tree of the yarns'
+//! boxes above them. Rings and triangles are made only where the ray comes by, by the functions of
+//! the serial backend: they are those of the mesh, to the bit.
 
 mod beam;
 mod search;
@@ -25,8 +26,8 @@ use crate::serial::scan_yarn;
 /// Blocks of a yarn that one rayon item makes boxes for, at least.
 const BLOCKS_LEAST: usize = 64;
 
-/// What a ray hits first. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its yarn, interval and `t`, and a structure's `place` says what a weaver or a
-/// knitter calls that.
+/// What a ray hits first. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its yarn, interval
+/// and `t`, and a structure's `place` says what a weaver or a knitter calls that.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// How far from the ray's origin, in lengths of its direction: in mm where that has length 1.
@@ -37,7 +38,8 @@ pub struct Hit {
     pub position: [f64; 3],
     /// The control interval of the yarn, from 0.
     pub interval: u32,
-    /// How far along that, from 0 to 1: between the rings of the triangle, as the point lies between them.
+    /// How far along that, from 0 to 1: between the rings of the triangle, as the point lies
+    /// between them.
     pub t: f64,
 }
 
@@ -77,9 +79,10 @@ pub enum PickError {
 
 /// Says which triangle of the mesh of a cloth a ray hits first: its yarn, ring and side.
 ///
-/// The mesh need not be made. A picker has the control points, 16 bytes each, and 48 bytes for each block of 64 rings; a ray takes time that
-/// grows with the logarithm of both. Triangles are those of all backends on the CPU, to the bit, and lie between the same rings and sides
-/// whatever the [`Topology`](texere_core::Topology).
+/// The mesh need not be made. A picker has the control points, 16 bytes each, and 48 bytes for each
+/// block of 64 rings; a ray takes time that grows with the logarithm of both. Triangles are those
+/// of all backends on the CPU, to the bit, and lie between the same rings and sides whatever the
+/// [`Topology`](texere_core::Topology).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -125,7 +128,8 @@ pub struct Picker {
 impl Picker {
     /// A picker of the mesh of `plan` with these control points, those of all its yarns.
     ///
-    /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for a point that is not sound, [`PickError::OutOfMemory`].
+    /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for a point that is not sound,
+    /// [`PickError::OutOfMemory`].
     pub fn new(plan: Arc<Plan>, points: &[ControlPoint]) -> Result<Self, PickError> {
         let planned = plan.layout().point_count();
         if points.len() as u64 != planned {
@@ -177,15 +181,17 @@ impl Picker {
         self.yarns.get(yarn).map(|tree| *tree.root())
     }
 
-    /// The first triangle that `ray` hits, from either side; of several at the same distance the first along the yarns. None where it hits
-    /// nothing, goes nowhere, or has numbers that are not finite.
+    /// The first triangle that `ray` hits, from either side; of several at the same distance the
+    /// first along the yarns. None where it hits nothing, goes nowhere, or has numbers that are not
+    /// finite.
     #[must_use]
     pub fn pick(&self, ray: &Ray) -> Option<Hit> {
         Search::new(self, Beam::new(ray)?).run()
     }
 
-    /// Takes other control points of yarn number `yarn`, from 0. `plan` is the picker's own, or what [`Plan::edited`] has made of that for this
-    /// yarn. The boxes of that yarn alone are made again, and those above it.
+    /// Takes other control points of yarn number `yarn`, from 0. `plan` is the picker's own, or
+    /// what [`Plan::edited`] has made of that for this yarn. The boxes of that yarn alone are made
+    /// again, and those above it.
     ///
     /// **Errors**: those of [`Picker::set_yarns`].
     pub fn set_yarn(
@@ -198,10 +204,12 @@ impl Picker {
         self.set_yarns(plan, &Edits::from([(yarn, (what, points))]))
     }
 
-    /// Takes many yarns at once. `plan` is what [`Plan::edited_all`] has made of the picker's own for them.
+    /// Takes many yarns at once. `plan` is what [`Plan::edited_all`] has made of the picker's own
+    /// for them.
     ///
-    /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of a yarn, and [`PickError::Points`]: all leave
-    /// everything as it was. [`PickError::OutOfMemory`], after which a picker is of no more use.
+    /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of a
+    /// yarn, and [`PickError::Points`]: all leave everything as it was. [`PickError::OutOfMemory`],
+    /// after which a picker is of no more use.
     pub fn set_yarns(&mut self, plan: Arc<Plan>, edits: &Edits<'_>) -> Result<(), PickError> {
         let Some((&first, _)) = edits.first_key_value() else { return Ok(()) };
         let yarns = self.yarns.len();
@@ -241,7 +249,8 @@ impl Picker {
     }
 }
 
-/// Whether two plans have the same offsets and the same yarns, but that those of `edits` are as these say.
+/// Whether two plans have the same offsets and the same yarns, but that those of `edits` are as
+/// these say.
 fn differ_by(one: &Plan, other: &Plan, edits: &Edits<'_>) -> bool {
     let [before, after] = [one, other].map(|plan| plan.layout().yarns());
     one.shares_offsets(other)
@@ -272,7 +281,8 @@ fn scanned(plan: &Plan, points: &PaddedPoints) -> Result<Rolls, OutOfMemory> {
     Ok(rolls)
 }
 
-/// The boxes of a yarn's blocks. Each holds the first ring of the next block as well, where the block's triangles end.
+/// The boxes of a yarn's blocks. Each holds the first ring of the next block as well, where the
+/// block's triangles end.
 fn boxes(work: &Work, yarn: usize) -> BoxTree {
     let Work { plan, points, .. } = work;
     let blocks = plan.rings(yarn).div_ceil(BLOCK_RINGS);
@@ -284,8 +294,8 @@ fn boxes(work: &Work, yarn: usize) -> BoxTree {
     BoxTree::new(&boxes)
 }
 
-/// Puts yarns that lie beside one another next to one another: halves them along the axis on which their middles lie furthest apart, as the tree
-/// will, and each half likewise.
+/// Puts yarns that lie beside one another next to one another: halves them along the axis on which
+/// their middles lie furthest apart, as the tree will, and each half likewise.
 fn sort(order: &mut [u32], around: &[Bounds]) {
     if order.len() < 2 {
         return;

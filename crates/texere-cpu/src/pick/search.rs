@@ -35,7 +35,8 @@ struct Nearest {
 }
 
 impl Nearest {
-    /// Of two at the same distance the one counts that comes first on the yarns, so that a hit does not depend on the way through the boxes.
+    /// Of two at the same distance the one counts that comes first on the yarns, so that a hit does
+    /// not depend on the way through the boxes.
     fn order(&self) -> (f64, u32, u32, Option<bool>, u32) {
         let MeshPlace { yarn, ring, side, cap } = self.place;
         (self.touch.along, yarn, ring, cap.map(|end| end == End::Finish), side)

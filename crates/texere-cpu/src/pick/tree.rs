@@ -6,8 +6,9 @@ use super::beam::Beam;
 
 /// Boxes in a row, and round neighbours the boxes that hold both, up to one that holds all.
 ///
-/// Node 1 is the root, nodes 2i and 2i + 1 lie below node i, and the last half of all nodes are leaves. Those in the lowest row come first
-/// in the row of boxes, so that each node holds boxes that follow one another, a third of its parent's at least.
+/// Node 1 is the root, nodes 2i and 2i + 1 lie below node i, and the last half of all nodes are
+/// leaves. Those in the lowest row come first in the row of boxes, so that each node holds boxes
+/// that follow one another, a third of its parent's at least.
 #[derive(Debug)]
 pub(super) struct BoxTree {
     /// Node 0 is none.
@@ -32,7 +33,8 @@ impl BoxTree {
     pub(super) fn first_half(boxes: usize) -> usize {
         let lowest_row = boxes.next_power_of_two();
         let in_lowest = 2 * boxes - lowest_row;
-        // The first child has half of the lowest row's room, where it is filled, and else half of that of the row above.
+        // The first child has half of the lowest row's room, where it is filled, and else half of
+        // that of the row above.
         let filled = in_lowest.min(lowest_row / 2);
         (lowest_row / 2 - filled) / 2 + filled
     }
@@ -52,8 +54,8 @@ impl BoxTree {
         }
     }
 
-    /// Gives `leaf` the positions of boxes that `beam` meets no further than `most`, about the nearest first. `leaf` gives back how far boxes
-    /// matter from then on.
+    /// Gives `leaf` the positions of boxes that `beam` meets no further than `most`, about the
+    /// nearest first. `leaf` gives back how far boxes matter from then on.
     pub(super) fn visit(&self, beam: &Beam, most: &mut f64, leaf: &mut impl FnMut(usize) -> f64) {
         if beam.enters(self.root(), *most).is_some() {
             self.descend(1, beam, most, leaf);

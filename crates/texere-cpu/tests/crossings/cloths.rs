@@ -44,8 +44,8 @@ fn per_inch(ends: f64, picks: f64) -> [f64; 2] {
     [25.4 / ends, 25.4 / picks]
 }
 
-/// Denim's crimp is that of mills, 10 to 14 % of the warp; poplin's is published as 14 % and 2 %. Where nothing is published the cloth is held to
-/// what it reached, within four points.
+/// Denim's crimp is that of mills, 10 to 14 % of the warp; poplin's is published as 14 % and 2 %.
+/// Where nothing is published the cloth is held to what it reached, within four points.
 pub(crate) fn cloths() -> Vec<Cloth> {
     let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
     let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);

@@ -1,4 +1,5 @@
-//! Crossings at rest: the cloths of the mills, the energy against an oracle of its own, and both backends against one another.
+//! Crossings at rest: the cloths of the mills, the energy against an oracle of its own, and both
+//! backends against one another.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -178,7 +179,8 @@ fn balanced_plain_weave_is_alike_both_ways() {
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
         assert!(rest.at_rest, "{rest:?}");
         let [up, down] = [crossings[0], crossings[1]];
-        // Turned over and by a right angle, the cloth is itself; half a repeat further on it is upside down.
+        // Turned over and by a right angle, the cloth is itself; half a repeat further on it is
+        // upside down.
         for (one, other, sign) in [
             (up.warp, up.weft, -1.0),
             (up.warp, down.weft, 1.0),
@@ -258,7 +260,8 @@ fn all_cores_give_the_bits_of_one() {
 
 #[test]
 fn round_threads_jam_where_peirce_says() {
-    // Between circles the best way is across the line of their middles: distance² = across² + rise².
+    // Between circles the best way is across the line of their middles: distance² = across² +
+    // rise².
     let mut seed = 14;
     for _ in 0..200 {
         let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));

@@ -27,7 +27,8 @@ fn further(plan: &CrossingsPlan, site: Site, set: Set, along: i32, across: i32) 
     plan.beside(site, set, along, across).unwrap()
 }
 
-/// The length of a taut thread between two crossings, along arcs beside both ellipses and a straight between.
+/// The length of a taut thread between two crossings, along arcs beside both ellipses and a
+/// straight between.
 fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> f64 {
     let next = further(plan, site, set, 1, 0);
     let crossed = set.other();
@@ -74,7 +75,8 @@ fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> 
     straight.max(0.0) + arcs - two[0] + one[0]
 }
 
-/// By how much two upright ellipses, `x` and `z` apart, have to grow until they touch: a point of one tried against the other.
+/// By how much two upright ellipses, `x` and `z` apart, have to grow until they touch: a point of
+/// one tried against the other.
 fn outlines(x: f64, z: f64, [a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     let inside = |growth: f64| {
         (0..360).any(|part| {

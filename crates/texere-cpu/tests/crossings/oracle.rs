@@ -7,11 +7,12 @@ use texere_core::crossings::{
 
 use crate::chance;
 
-/// Contact, passage, neighbours, neighbours half way, shoulders; then of layers: contact, passages and shoulders past threads of others,
-/// neighbours of two levels.
+/// Contact, passage, neighbours, neighbours half way, shoulders; then of layers: contact, passages
+/// and shoulders past threads of others, neighbours of two levels.
 pub(crate) const KINDS: usize = 8;
 
-/// A crossing near a start, but with some disorder, with a share of its heights and so many times as wide.
+/// A crossing near a start, but with some disorder, with a share of its heights and so many times
+/// as wide.
 pub(crate) fn stirred(crossing: &CrossingState, [flat, wide]: [f32; 2], seed: &mut u64) -> CrossingState {
     let mut all: [f32; 8] = bytemuck::cast(*crossing);
     for set in 0..2 {
@@ -161,7 +162,8 @@ impl Sum<'_> {
         self.kept_apart(side * (own[1] - under[1]) - need, kind[1], kinds)
     }
 
-    /// A thread and those after it: the next one of its level, and the very next one where that is of another.
+    /// A thread and those after it: the next one of its level, and the very next one where that is
+    /// of another.
     fn beside(&self, site: Site, set: Set, kinds: &mut [u32; KINDS]) -> f64 {
         let rows = self.plan.rows(set);
         let of_level = rows[site.thread(set)].beside[1];

@@ -1,4 +1,5 @@
-//! What would cure a cloth: each cure is one change, with which its worst places are measured again.
+//! What would cure a cloth: each cure is one change, with which its worst places are measured
+//! again.
 
 use std::ops::{ControlFlow, Range};
 
@@ -8,10 +9,12 @@ use super::faults::{ClothFault, Diagnosis, Faults};
 use super::places::Crossing;
 use crate::{Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
 
-/// Threads each way of a worst place that are measured with it: more than the longest floats of common weaves.
+/// Threads each way of a worst place that are measured with it: more than the longest floats of
+/// common weaves.
 const AROUND: usize = 12;
 
-/// Spacings are tried this much wider, again and again, from where nothing jams to three times that.
+/// Spacings are tried this much wider, again and again, from where nothing jams to three times
+/// that.
 const WIDER: f64 = 1.05;
 const WIDER_TIMES: i32 = 22;
 
@@ -76,10 +79,12 @@ pub enum Remedy {
 }
 
 impl WovenDesign {
-    /// Looks for single changes that help against the faults of `diagnosis`, which is that of the design's cloth. Each is
-    /// tried on pieces of the cloth round its worst places. A cure ends one kind of fault at least and adds none.
+    /// Looks for single changes that help against the faults of `diagnosis`, which is that of the
+    /// design's cloth. Each is tried on pieces of the cloth round its worst places. A cure ends one
+    /// kind of fault at least and adds none.
     ///
-    /// `progress` gets the share of the changes that were tried; `Break` ends the search with what was found so far.
+    /// `progress` gets the share of the changes that were tried; `Break` ends the search with what
+    /// was found so far.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -241,7 +246,8 @@ impl Trial<'_> {
         })
     }
 
-    /// The least spacing of all threads that cures; and the greatest diameters, which are the same cloth in small.
+    /// The least spacing of all threads that cures; and the greatest diameters, which are the same
+    /// cloth in small.
     fn room(&self) -> Vec<Cure> {
         // What jams is known from its numbers: nothing closer need be tried.
         let jammed = self.faults.jams.iter().filter_map(|jams| jams.threads.first());
@@ -261,7 +267,8 @@ impl Trial<'_> {
             .into()
     }
 
-    /// What `changed` comes to, if nothing is left of the faults. What still jams need not be measured.
+    /// What `changed` comes to, if nothing is left of the faults. What still jams need not be
+    /// measured.
     fn clean(&self, changed: &Woven) -> Option<Outcome> {
         if changed.jams().is_some() {
             return None;
@@ -269,7 +276,8 @@ impl Trial<'_> {
         self.better(changed).filter(|outcome| outcome.leaves.is_empty())
     }
 
-    /// What `changed` comes to, if one kind of fault is gone at least: jams everywhere, the others at the worst places.
+    /// What `changed` comes to, if one kind of fault is gone at least: jams everywhere, the others
+    /// at the worst places.
     fn better(&self, changed: &Woven) -> Option<Outcome> {
         let mut left = Faults { jams: changed.jams(), apart: self.faults.apart.clone(), ..Faults::default() };
         let (mut clearance, mut curvature) = (f64::INFINITY, f64::INFINITY);

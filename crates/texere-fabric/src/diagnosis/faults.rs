@@ -29,7 +29,8 @@ pub struct Diagnosis {
 pub struct Faults {
     /// The worst place that is too crowded to be measured, if there is one.
     pub crowded: Option<ThreadCrowd>,
-    /// Contacts that pierce, worst first, [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED) at most.
+    /// Contacts that pierce, worst first, [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED) at
+    /// most.
     pub pierces: Vec<ThreadContact>,
     /// The tightest bend, where it is tighter than the tube is thick.
     pub folds: Option<ThreadBend>,
@@ -89,8 +90,8 @@ pub struct Jams {
 }
 
 impl Diagnosis {
-    /// What is wrong with a cloth whose yarns have this clearance, and these jams, and that hangs together so. Contacts of a ratio below
-    /// `touching` pierce.
+    /// What is wrong with a cloth whose yarns have this clearance, and these jams, and that hangs
+    /// together so. Contacts of a ratio below `touching` pierce.
     #[must_use]
     pub fn new(touching: f64, clearance: ClothClearance, jams: Option<Jams>, pieces: Pieces) -> Self {
         let faults = Faults {
@@ -129,10 +130,10 @@ impl Faults {
 }
 
 impl Woven {
-    /// Looks for what is wrong with the cloth: measures its clearance at the default tension, and compares its pitches with
-    /// those that its threads need. Contacts of a ratio below `touching` pierce; 0.985 is what splines through touching
-    /// threads come to. `progress` gets the share that is done, as in
-    /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
+    /// Looks for what is wrong with the cloth: measures its clearance at the default tension, and
+    /// compares its pitches with those that its threads need. Contacts of a ratio below `touching`
+    /// pierce; 0.985 is what splines through touching threads come to. `progress` gets the share
+    /// that is done, as in [`clearance_with_progress`](texere_contact::clearance_with_progress).
     ///
     /// **Errors**: those of [`Woven::yarns`] and of [`Woven::clearance`].
     ///
@@ -159,7 +160,8 @@ impl Woven {
         Ok(Diagnosis::new(touching, clearance, self.jams(), self.pieces()))
     }
 
-    /// Into how many layers the cloth falls, and which threads lie loose: see [`Drawdown::layers`](crate::Drawdown::layers).
+    /// Into how many layers the cloth falls, and which threads lie loose: see
+    /// [`Drawdown::layers`](crate::Drawdown::layers).
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         Pieces::of_woven(self.drawdown())

@@ -1,5 +1,5 @@
-//! Which yarns of a repeat hold one another, in this copy of it or in others: union by root, each yarn with the copy that it lies in as seen
-//! from its root.
+//! Which yarns of a repeat hold one another, in this copy of it or in others: union by root, each
+//! yarn with the copy that it lies in as seen from its root.
 
 /// Copies along x and y from one to another.
 type Shift = [i64; 2];
@@ -40,7 +40,8 @@ impl Joined {
         }
     }
 
-    /// Notes that one yarn and another, which lies in the copy that is `shift` further, hold one another. They may be the same.
+    /// Notes that one yarn and another, which lies in the copy that is `shift` further, hold one
+    /// another. They may be the same.
     pub(crate) fn hold(&mut self, one: usize, other: usize, shift: Shift) {
         (self.held[one], self.held[other]) = (true, true);
         self.join(one, other, shift);
@@ -102,7 +103,8 @@ impl Joined {
 }
 
 impl Part {
-    /// How many pieces it is of so many copies of the repeat: those at the edges lack the yarns that would lie beyond.
+    /// How many pieces it is of so many copies of the repeat: those at the edges lack the yarns
+    /// that would lie beyond.
     pub(crate) fn count(&self, copies: [u32; 2]) -> u64 {
         let yarns = copies.map(u64::from).iter().product::<u64>().saturating_mul(self.yarns.len() as u64);
         let copies =

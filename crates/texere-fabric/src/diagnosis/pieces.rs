@@ -10,13 +10,15 @@ use crate::Drawdown;
 /// Pieces, loose yarns and needles that are listed one by one.
 const LISTED: usize = 4;
 
-/// How a cloth hangs together, in the whole cloth: see [`Structure::pieces`](crate::Structure::pieces).
+/// How a cloth hangs together, in the whole cloth: see
+/// [`Structure::pieces`](crate::Structure::pieces).
 ///
-/// Of woven cloth a piece is a layer that nothing binds to the next one. Of a knit it is yarns whose loops are drawn through one another,
-/// and what is laid in between these.
+/// Of woven cloth a piece is a layer that nothing binds to the next one. Of a knit it is yarns
+/// whose loops are drawn through one another, and what is laid in between these.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Pieces {
-    /// How many pieces there are: 1 of a cloth that hangs together. A loose yarn of a knit is a piece of its own.
+    /// How many pieces there are: 1 of a cloth that hangs together. A loose yarn of a knit is a
+    /// piece of its own.
     pub count: u64,
     /// What some of them are, in words.
     pub listed: Vec<String>,
@@ -39,7 +41,8 @@ impl Pieces {
         self.count > 1 || self.loose > 0
     }
 
-    /// What a designer should know of it: nothing of cloth that hangs together and has loops on all needles.
+    /// What a designer should know of it: nothing of cloth that hangs together and has loops on all
+    /// needles.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -90,8 +93,9 @@ impl Pieces {
         }
     }
 
-    /// The pieces of a knit that is so many copies of one repeat, whose yarns are `joined`. `origin` names a yarn of the repeat in the copy
-    /// that is so many further along x; `empty` are the needles of the repeat that never have a loop, and `wales` how many it has.
+    /// The pieces of a knit that is so many copies of one repeat, whose yarns are `joined`.
+    /// `origin` names a yarn of the repeat in the copy that is so many further along x; `empty` are
+    /// the needles of the repeat that never have a loop, and `wales` how many it has.
     pub(crate) fn of_knit(
         joined: &mut Joined,
         copies: [u32; 2],

@@ -26,16 +26,19 @@ pub struct StitchPlace {
     pub course: u32,
 }
 
-/// A place on a thread. It is written as `end 12 at pick 7`, `carrier 1, wale 3, course 5`, or by the thread alone.
+/// A place on a thread. It is written as `end 12 at pick 7`, `carrier 1, wale 3, course 5`, or by
+/// the thread alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadPlace {
-    /// The thread. Of a weft that turns round at selvedges it is the pick, although the yarn is many picks.
+    /// The thread. Of a weft that turns round at selvedges it is the pick, although the yarn is
+    /// many picks.
     pub thread: Origin,
     /// The centreline there, mm.
     pub position_mm: [f64; 3],
     /// The nearest crossing. None at a yarn's end and in a turn of the weft.
     pub crossing: Option<Crossing>,
-    /// The stitch of a knit that the yarn makes there, in the whole cloth. None where it floats, and of what is not knitted.
+    /// The stitch of a knit that the yarn makes there, in the whole cloth. None where it floats,
+    /// and of what is not knitted.
     pub stitch: Option<StitchPlace>,
 }
 
@@ -74,7 +77,8 @@ impl ThreadContact {
     }
 }
 
-/// Too much yarn in one place to be measured pair by pair: a [`Crowd`] with the name of its thickest thread.
+/// Too much yarn in one place to be measured pair by pair: a [`Crowd`] with the name of its
+/// thickest thread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadCrowd {
     /// On the thickest thread there.
@@ -92,8 +96,9 @@ pub struct ThreadCrowd {
 /// The tightest bend of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadBend {
-    /// Radius of curvature over how far the section reaches into the bend: see [`Clearance::curvature_min`](texere_contact::Clearance::curvature_min). Infinite where
-    /// all threads are straight.
+    /// Radius of curvature over how far the section reaches into the bend: see
+    /// [`Clearance::curvature_min`](texere_contact::Clearance::curvature_min). Infinite where all
+    /// threads are straight.
     pub radii: f64,
     /// Where that is. None where all threads are straight.
     pub place: Option<ThreadPlace>,
@@ -136,9 +141,9 @@ pub struct ClothClearance {
 }
 
 impl Woven {
-    /// Measures how near the cloth's threads come to one another, and how tightly they bend. `yarns` are those of
-    /// [`Woven::yarns`], as they are drawn with `settings`. `progress` gets the share that is done, as in
-    /// [`clearance_with_progress`].
+    /// Measures how near the cloth's threads come to one another, and how tightly they bend.
+    /// `yarns` are those of [`Woven::yarns`], as they are drawn with `settings`. `progress` gets
+    /// the share that is done, as in [`clearance_with_progress`].
     ///
     /// **Errors**: those of [`clearance_with_progress`].
     ///

@@ -14,7 +14,8 @@ const LENGTH: f32 = 0.01;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// No surface as drawn is nearer to another than [`CLEAR`], none folds, and all keep their lengths and their linking.
+    /// No surface as drawn is nearer to another than [`CLEAR`], none folds, and all keep their
+    /// lengths and their linking.
     AtRest,
     /// Yarns of a knit have no room: no form of settling has made them clear.
     Jammed,
@@ -42,8 +43,9 @@ impl Finished {
         }
     }
 
-    /// Whether it is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR)) or folds, and yarns of a knit keep their lengths and
-    /// their linking. Then `check` finds neither, too.
+    /// Whether it is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR)) or
+    /// folds, and yarns of a knit keep their lengths and their linking. Then `check` finds neither,
+    /// too.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.verdict() == Verdict::AtRest
@@ -65,7 +67,8 @@ impl Settled {
 }
 
 impl WovenRest {
-    /// What is said of it, by its surfaces as they are drawn. Threads that still move by a little may be at rest.
+    /// What is said of it, by its surfaces as they are drawn. Threads that still move by a little
+    /// may be at rest.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if is_clear(self.clearance[1], self.bend) { Verdict::AtRest } else { Verdict::NotAtRest }

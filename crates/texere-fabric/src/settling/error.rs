@@ -10,8 +10,8 @@ use crate::FabricError;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FinishError {
-    /// The structure's yarns can't be made, or what came of them can't be measured; [`FabricError::Cancelled`] where the
-    /// progress callback asked to stop.
+    /// The structure's yarns can't be made, or what came of them can't be measured;
+    /// [`FabricError::Cancelled`] where the progress callback asked to stop.
     #[error(transparent)]
     Fabric(#[from] FabricError),
     /// What is asked can't be settled.
@@ -31,7 +31,8 @@ pub enum FinishError {
         /// `a length`, `a press` or `a course`.
         asked: &'static str,
     },
-    /// Woven cloth can't be stretched so far, or draw in so far, without another length of its threads.
+    /// Woven cloth can't be stretched so far, or draw in so far, without another length of its
+    /// threads.
     #[error(
         "cloth can't be {by} times as long along its {along} while its threads keep their lengths: these are straight at {most:.4}, and jam where it draws in too far"
     )]

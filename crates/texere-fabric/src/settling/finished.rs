@@ -5,7 +5,8 @@ use texere_core::Yarns;
 use super::Settled;
 use crate::{FabricWarning, WovenRest};
 
-/// A fabric that has come to rest, or as near to it as it got: see [`Structure::settle`](crate::Structure::settle).
+/// A fabric that has come to rest, or as near to it as it got: see
+/// [`Structure::settle`](crate::Structure::settle).
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "a fabric is finished once")]

@@ -1,4 +1,5 @@
-//! Settling: the yarns of a structure come to rest, and a repeat that has settled is laid side by side.
+//! Settling: the yarns of a structure come to rest, and a repeat that has settled is laid side by
+//! side.
 
 mod error;
 mod finished;
@@ -31,13 +32,16 @@ const COMPARED: f64 = 0.95;
 /// nowhere fold, and have the length that `finish` asks for. `progress` gets the share of the work
 /// that is done, from 0 to 1; `Break` ends it within one pass.
 ///
-/// Where they can't come to rest within their passes, [`Settled::rest`] says so with its figures. What comes back is the best that
-/// was seen: by clearance, then by bends, then by length, never worse than what came in ([`texere_core::settling::settle`]). Yarns that have
-/// passed through one another are no better whatever they measure: then what came in comes back, and [`Settled::linking`] names
-/// the places.
+/// Where they can't come to rest within their passes, [`Settled::rest`] says so with its figures.
+/// What comes back is the best that was seen: by clearance, then by bends, then by length, never
+/// worse than what came in ([`texere_core::settling::settle`]). Yarns that have passed through one
+/// another are no better whatever they measure: then what came in comes back, and
+/// [`Settled::linking`] names the places.
 ///
-/// **Errors**: [`FinishError::Settling`] for what can't be settled as asked, [`FinishError::Backend`] for a backend that settles
-/// nothing or a device that fails, and the errors of [`linking()`](texere_contact::linking()) and [`clearance()`](texere_contact::clearance()).
+/// **Errors**: [`FinishError::Settling`] for what can't be settled as asked,
+/// [`FinishError::Backend`] for a backend that settles nothing or a device that fails, and the
+/// errors of [`linking()`](texere_contact::linking()) and
+/// [`clearance()`](texere_contact::clearance()).
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -109,7 +113,8 @@ pub fn settle(
 /// The share of the progress at which one repeat has settled, and its copies are measured.
 const SETTLED: f64 = 0.8;
 
-/// Lets one repeat settle, and measures [`Settled::clearance`] on all copies of it, as `laid` lays them.
+/// Lets one repeat settle, and measures [`Settled::clearance`] on all copies of it, as `laid` lays
+/// them.
 pub(crate) fn settle_repeat(
     repeat: &Repeat,
     laid: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,

@@ -6,7 +6,8 @@ use texere_core::{Boundary, ControlPoint, Ends, YarnError, Yarns};
 
 use super::Finish;
 
-/// A piece of cloth that is to settle: its yarns, how it goes on at its edges, and what holds it there.
+/// A piece of cloth that is to settle: its yarns, how it goes on at its edges, and what holds it
+/// there.
 #[derive(Debug, Clone)]
 pub struct Piece {
     /// The yarns, about where they belong.
@@ -24,7 +25,8 @@ impl Piece {
         Self { yarns, boundary, pinned: Vec::new() }
     }
 
-    /// A piece cut out of a cloth: every yarn that is not closed ends at its first and its last control point, and is held there.
+    /// A piece cut out of a cloth: every yarn that is not closed ends at its first and its last
+    /// control point, and is held there.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};

@@ -8,8 +8,8 @@ use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, YarnError, Yarns};
 use super::Piece;
 use crate::FabricError;
 
-/// A repeat that settles has so many wales and courses at least, if the cloth has as many: what lies over its seam is then another
-/// stitch.
+/// A repeat that settles has so many wales and courses at least, if the cloth has as many: what
+/// lies over its seam is then another stitch.
 const SETTLED: u32 = 4;
 
 /// A cloth that is so many copies of one repeat. The repeat settles once, and is then copied.
@@ -47,7 +47,8 @@ impl Repeat {
         Ok(self)
     }
 
-    /// All copies of the repeat, side by side. `yarns` are those of [`Repeat::piece`], as they are or settled.
+    /// All copies of the repeat, side by side. `yarns` are those of [`Repeat::piece`], as they are
+    /// or settled.
     ///
     /// A yarn that goes on from one repeat to the next is one yarn through all of them, and is cut
     /// off where the copies end: at the last control point of its last round. There its first and
@@ -56,22 +57,24 @@ impl Repeat {
     /// row by row from below, each where it begins. Materials, sections, tension, origins and
     /// sources are those of the repeat.
     ///
-    /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's, [`FabricError::OutOfMemory`],
-    /// and [`FabricError::Yarns`] where there is no copy, or coordinates would lie too far out.
+    /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's,
+    /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where there is no copy, or
+    /// coordinates would lie too far out.
     pub fn laid(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
         self.laid_beyond(yarns, [0, 0])
     }
 
-    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control points further at its beginning and at
-    /// its end, so that all of it within the copies bends as in the repeat.
+    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control
+    /// points further at its beginning and at its end, so that all of it within the copies bends as
+    /// in the repeat.
     ///
     /// **Errors**: those of [`Repeat::laid`].
     pub fn laid_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
         self.laid_as(yarns, beyond, |origin, _| origin, |source, _| source)
     }
 
-    /// As [`Repeat::laid_beyond`], but copies get origins and sources of their own, from those of the repeat and by how many repeats they
-    /// lie along x and y.
+    /// As [`Repeat::laid_beyond`], but copies get origins and sources of their own, from those of
+    /// the repeat and by how many repeats they lie along x and y.
     pub(crate) fn laid_as(
         &self,
         yarns: &Yarns,
@@ -157,12 +160,14 @@ impl Repeat {
     }
 }
 
-/// How many repeats of a knit settle together along x and along y, where one has `size` wales and courses.
+/// How many repeats of a knit settle together along x and along y, where one has `size` wales and
+/// courses.
 pub(crate) fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
     [0, 1].map(|axis| tiles(size[axis], copies[axis]))
 }
 
-/// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all where none does.
+/// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all
+/// where none does.
 fn tiles(size: u32, copies: u32) -> u32 {
     let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
     (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)

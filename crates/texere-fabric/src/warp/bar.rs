@@ -19,7 +19,8 @@ pub struct Bar {
     pub chain: Chain,
     /// Which of its guides hold which yarn.
     pub threading: Threading,
-    /// Needles by which the whole bar stands further to the high numbers: space 0 of the chain is that of guide 0 moved by so many.
+    /// Needles by which the whole bar stands further to the high numbers: space 0 of the chain is
+    /// that of guide 0 moved by so many.
     pub offset: i32,
     /// Length of yarn for a rack of 480 courses, mm; `None` where the bar finds its own.
     pub run_in_mm: Option<f64>,
@@ -34,8 +35,9 @@ impl Bar {
         Self { chain, threading: Threading::full(0), offset: 0, run_in_mm: None, jacquard: None }
     }
 
-    /// The lap of a guide at a course, in spaces of the cloth: guide g of a bar without offset, whose chain says `a-b`, goes from
-    /// space g + a to space g + b. Spaces that an `i32` can't count are the last that it can.
+    /// The lap of a guide at a course, in spaces of the cloth: guide g of a bar without offset,
+    /// whose chain says `a-b`, goes from space g + a to space g + b. Spaces that an `i32` can't
+    /// count are the last that it can.
     #[must_use]
     pub fn lap(&self, guide: u32, course: u32) -> Lap {
         let lap = self.chain.lap(course as usize);
@@ -73,7 +75,8 @@ impl Threading {
         Self { guides: vec![Some(yarn)] }
     }
 
-    /// The yarn of each guide, or `None` for one that is empty. No guides at all are one that is empty.
+    /// The yarn of each guide, or `None` for one that is empty. No guides at all are one that is
+    /// empty.
     #[must_use]
     pub fn of(guides: Vec<Option<u32>>) -> Self {
         Self { guides: if guides.is_empty() { vec![None] } else { guides } }
@@ -98,11 +101,13 @@ impl Threading {
     }
 }
 
-/// By how many needles the guides of a Jacquard bar are displaced, from an image whose colours say it.
+/// By how many needles the guides of a Jacquard bar are displaced, from an image whose colours say
+/// it.
 ///
-/// Each cell of the image is a guide, x from guide 0 on, and one round of the bar's chain, y from the first one knitted. It has
-/// the number of a colour, and each colour has, for every course of the chain, the needles by which the lap begins and ends further to
-/// the high numbers: 0 or 1. Beyond its edges the image begins again.
+/// Each cell of the image is a guide, x from guide 0 on, and one round of the bar's chain, y from
+/// the first one knitted. It has the number of a colour, and each colour has, for every course of
+/// the chain, the needles by which the lap begins and ends further to the high numbers: 0 or 1.
+/// Beyond its edges the image begins again.
 ///
 /// ```
 /// use texere_fabric::warp::{Bar, Chain, Displacements};
@@ -122,9 +127,11 @@ pub struct Displacements {
 }
 
 impl Displacements {
-    /// An image of so many guides and rounds of the chain, with the colour of each cell. `palette[colour][course]` is what the lap's
-    /// beginning and its end are displaced by. `None` for an image without cells or with more than a `u32` counts, for colours of no
-    /// courses or of different numbers of them, shifts above 1, and cells of a colour that the palette does not have.
+    /// An image of so many guides and rounds of the chain, with the colour of each cell.
+    /// `palette[colour][course]` is what the lap's beginning and its end are displaced by. `None`
+    /// for an image without cells or with more than a `u32` counts, for colours of no courses or of
+    /// different numbers of them, shifts above 1, and cells of a colour that the palette does not
+    /// have.
     #[must_use]
     pub fn new(
         size: [u32; 2],

@@ -11,8 +11,8 @@ pub const CHAIN_COURSES: usize = 4096;
 /// The most needles that one lap goes round.
 pub const NEEDLES_MOST: i32 = 2;
 
-/// What a guide does at one course: it swings through the needles in space `from`, moves in front of them to space `to`, and swings
-/// back. Space n lies between the needles n - 1 and n.
+/// What a guide does at one course: it swings through the needles in space `from`, moves in front
+/// of them to space `to`, and swings back. Space n lies between the needles n - 1 and n.
 ///
 /// ```
 /// use texere_fabric::warp::{Lap, LapKind};
@@ -55,7 +55,8 @@ impl Lap {
         self.to - self.from
     }
 
-    /// The first needle that it goes round, seen from the low numbers; of an inlay, the needle after its space.
+    /// The first needle that it goes round, seen from the low numbers; of an inlay, the needle
+    /// after its space.
     #[must_use]
     pub const fn needle(self) -> i32 {
         if self.from < self.to { self.from } else { self.to }
@@ -77,7 +78,8 @@ impl fmt::Display for Lap {
 
 /// The laps of a guide bar, course by course from the first one knitted, over and over again.
 ///
-/// It is read from notation ([`Chain::parse`]) or known by name ([`Chain::named`]), and gives its notation back:
+/// It is read from notation ([`Chain::parse`]) or known by name ([`Chain::named`]), and gives its
+/// notation back:
 ///
 /// ```
 /// use texere_fabric::warp::Chain;
@@ -93,8 +95,8 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// A chain of these laps, if there is one at least and [`CHAIN_COURSES`] at most, their spaces are numbered from 0 to
-    /// [`SPACE_MAX`], and each goes round [`NEEDLES_MOST`] needles at most.
+    /// A chain of these laps, if there is one at least and [`CHAIN_COURSES`] at most, their spaces
+    /// are numbered from 0 to [`SPACE_MAX`], and each goes round [`NEEDLES_MOST`] needles at most.
     #[must_use]
     pub fn new(laps: Vec<Lap>) -> Option<Self> {
         let space = 0..=SPACE_MAX;
@@ -122,15 +124,16 @@ impl Chain {
         self.laps[course % self.laps.len()]
     }
 
-    /// By how many needles the guide moves behind them after its lap at `course`, to that at the next one; towards higher numbers
-    /// positive.
+    /// By how many needles the guide moves behind them after its lap at `course`, to that at the
+    /// next one; towards higher numbers positive.
     #[must_use]
     pub fn underlap(&self, course: usize) -> i32 {
         self.lap(course % self.laps.len() + 1).from - self.lap(course).to
     }
 
-    /// Whether the lap at `course` is open: the underlap after it goes on in the direction of its overlap, or there is none. After a closed
-    /// one it goes back, and the yarn crosses itself. An inlay is neither, and is none that is open.
+    /// Whether the lap at `course` is open: the underlap after it goes on in the direction of its
+    /// overlap, or there is none. After a closed one it goes back, and the yarn crosses itself. An
+    /// inlay is neither, and is none that is open.
     #[must_use]
     pub fn is_open(&self, course: usize) -> bool {
         is_open(self.lap(course), self.underlap(course))

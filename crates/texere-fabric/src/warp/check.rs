@@ -85,7 +85,8 @@ fn common(one: u64, other: u64) -> u64 {
     (one / greatest.max(1)).saturating_mul(other)
 }
 
-/// Whether the cloth has loops, and no more control points than are taken: a low estimate, before any is made.
+/// Whether the cloth has loops, and no more control points than are taken: a low estimate, before
+/// any is made.
 pub(super) fn size(
     bars: &[Bar],
     repeat: [u32; 2],

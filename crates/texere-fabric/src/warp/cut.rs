@@ -12,16 +12,20 @@ const BELOW: u32 = 3;
 /// How many they go on above: up the leg of the next loop, until beyond the heads that hold it.
 const ABOVE: u32 = 4;
 
-/// How far such a leg ends aside from where it goes on in the repeat, in differences between the step to that point and the step after it.
+/// How far such a leg ends aside from where it goes on in the repeat, in differences between the
+/// step to that point and the step after it.
 ///
-/// A spline lacks the point that bends its last interval in the repeat, and runs too straight there: half way on it is off by 1/16 of that
-/// difference, and yarns of guides that share a needle come to 0.94 of touching. An end aside by 1/7 of it takes that place back, since the
-/// spline has 7/16 of what its end is moved by. Over 200 figures the least clearance was 0.986 then, 0.984 with 0.13 and 0.978 with 0.117, which
-/// takes back the place two thirds on. With 0 or 0.117 `figures_are_as_clear_where_they_are_cut_off` is red.
+/// A spline lacks the point that bends its last interval in the repeat, and runs too straight
+/// there: half way on it is off by 1/16 of that difference, and yarns of guides that share a needle
+/// come to 0.94 of touching. An end aside by 1/7 of it takes that place back, since the spline has
+/// 7/16 of what its end is moved by. Over 200 figures the least clearance was 0.986 then, 0.984
+/// with 0.13 and 0.978 with 0.117, which takes back the place two thirds on. With 0 or 0.117
+/// `figures_are_as_clear_where_they_are_cut_off` is red.
 const ASIDE: f32 = 1.0 / 7.0;
 
 impl WarpKnitted {
-    /// How many control points yarns go on beyond the cloth at their beginning and at their end, where that does not spoil their count.
+    /// How many control points yarns go on beyond the cloth at their beginning and at their end,
+    /// where that does not spoil their count.
     pub(super) const fn beyond(&self) -> [u32; 2] {
         match self.cells {
             Cells::Round => [BELOW, ABOVE],

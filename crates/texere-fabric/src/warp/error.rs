@@ -5,7 +5,8 @@ use thiserror::Error;
 
 use super::chain::Lap;
 
-/// A warp knit that can't be taken. Guide bars and guides are counted from 1 from the front, courses from 1.
+/// A warp knit that can't be taken. Guide bars and guides are counted from 1 from the front,
+/// courses from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WarpError {

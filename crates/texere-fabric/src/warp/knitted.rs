@@ -13,8 +13,8 @@ use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 
 /// A warp-knitted cloth: its guide bars, with sizes and yarns.
 ///
-/// All guides of a bar move alike but for a Jacquard bar's, and begin again after some wales and courses: so one repeat settles, and is
-/// copied.
+/// All guides of a bar move alike but for a Jacquard bar's, and begin again after some wales and
+/// courses: so one repeat settles, and is copied.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -46,14 +46,22 @@ pub struct WarpKnitted {
 }
 
 impl WarpKnitted {
-    /// A cloth of these bars, the front one first, on so many wales and courses. So many copies of that lie side by side along x and y.
-    /// The gauge's loop length counts for nothing: bars have run-ins.
+    /// A cloth of these bars, the front one first, on so many wales and courses. So many copies of
+    /// that lie side by side along x and y. The gauge's loop length counts for nothing: bars have
+    /// run-ins.
     ///
-    /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars), [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn), [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset), [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
-    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that none are, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and courses that are no multiples
-    /// of those after which the bars begin again, [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops), [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no
-    /// cloth has, [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and [`WeftError::KnitRepeat`](crate::weft::WeftError::KnitRepeat) for more control points than are taken, and errors of the
-    /// yarns' radius, twist, material and section.
+    /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars),
+    /// [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn),
+    /// [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset),
+    /// [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
+    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that none
+    /// are, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and courses
+    /// that are no multiples of those after which the bars begin again,
+    /// [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops),
+    /// [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no cloth has,
+    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and
+    /// [`WeftError::KnitRepeat`](crate::weft::WeftError::KnitRepeat) for more control points than
+    /// are taken, and errors of the yarns' radius, twist, material and section.
     #[allow(clippy::too_many_arguments, reason = "each is a fact of its own about the cloth")]
     pub fn new(
         bars: Vec<Bar>,
@@ -74,8 +82,9 @@ impl WarpKnitted {
         Ok(Self { bars, gauge, laid, repeat, yarns, materials, sections, copies, cells: Cells::Round })
     }
 
-    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of their courses: of [`WarpKnitted::size`] over
-    /// [`WarpKnitted::copies`], which begin again at its edges.
+    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of
+    /// their courses: of [`WarpKnitted::size`] over [`WarpKnitted::copies`], which begin again at
+    /// its edges.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -96,7 +105,8 @@ impl WarpKnitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as it was.
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
+    /// it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -104,8 +114,9 @@ impl WarpKnitted {
         Ok(())
     }
 
-    /// The same cloth with other numbers of control points: [`Cells::Even`] has 9 for each loop and none for underlaps. Plain repeats
-    /// come to rest so; a Jacquard may not, for its underlaps turn too sharply.
+    /// The same cloth with other numbers of control points: [`Cells::Even`] has 9 for each loop and
+    /// none for underlaps. Plain repeats come to rest so; a Jacquard may not, for its underlaps
+    /// turn too sharply.
     #[must_use]
     pub fn with_cells(mut self, cells: Cells) -> Self {
         self.cells = cells;
@@ -142,7 +153,8 @@ impl WarpKnitted {
         self.copies
     }
 
-    /// Wales and courses of what [`WarpKnitted::copies`] are copies of: those that [`WarpKnitted::laps`] are on.
+    /// Wales and courses of what [`WarpKnitted::copies`] are copies of: those that
+    /// [`WarpKnitted::laps`] are on.
     #[must_use]
     pub const fn laid_size(&self) -> [u32; 2] {
         self.laid
@@ -175,11 +187,13 @@ impl WarpKnitted {
 
     /// The yarns, about where they belong: bar by bar, and in each from the left.
     ///
-    /// Needle 0 lies half a wale from x = 0, the feet of the first course at y = 0. Origins are [`Origin::Guide`], bars and guides
-    /// counted from 1. The source of a control point is the course of its lap, from 1.
+    /// Needle 0 lies half a wale from x = 0, the feet of the first course at y = 0. Origins are
+    /// [`Origin::Guide`], bars and guides counted from 1. The source of a control point is the
+    /// course of its lap, from 1.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`], [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for more control points than are taken, and
-    /// [`FabricError::Yarns`] where they can't be taken.
+    /// **Errors**: [`FabricError::OutOfMemory`],
+    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for more control points than
+    /// are taken, and [`FabricError::Yarns`] where they can't be taken.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
         self.laid(&repeat, &repeat.piece.yarns)
@@ -205,8 +219,9 @@ impl WarpKnitted {
         Ok(self.repeat()?.piece)
     }
 
-    /// What settles, and how many copies of that the cloth is: the wales and courses after which all bars begin again, or a few
-    /// such repeats that are taken together. A Jacquard begins again where its image does.
+    /// What settles, and how many copies of that the cloth is: the wales and courses after which
+    /// all bars begin again, or a few such repeats that are taken together. A Jacquard begins again
+    /// where its image does.
     ///
     /// **Errors**: those of [`WarpKnitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
@@ -216,7 +231,8 @@ impl WarpKnitted {
         Ok(Repeat { piece: self.piece_of(size)?, copies: [0, 1].map(|axis| repeats[axis] / tiles[axis]) })
     }
 
-    /// The stitch at a place on one of the cloth's yarns: its course by the place's source, its wale by where it lies.
+    /// The stitch at a place on one of the cloth's yarns: its course by the place's source, its
+    /// wale by where it lies.
     pub(crate) fn stitch_at(&self, place: &YarnPlace) -> Option<StitchPlace> {
         let wale = (place.position[0] / self.gauge.wale_mm).clamp(0.0, f64::from(self.size()[0].max(1) - 1));
         Some(StitchPlace { wale: wale as u32 + 1, course: place.source? })

@@ -14,9 +14,11 @@ pub struct Laid {
     pub course: u32,
     /// The yarn, by its number among the cloth's.
     pub yarn: u32,
-    /// Its spaces in the cloth: space 0 lies before needle 0. Guides near an edge may lap beyond it.
+    /// Its spaces in the cloth: space 0 lies before needle 0. Guides near an edge may lap beyond
+    /// it.
     pub lap: Lap,
-    /// By how many needles the guide moves behind them to its next lap; towards higher numbers positive.
+    /// By how many needles the guide moves behind them to its next lap; towards higher numbers
+    /// positive.
     pub underlap: i32,
 }
 

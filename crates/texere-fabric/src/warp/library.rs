@@ -2,7 +2,8 @@
 
 use super::{CHAIN_COURSES, Chain, Lap};
 
-/// The names that [`Chain::named`] knows: alone, or with "open" or "closed" before. Atlas and inlay take a number.
+/// The names that [`Chain::named`] knows: alone, or with "open" or "closed" before. Atlas and inlay
+/// take a number.
 pub const LAPPINGS: [&str; 7] = ["pillar", "tricot", "cord", "satin", "velvet", "atlas 4", "inlay 3"];
 
 /// The least courses in which an atlas goes one way.
@@ -26,10 +27,11 @@ impl Chain {
     /// | `atlas 2` | open, turns closed: `1-0/1-2/2-3/2-1//` | `0-1/1-2/3-2/2-1//` | `1-0/2-1/2-3/1-2//` |
     /// | `inlay 3` | `0-0/3-3//` | | |
     ///
-    /// An `atlas n` moves on by one needle at each of n courses, from 2 to 256, and then back. An `inlay n` passes n needles, from
-    /// 0 to 256, and back.
+    /// An `atlas n` moves on by one needle at each of n courses, from 2 to 256, and then back. An
+    /// `inlay n` passes n needles, from 0 to 256, and back.
     ///
-    /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 24; Raz, Warp Knitting Production, 1987.
+    /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 24; Raz, Warp Knitting
+    /// Production, 1987.
     ///
     /// ```
     /// use texere_fabric::warp::Chain;
@@ -87,7 +89,8 @@ fn there_and_back(needles: i32, open: Option<bool>) -> Vec<Lap> {
     vec![round(0, open), round(needles, !open)]
 }
 
-/// So many courses one way, and as many back. A lap is open if it goes the way that the next underlap does.
+/// So many courses one way, and as many back. A lap is open if it goes the way that the next
+/// underlap does.
 fn atlas(courses: i32, open: Option<bool>) -> Vec<Lap> {
     let needles =
         (0..courses).map(|needle| (needle, true)).chain((1..=courses).rev().map(|needle| (needle, false)));

@@ -7,7 +7,8 @@ use texere_core::backend::room_for;
 
 use super::{Bar, Laid, Lap, LapKind};
 
-/// The place of a loop among those on its needle: bar by bar from the front, and in each bar guide by guide.
+/// The place of a loop among those on its needle: bar by bar from the front, and in each bar guide
+/// by guide.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Share {
     /// How many come before it.
@@ -26,7 +27,8 @@ impl Share {
         0.5 * (f64::from(self.all) - 1.0) - f64::from(self.rank)
     }
 
-    /// How much further to the right it lies than the middle of those that its own bar makes, in loops: guides don't pass one another.
+    /// How much further to the right it lies than the middle of those that its own bar makes, in
+    /// loops: guides don't pass one another.
     pub(super) fn own_middle(self) -> f64 {
         f64::from(self.own_rank) - 0.5 * (f64::from(self.own) - 1.0)
     }

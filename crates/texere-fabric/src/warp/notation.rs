@@ -24,16 +24,19 @@ pub struct ChainError {
 }
 
 impl Chain {
-    /// Reads chain notation: laps from one needle space to another, as in `1-0`, a `/` for the underlap to the next course, and
-    /// `//` at the end, which may be left out.
+    /// Reads chain notation: laps from one needle space to another, as in `1-0`, a `/` for the
+    /// underlap to the next course, and `//` at the end, which may be left out.
     ///
-    /// Several courses may be repeated: `(1-0/1-2)x12/2-3//`. Blanks between these count for nothing. With `step` 1, spaces
-    /// are numbered one by one; with 2, as on Raschel machines, only every second number is one: `2-0/2-4//` is `1-0/1-2//`.
+    /// Several courses may be repeated: `(1-0/1-2)x12/2-3//`. Blanks between these count for
+    /// nothing. With `step` 1, spaces are numbered one by one; with 2, as on Raschel machines, only
+    /// every second number is one: `2-0/2-4//` is `1-0/1-2//`.
     ///
-    /// **Errors**: [`ChainError`] with the column for anything else, for spaces beyond [`SPACE_MAX`], laps round more than
-    /// [`NEEDLES_MOST`] needles and chains of more than [`CHAIN_COURSES`] courses.
+    /// **Errors**: [`ChainError`] with the column for anything else, for spaces beyond
+    /// [`SPACE_MAX`], laps round more than [`NEEDLES_MOST`] needles and chains of more than
+    /// [`CHAIN_COURSES`] courses.
     ///
-    /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 23, for the notation. Repeats in parentheses are texere's.
+    /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 23, for the notation.
+    /// Repeats in parentheses are texere's.
     ///
     /// ```
     /// use texere_fabric::warp::Chain;

@@ -1,13 +1,15 @@
 //! Where the yarns of a warp knit go before they settle.
 //!
-//! A loop comes through the loops of the course below from the back to the face (+z), and all that goes from needle to needle, the
-//! underlap, lies on the back. All loops on one needle come through all of the course below: the legs of any lie in front of the
-//! heads of any. The first of them, by bars from the front and then by guides, is the foremost on the face; underlaps of the front
-//! bar are the hindmost on the back.
+//! A loop comes through the loops of the course below from the back to the face (+z), and all that
+//! goes from needle to needle, the underlap, lies on the back. All loops on one needle come through
+//! all of the course below: the legs of any lie in front of the heads of any. The first of them, by
+//! bars from the front and then by guides, is the foremost on the face; underlaps of the front bar
+//! are the hindmost on the back.
 //!
-//! A lap round two needles makes a loop on each, and goes from one to the other as an underlap does. A yarn that is laid in
-//! makes no loop. It goes up between two wales, and from one space to another behind the legs and heads of loops and in front of the
-//! underlaps of the bars before its own: these hold it.
+//! A lap round two needles makes a loop on each, and goes from one to the other as an underlap
+//! does. A yarn that is laid in makes no loop. It goes up between two wales, and from one space to
+//! another behind the legs and heads of loops and in front of the underlaps of the bars before its
+//! own: these hold it.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -36,15 +38,17 @@ const FOOT: f64 = 0.14;
 /// How far a loop begins below and ends above its course, in courses.
 const SLANT: f64 = 0.25;
 
-/// The same for a bar alone on its needles whose laps are open and that stays on one or two of them.
+/// The same for a bar alone on its needles whose laps are open and that stays on one or two of
+/// them.
 const SLANT_STEEP: f64 = 0.05;
 
-/// By how much a loop is narrower below, where it comes through another, and wider above, in diameters either way; and the most of that in
-/// wales.
+/// By how much a loop is narrower below, where it comes through another, and wider above, in
+/// diameters either way; and the most of that in wales.
 const BULGE: f64 = 0.9;
 const BULGE_MOST: f64 = 0.2;
 
-/// By how much loops on one needle are each wider than the next one where their legs begin, in diameters.
+/// By how much loops on one needle are each wider than the next one where their legs begin, in
+/// diameters.
 const ASIDE: f64 = 0.8;
 
 /// The length of an underlap's pieces, in wales.
@@ -56,21 +60,22 @@ const UNDERLAP: f64 = 0.6;
 /// How far the loops on one needle are apart, in diameters.
 const LAYER: f64 = 0.7;
 
-/// How far behind the middle the feet lie, and how much further those of each bar further forward, in diameters. With one
-/// bar there is nothing to lie behind.
+/// How far behind the middle the feet lie, and how much further those of each bar further forward,
+/// in diameters. With one bar there is nothing to lie behind.
 const BEHIND: f64 = 2.0;
 const BEHIND_ALONE: f64 = 2.2;
 const BAR: f64 = 1.8;
 
-/// How much further behind all feet lie for each loop that a needle has beyond two, in diameters: narrow loops have their feet close to
-/// their legs, and a spline turns sharply where a short piece meets a long one.
+/// How much further behind all feet lie for each loop that a needle has beyond two, in diameters:
+/// narrow loops have their feet close to their legs, and a spline turns sharply where a short piece
+/// meets a long one.
 const CROWDED: f64 = 1.0;
 
 /// The same for guides of one bar that share a needle.
 const BESIDE: f64 = 0.9;
 
-/// From where to where an inlay crosses wales, in courses above its own: between the feet of two courses. It rises on its way, for all
-/// guides of its bar cross at once.
+/// From where to where an inlay crosses wales, in courses above its own: between the feet of two
+/// courses. It rises on its way, for all guides of its bar cross at once.
 const CROSSES: [f64; 2] = [0.3, 0.8];
 
 /// A yarn of a repeat that is laid: its first lap, its points, mm, and the course of each, from 0.
@@ -116,7 +121,8 @@ impl<'a> Cloth<'a> {
         Ok(cloth)
     }
 
-    /// Gives a bar's loops the height at which its yarns are of that length in the mean, mm, or the nearest height to it.
+    /// Gives a bar's loops the height at which its yarns are of that length in the mean, mm, or the
+    /// nearest height to it.
     fn reach(&mut self, bar: usize, length_mm: f64) -> Result<(), OutOfMemory> {
         let [mut low, mut high] = HEIGHTS;
         for _ in 0..HEIGHT_STEPS {
@@ -180,8 +186,9 @@ impl<'a> Cloth<'a> {
         Ok(Thread { first: self.loops.laid[first], points, courses })
     }
 
-    /// Points of an underlap, so that none of its pieces is much longer than those of a loop: a spline turns sharply where a long piece
-    /// follows a short one. They lie `behind` the feet, which other yarns of the same bar have between them.
+    /// Points of an underlap, so that none of its pieces is much longer than those of a loop: a
+    /// spline turns sharply where a long piece follows a short one. They lie `behind` the feet,
+    /// which other yarns of the same bar have between them.
     fn between(&self, from: DVec3, to: DVec3, behind: f64) -> impl ExactSizeIterator<Item = DVec3> + use<> {
         let parts = match self.cells {
             Cells::Round => (from.distance(to) / (PIECE * self.gauge.wale_mm)).round().max(1.0),
@@ -190,7 +197,8 @@ impl<'a> Cloth<'a> {
         (1..parts as usize).map(move |part| from.lerp(to, part as f64 / parts) - DVec3::Z * behind)
     }
 
-    /// The points of one lap, its underlap left out; of an inlay with those at the wales that it crosses.
+    /// The points of one lap, its underlap left out; of an inlay with those at the wales that it
+    /// crosses.
     fn lap(&self, number: usize) -> Vec<DVec3> {
         let laid = &self.loops.laid[number];
         if laid.kind() == LapKind::Inlay {
@@ -239,22 +247,24 @@ impl<'a> Cloth<'a> {
         let (laid, share) = (&self.loops.laid[number], self.loops.share(number, part));
         let (Gauge { wale_mm, course_mm, .. }, diameter) = (self.gauge, self.diameter);
         let apart = f64::from(self.loops.most - 1);
-        // Legs of any in front of heads of any, which takes more than the loops on a needle are apart.
+        // Legs of any in front of heads of any, which takes more than the loops on a needle are
+        // apart.
         let (forward, tilt) = if apart > 0.0 { (0.65 + 0.35 * apart, 0.3) } else { (0.9, 0.0) };
         let front_most = share.front_most();
         let layer = LAYER * front_most;
         let behind = self.behind(laid.bar as usize) + BESIDE * f64::from(share.own_rank);
         let slant = if self.loops.steep[laid.bar as usize] { SLANT_STEEP } else { SLANT };
         let bulge = (BULGE * diameter).min(BULGE_MOST * wale_mm);
-        // Loops that lap alike would lie in one another. Of others, what is further to the front at the legs is further back at the
-        // feet: on the way yarns pass beside one another.
+        // Loops that lap alike would lie in one another. Of others, what is further to the front at
+        // the legs is further back at the feet: on the way yarns pass beside one another.
         let (beside, aside) = if self.loops.alike[laid.bar as usize] {
             (front_most, 0.0)
         } else {
             (share.own_middle(), ASIDE * diameter)
         };
 
-        // Those of one bar are all as wide: each lies beside the next one all the way but at the head, where they cross once.
+        // Those of one bar are all as wide: each lies beside the next one all the way but at the
+        // head, where they cross once.
         let wider = front_most + share.own_middle();
         let height = self.heights[laid.bar as usize];
         let side = f64::from(laid.lap.overlap().signum());

@@ -1,4 +1,5 @@
-//! Which guides hold which: loops by needle, drawn through those of the course below, and what is laid in between.
+//! Which guides hold which: loops by needle, drawn through those of the course below, and what is
+//! laid in between.
 
 use texere_core::Origin;
 
@@ -7,14 +8,17 @@ use super::{Laid, LapKind, WarpKnitted};
 use crate::Pieces;
 use crate::diagnosis::Joined;
 
-/// A loop: its guide's number among all, and how many repeats its needle lies further than the guide.
+/// A loop: its guide's number among all, and how many repeats its needle lies further than the
+/// guide.
 type Loop = (usize, i64);
 
 impl WarpKnitted {
-    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles there never is a loop.
+    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles
+    /// there never is a loop.
     ///
-    /// A loop is held where a loop of the next course is drawn through it, on the same needle: a needle that gets no yarn at a course
-    /// casts off what it holds. What crosses needles, an underlap or a yarn that is laid in, is held where it passes between the loops of a bar
+    /// A loop is held where a loop of the next course is drawn through it, on the same needle: a
+    /// needle that gets no yarn at a course casts off what it holds. What crosses needles, an
+    /// underlap or a yarn that is laid in, is held where it passes between the loops of a bar
     /// further forward and what this lays from course to course.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
@@ -90,7 +94,8 @@ fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
     low + i32::from(low < high && own(low))..high - i32::from(low < high && own(high - 1))
 }
 
-/// The spaces that a yarn passes behind the needles on its way from a loop to the next one. Space n lies between the needles n - 1 and n.
+/// The spaces that a yarn passes behind the needles on its way from a loop to the next one. Space n
+/// lies between the needles n - 1 and n.
 fn spaces(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
     let [one, other] = [lap, next].map(|lap| lap.lap.needle());
     if lap.kind() == LapKind::Inlay || next.kind() == LapKind::Inlay {

@@ -37,9 +37,11 @@ impl RunIn {
 impl WarpKnitted {
     /// Lets the yarns settle: one repeat, which is then copied. See [`settle`](crate::settle()).
     ///
-    /// Loops are as high as the run-in of their bar asks for, from 1.45 to 1.75 courses. Where that is not enough and every bar has a
-    /// run-in, yarns are given what lacks in all, if `finish` says nothing of lengths; else they keep the length that they have. How far a bar is
-    /// off its run-in then, [`WarpKnitted::run_ins`] says. What [`Settled::clearance`] measures is the whole cloth, with its cut edges.
+    /// Loops are as high as the run-in of their bar asks for, from 1.45 to 1.75 courses. Where that
+    /// is not enough and every bar has a run-in, yarns are given what lacks in all, if `finish`
+    /// says nothing of lengths; else they keep the length that they have. How far a bar is off its
+    /// run-in then, [`WarpKnitted::run_ins`] says. What [`Settled::clearance`] measures is the
+    /// whole cloth, with its cut edges.
     ///
     /// `tension` is that of the splines of all yarns, from 0 to below 1.
     ///
@@ -108,7 +110,8 @@ impl WarpKnitted {
         self.bars().iter().zip(sums).map(run_in).collect()
     }
 
-    /// What of a yarn is the cloth's. All copies are alike: after the last point comes the first one, the cloth's height further.
+    /// What of a yarn is the cloth's. All copies are alike: after the last point comes the first
+    /// one, the cloth's height further.
     fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
         Own::round(yarns, yarn, self.beyond(), [0.0, self.size_mm()[1]])
     }

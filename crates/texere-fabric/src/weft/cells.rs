@@ -1,4 +1,5 @@
-//! What a yarn does at each needle that it comes to, also at those that it passes without being told.
+//! What a yarn does at each needle that it comes to, also at those that it passes without being
+//! told.
 
 use std::ops::Range;
 
@@ -33,7 +34,8 @@ pub(super) struct Cell {
 /// Cells nearer than so many wales are of needles that lie half a needle apart.
 const SHORT: f32 = 0.75;
 
-/// What a yarn does from its beginning to its end, or in one round; and how many wales and courses further it then goes on.
+/// What a yarn does from its beginning to its end, or in one round; and how many wales and courses
+/// further it then goes on.
 ///
 /// **Errors**: [`OutOfMemory`].
 pub(super) fn cells(
@@ -91,8 +93,8 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
 
 /// Adds a float at each needle that a yarn passes from `one` to `other`.
 ///
-/// Where the other lies further out in the direction in which the yarn came, it floats on to there and turns; where it lies
-/// further back, it turns at once and floats back.
+/// Where the other lies further out in the direction in which the yarn came, it floats on to there
+/// and turns; where it lies further back, it turns at once and floats back.
 fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
     let way = f64::from(other.at - one.at) * one.direction;
     let turns = one.direction != other.direction;
@@ -107,8 +109,8 @@ fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemo
     Ok(())
 }
 
-/// The steps of a needle each after which a yarn floats on a way in the direction in which it came, or against it; and whether the next loop is
-/// made in the other direction.
+/// The steps of a needle each after which a yarn floats on a way in the direction in which it came,
+/// or against it; and whether the next loop is made in the other direction.
 pub(super) fn passed_on_way(way: f64, turns: bool) -> Range<u32> {
     let gap = way.abs().round() as u32;
     if !turns && way.abs() <= f64::from(STEP) || gap == 0 {

@@ -24,11 +24,13 @@ const TILED_MAX: u64 = 1 << 16;
 const PASSED_POINTS: u64 = 3;
 const TURN_POINTS: u64 = 3;
 
-/// The most control points of a repeat, which is laid and settles as one: a gigabyte, for reading and laying takes 73 to 79 bytes for each. That
-/// is a picture of 1,024 × 1,024 stitches, also with two yarns of which one only floats; of 910 × 910 where both knit.
+/// The most control points of a repeat, which is laid and settles as one: a gigabyte, for reading
+/// and laying takes 73 to 79 bytes for each. That is a picture of 1,024 × 1,024 stitches, also with
+/// two yarns of which one only floats; of 910 × 910 where both knit.
 const REPEAT_POINTS_MAX: u64 = 12_600_000;
 
-/// The most needles and courses that yarns pass: so many, and so many more for each loop. All of them take memory.
+/// The most needles and courses that yarns pass: so many, and so many more for each loop. All of
+/// them take memory.
 const PASSED_MAX: u64 = 1 << 16;
 const PASSED_BESIDE_A_LOOP: u64 = 64;
 
@@ -141,7 +143,8 @@ pub(crate) fn repeat_points(points: u64) -> Result<u64, WeftError> {
     Ok(points)
 }
 
-/// About as many control points as a knit's yarns have: exact but for their ends, turns over several courses, and needles half a wale apart.
+/// About as many control points as a knit's yarns have: exact but for their ends, turns over
+/// several courses, and needles half a wale apart.
 fn points(stitches: &Stitches) -> u64 {
     let loops = (0..stitches.loops.len() as u32).map(|number| point_count(stitches, number));
     let strands = stitches.strands.iter().map(|strand| {
@@ -194,7 +197,8 @@ fn ways(stitches: &Stitches, strand: &Strand) -> impl Iterator<Item = (u64, u32)
     })
 }
 
-/// The source of the loop after the longest way of a yarn from one to the next, whatever it floats past in between.
+/// The source of the loop after the longest way of a yarn from one to the next, whatever it floats
+/// past in between.
 fn furthest(stitches: &Stitches) -> Option<u32> {
     let mut longest = (0, None);
     for strand in &stitches.strands {

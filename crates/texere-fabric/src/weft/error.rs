@@ -5,7 +5,8 @@ use thiserror::Error;
 
 use super::program::Needle;
 
-/// A knit that can't be taken. Carriers and operations are counted from 1. Warp knits have loops, too: what is wrong with these is said here.
+/// A knit that can't be taken. Carriers and operations are counted from 1. Warp knits have loops,
+/// too: what is wrong with these is said here.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WeftError {
@@ -31,7 +32,8 @@ pub enum WeftError {
         loops: u64,
         /// Most taken for so many loops.
         limit: u64,
-        /// The [source](crate::weft::Operation::source) of the operation after the longest way of a yarn between two loops; none of a warp knit.
+        /// The [source](crate::weft::Operation::source) of the operation after the longest way of a
+        /// yarn between two loops; none of a warp knit.
         told: Option<u32>,
     },
     /// A needle further out than any machine's, or outside what the machine's beds are racked to.
@@ -76,7 +78,8 @@ pub enum WeftError {
         /// What is wrong.
         what: &'static str,
     },
-    /// Copies of a small repeat of a knit that have to settle together, for their number has no divisor up to 16.
+    /// Copies of a small repeat of a knit that have to settle together, for their number has no
+    /// divisor up to 16.
     #[error(
         "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops}; {limit} are taken at most: take multiples of 4", loops = counted(*.loops, "loop"))]
     Copies {
@@ -93,7 +96,8 @@ pub enum WeftError {
         /// Most taken.
         limit: u64,
     },
-    /// A knit whose repeat, which settles as one before it is copied, has more control points than are taken.
+    /// A knit whose repeat, which settles as one before it is copied, has more control points than
+    /// are taken.
     #[error("a repeat of {points} control points or more, before it is copied; {limit} are taken at most")]
     KnitRepeat {
         /// Control points of the repeat, about; of a knit without one, those of all of it.
@@ -104,7 +108,8 @@ pub enum WeftError {
 }
 
 impl WeftError {
-    /// The operation of a knitting program that is refused, counted from 1: readers say where it stands. None of other errors.
+    /// The operation of a knitting program that is refused, counted from 1: readers say where it
+    /// stands. None of other errors.
     ///
     /// ```
     /// use texere_fabric::weft::WeftError;

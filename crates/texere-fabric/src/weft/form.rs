@@ -8,20 +8,22 @@ use super::shape::{
 };
 use super::{Bed, Fate, LoopKind, Stitches};
 
-/// How far legs that cross over others are lifted from where they lie else, in diameters; those under them lie one lower.
+/// How far legs that cross over others are lifted from where they lie else, in diameters; those
+/// under them lie one lower.
 const CROSSING: f64 = 0.7;
 
-/// How far the legs of a loop that is moved lean where they come out of the loop before, of the way to the next needle.
+/// How far the legs of a loop that is moved lean where they come out of the loop before, of the way
+/// to the next needle.
 const LEANS: f64 = 0.1;
 
-/// What nothing holds falls in front of what it is drawn through, below the feet of the next course; what is drawn through nothing
-/// either is a float.
+/// What nothing holds falls in front of what it is drawn through, below the feet of the next
+/// course; what is drawn through nothing either is a float.
 const FALLEN_LEG: Node = Node { up: 0.4, ..LEG };
 const FALLEN_SHOULDER: Node = Node { up: 0.5, ..LEG };
 const FALLEN_HEAD: Node = Node { up: 0.54, z: 0.8 };
 
-/// How far the feet of two layers of cloth that lie face to face are from the middle between them, in diameters; and where yarns
-/// float there.
+/// How far the feet of two layers of cloth that lie face to face are from the middle between them,
+/// in diameters; and where yarns float there.
 const APART: f64 = 0.55;
 const FLOATS_APART: f64 = 1.0;
 
@@ -32,9 +34,10 @@ pub(super) fn side(bed: Bed) -> f64 {
 
 /// A loop's place among those that it is drawn through and that are drawn through it, in mm.
 ///
-/// A loop comes through what hangs on its needle: its feet pass behind the upper legs of that, its own legs in front of the
-/// heads. So its lower half follows the side to which it is drawn itself, and its upper half that of the loop which is drawn
-/// through it. Where these differ, its legs go through the plane of the cloth.
+/// A loop comes through what hangs on its needle: its feet pass behind the upper legs of that, its
+/// own legs in front of the heads. So its lower half follows the side to which it is drawn itself,
+/// and its upper half that of the loop which is drawn through it. Where these differ, its legs go
+/// through the plane of the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Form<'a> {
     shape: &'a Shape,
@@ -46,10 +49,11 @@ pub(super) struct Form<'a> {
     lift: f64,
     lower: Half,
     upper: Half,
-    /// How much further back its feet are than behind one loop, because of others that lie between, mm.
+    /// How much further back its feet are than behind one loop, because of others that lie between,
+    /// mm.
     behind: f64,
-    /// How far its legs come forward, so that those of the hindmost of several yarns still lie in front of the heads that they are
-    /// drawn through, mm.
+    /// How far its legs come forward, so that those of the hindmost of several yarns still lie in
+    /// front of the heads that they are drawn through, mm.
     forward: f64,
     /// How far to the right its head is.
     lean: f64,
@@ -138,7 +142,8 @@ fn held(stitches: &Stitches, number: u32) -> u32 {
 }
 
 impl<'a> Form<'a> {
-    /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above that.
+    /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above
+    /// that.
     pub(super) fn new(
         shape: &'a Shape,
         stitches: &Stitches,
@@ -149,8 +154,8 @@ impl<'a> Form<'a> {
         let stitch = &stitches.loops[number as usize];
         let is_tuck = stitch.kind == LoopKind::Tuck;
         let upper = Half::upper(shape, stitches, layers, number);
-        // A tuck lies as the loop that is drawn through it and through what else hangs there. So does an arch on an empty needle: what
-        // hangs opposite may have come later.
+        // A tuck lies as the loop that is drawn through it and through what else hangs there. So
+        // does an arch on an empty needle: what hangs opposite may have come later.
         let is_arch = is_tuck || stitch.parents.is_empty();
         let (next, _) = drawn_through(stitches, number);
         let middle = if is_arch { upper.middle } else { middle(shape, layers, stitch.bed, stitch.opposite) };
@@ -194,8 +199,8 @@ impl<'a> Form<'a> {
         half.z(self.shape, node)
     }
 
-    /// Its control points from foot to foot, as the yarn takes them that comes from the left (`direction` 1) or from the right
-    /// (-1); and which of them is the head.
+    /// Its control points from foot to foot, as the yarn takes them that comes from the left
+    /// (`direction` 1) or from the right (-1); and which of them is the head.
     pub(super) fn points(&self, direction: f64) -> (Vec<DVec3>, usize) {
         let mut points = self.half(-direction);
         let head = points.len();
@@ -240,7 +245,8 @@ impl<'a> Form<'a> {
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
             points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
-            // It has to come out between the shoulders of what it is drawn through, and in front of them, before it leans.
+            // It has to come out between the shoulders of what it is drawn through, and in front of
+            // them, before it leans.
             let leans = LEANS * self.lean.clamp(-wale, wale);
             let over = lower.side * f64::max(lower.side * self.over, 0.0);
             let z = self.z(lower, LOWER) + forward + 0.6 * over;
@@ -252,13 +258,15 @@ impl<'a> Form<'a> {
                 return points;
             }
             if lower.side == upper.side {
-                // Of a loop that is moved, the leg on the side that it leaves has nothing in front of it.
+                // Of a loop that is moved, the leg on the side that it leaves has nothing in front
+                // of it.
                 let leaves = hand * self.lean < 0.0;
                 let plated = self.forward > 0.0;
                 let z = if leaves || plated { self.z(lower, LEG) + forward } else { self.z(upper, LEG) };
                 points.push(at(LEG_WIDE * wale, 0.5, self.height(LEG), z + self.over));
             } else {
-                // The leg goes through the plane of the cloth between what it came through and what comes through it.
+                // The leg goes through the plane of the cloth between what it came through and what
+                // comes through it.
                 for (half, across, up, forward) in [(lower, 0.2, 0.42, forward), (upper, 0.3, 0.58, 0.0)] {
                     let node = Node { up, z: 0.6 };
                     let z = self.z(half, node) + forward + self.over;

@@ -2,7 +2,8 @@
 
 use crate::yarn_size::INCH_MM;
 
-/// Munden's constants of plain jersey, dry relaxed: loops a cm along a course and along a wale, times the loop length in cm.
+/// Munden's constants of plain jersey, dry relaxed: loops a cm along a course and along a wale,
+/// times the loop length in cm.
 const MUNDEN: [f64; 2] = [4.2, 5.5];
 
 /// How close the stitches of a weft knit lie, and how long its loops are.
@@ -19,7 +20,8 @@ pub struct Gauge {
     pub wale_mm: f64,
     /// From one course to the next, mm.
     pub course_mm: f64,
-    /// The mean length of yarn in a loop that settling is to reach, mm; `None` where it finds its own.
+    /// The mean length of yarn in a loop that settling is to reach, mm; `None` where it finds its
+    /// own.
     pub loop_length_mm: Option<f64>,
 }
 
@@ -30,7 +32,8 @@ impl Gauge {
         Self { wale_mm, course_mm, loop_length_mm: None }
     }
 
-    /// A wale for each needle of a machine with so many to the inch, and so many courses to the cm of cloth.
+    /// A wale for each needle of a machine with so many to the inch, and so many courses to the cm
+    /// of cloth.
     ///
     /// ```
     /// assert!((texere_fabric::weft::Gauge::per_inch(14.0, 12.5).wale_mm - 1.814).abs() < 1e-3);
@@ -40,8 +43,8 @@ impl Gauge {
         Self::new(INCH_MM / needles, 10.0 / courses_per_cm)
     }
 
-    /// A wale for each needle of a machine with so many to the inch, and courses as close as plain jersey has them, by Munden's
-    /// constants ([`Gauge::munden`]): 4.2 / 5.5 of a wale.
+    /// A wale for each needle of a machine with so many to the inch, and courses as close as plain
+    /// jersey has them, by Munden's constants ([`Gauge::munden`]): 4.2 / 5.5 of a wale.
     ///
     /// ```
     /// let gauge = texere_fabric::weft::Gauge::plain(14.0);
@@ -54,11 +57,12 @@ impl Gauge {
         Self::new(wale_mm, wales / courses * wale_mm)
     }
 
-    /// Plain jersey with loops of `loop_length_mm`, as it lies after dry relaxation: 4.2 / l wales and 5.5 / l courses to the cm,
-    /// l in cm. Other structures draw in further, or less: they need their own figures.
+    /// Plain jersey with loops of `loop_length_mm`, as it lies after dry relaxation: 4.2 / l wales
+    /// and 5.5 / l courses to the cm, l in cm. Other structures draw in further, or less: they need
+    /// their own figures.
     ///
-    /// **Source**: Munden, "The geometry and dimensional properties of plain-knit fabrics", Journal of the Textile Institute 50,
-    /// 1959.
+    /// **Source**: Munden, "The geometry and dimensional properties of plain-knit fabrics", Journal
+    /// of the Textile Institute 50, 1959.
     #[must_use]
     pub fn munden(loop_length_mm: f64) -> Self {
         let [wale_mm, course_mm] = MUNDEN.map(|per_cm| loop_length_mm / per_cm);

@@ -27,12 +27,13 @@ pub struct Knitted {
 }
 
 impl Knitted {
-    /// A cloth of these stitches, with a yarn for each carrier. Where the stitches are one repeat, so many copies of it lie side by
-    /// side along x and y; else `copies` counts for nothing.
+    /// A cloth of these stitches, with a yarn for each carrier. Where the stitches are one repeat,
+    /// so many copies of it lie side by side along x and y; else `copies` counts for nothing.
     ///
-    /// **Errors**: [`WeftError::Gauge`] for distances that no cloth has, [`WeftError::Stitches`] for stitches that refer to
-    /// what there is not, [`WeftError::Carrier`] for a carrier without a yarn, [`WeftError::KnitPoints`] and
-    /// [`WeftError::KnitRepeat`] for more control points than are taken, and errors of the yarns' radius, twist, material and section.
+    /// **Errors**: [`WeftError::Gauge`] for distances that no cloth has, [`WeftError::Stitches`]
+    /// for stitches that refer to what there is not, [`WeftError::Carrier`] for a carrier without a
+    /// yarn, [`WeftError::KnitPoints`] and [`WeftError::KnitRepeat`] for more control points than
+    /// are taken, and errors of the yarns' radius, twist, material and section.
     pub fn new(
         stitches: Stitches,
         gauge: Gauge,
@@ -53,7 +54,8 @@ impl Knitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as it was.
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
+    /// it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -122,23 +124,27 @@ impl Knitted {
 
     /// The yarns, about where they belong.
     ///
-    /// The first wale lies half its width from x = 0, the feet of the first course at y = 0. Origins are [`Origin::Course`] of a
-    /// yarn that goes through a repeat, [`Origin::Carrier`] of one that a carrier brings in and takes out. The source of a control
-    /// point is that of the operation that its stitch or float comes from.
+    /// The first wale lies half its width from x = 0, the feet of the first course at y = 0.
+    /// Origins are [`Origin::Course`] of a yarn that goes through a repeat, [`Origin::Carrier`] of
+    /// one that a carrier brings in and takes out. The source of a control point is that of the
+    /// operation that its stitch or float comes from.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where they can't be taken.
+    /// **Errors**: [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where they can't be
+    /// taken.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
         self.laid(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not. Yarns are cut off three control points beyond the last loop, where that does not spoil
-    /// their count: a leg runs straight there, so that what is cut off bends as in the repeat, and touches nothing.
+    /// All copies of a repeat, settled or not. Yarns are cut off three control points beyond the
+    /// last loop, where that does not spoil their count: a leg runs straight there, so that what is
+    /// cut off bends as in the repeat, and touches nothing.
     pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         repeat.laid_beyond(yarns, self.beyond())
     }
 
-    /// How many control points of a repeat's yarns go on beyond all copies, at the beginning and at the end.
+    /// How many control points of a repeat's yarns go on beyond all copies, at the beginning and at
+    /// the end.
     pub(super) const fn beyond(&self) -> [u32; 2] {
         match self.cells {
             Cells::Round => [3, 3],
@@ -146,7 +152,8 @@ impl Knitted {
         }
     }
 
-    /// One repeat of the cloth, or all of it where none repeats, and what holds it: see [`Knitted::repeat`].
+    /// One repeat of the cloth, or all of it where none repeats, and what holds it: see
+    /// [`Knitted::repeat`].
     ///
     /// **Errors**: those of [`Knitted::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
@@ -155,8 +162,9 @@ impl Knitted {
 
     /// What settles, and how many copies of that the cloth is.
     ///
-    /// A cloth that repeats settles as one repeat that goes on at all its edges, or a few that are taken together. Any other
-    /// settles whole: the ends of its yarns are held, the feet of its first course, and heads on needles.
+    /// A cloth that repeats settles as one repeat that goes on at all its edges, or a few that are
+    /// taken together. Any other settles whole: the ends of its yarns are held, the feet of its
+    /// first course, and heads on needles.
     ///
     /// **Errors**: those of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {

@@ -1,4 +1,5 @@
-//! What lies over and under what: loops that cross on their way to other needles, yarns that share a course, floats behind loops.
+//! What lies over and under what: loops that cross on their way to other needles, yarns that share
+//! a course, floats behind loops.
 
 use std::collections::HashMap;
 
@@ -44,7 +45,8 @@ struct Pass {
 pub(super) struct Layers {
     hanging: HashMap<Place, [Hanging; 2]>,
     repeat: Option<[u32; 2]>,
-    /// How many legs lie between each loop's own and the side that its head is drawn to; nothing where it crosses no other.
+    /// How many legs lie between each loop's own and the side that its head is drawn to; nothing
+    /// where it crosses no other.
     crossed: Vec<Option<u16>>,
     /// For each step of each strand.
     ranks: Vec<Vec<Rank>>,
@@ -95,13 +97,14 @@ impl Layers {
         Ok(layers)
     }
 
-    /// Of a loop whose legs cross those of others on the way to its needle: how many of these lie between its own and the side
-    /// that its head is drawn to.
+    /// Of a loop whose legs cross those of others on the way to its needle: how many of these lie
+    /// between its own and the side that its head is drawn to.
     pub(super) fn crossed(&self, number: u32) -> Option<f64> {
         self.crossed[number as usize].map(f64::from)
     }
 
-    /// Where a step lies among the yarns of its course: of the strand with the first number, the step with the second.
+    /// Where a step lies among the yarns of its course: of the strand with the first number, the
+    /// step with the second.
     pub(super) fn rank(&self, [strand, step]: [usize; 2]) -> Rank {
         self.ranks[strand][step]
     }
@@ -176,7 +179,8 @@ pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
     Some(own + i64::from(child.repeat[1]) * courses)
 }
 
-/// For each loop that crosses others of its course on their way to other needles, how many legs lie over its own.
+/// For each loop that crosses others of its course on their way to other needles, how many legs lie
+/// over its own.
 fn crossed(stitches: &Stitches) -> Result<Vec<Option<u16>>, OutOfMemory> {
     let loops = &stitches.loops;
     let mut levels = filled("loops", loops.len(), None)?;
@@ -218,8 +222,9 @@ fn cross(one: &Stitch, other: &Stitch) -> bool {
 
 /// For each step, where it lies among the yarns of its course.
 ///
-/// Yarns cross where one goes from its loops to floating behind those of another, or from bed to bed: there the one that is laid
-/// later lies above. Yarns that only knit side by side on one bed don't cross.
+/// Yarns cross where one goes from its loops to floating behind those of another, or from bed to
+/// bed: there the one that is laid later lies above. Yarns that only knit side by side on one bed
+/// don't cross.
 fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, OutOfMemory> {
     let strands = &stitches.strands;
     let (mut all, mut passes) = (Vec::new(), Vec::new());

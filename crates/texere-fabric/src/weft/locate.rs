@@ -6,11 +6,12 @@ use super::knitted::{Knitted, extent};
 use crate::StitchPlace;
 
 impl Knitted {
-    /// The stitch at a place on one of the cloth's `yarns`. None where no loop comes from the place's source: in floats, and where
-    /// yarns have no sources.
+    /// The stitch at a place on one of the cloth's `yarns`. None where no loop comes from the
+    /// place's source: in floats, and where yarns have no sources.
     ///
-    /// A source tells the stitch within a repeat; which copy it is in is told by the height of the stitch's feet and by its middle, to the nearest, so
-    /// that stitches may have moved a little as they came to rest.
+    /// A source tells the stitch within a repeat; which copy it is in is told by the height of the
+    /// stitch's feet and by its middle, to the nearest, so that stitches may have moved a little as
+    /// they came to rest.
     pub(crate) fn stitch_at(&self, yarns: &Yarns, place: &YarnPlace) -> Option<StitchPlace> {
         let source = place.source?;
         let (stitches, gauge) = (self.stitches(), self.gauge());
@@ -36,7 +37,8 @@ impl Knitted {
         Some(StitchPlace { wale: wale.round().max(0.0) as u32 + 1, course: course as u32 + 1 })
     }
 
-    /// The height of the feet of the stitch at a place, mm: the lowest of the control points round it that have its source.
+    /// The height of the feet of the stitch at a place, mm: the lowest of the control points round
+    /// it that have its source.
     fn feet(&self, yarns: &Yarns, place: &YarnPlace) -> Option<f64> {
         let (points, range) = (yarns.yarn_points(place.yarn)?, yarns.range(place.yarn)?);
         let sources = yarns.sources()?.get(range)?;

@@ -5,8 +5,9 @@
 //! chart ────┴──> Program ──> Stitches ──> Knitted ──> Piece | Yarns
 //! ```
 //!
-//! A [`Program`] is what a knitting machine is told, needle by needle. [`Stitches`] is what comes of it: which loop is drawn
-//! through which, and in what order each yarn makes its loops. A knitted cloth adds what yarns are like and how close they lie.
+//! A [`Program`] is what a knitting machine is told, needle by needle. [`Stitches`] is what comes
+//! of it: which loop is drawn through which, and in what order each yarn makes its loops. A knitted
+//! cloth adds what yarns are like and how close they lie.
 
 mod cells;
 mod chart;

@@ -10,7 +10,8 @@ use super::pen::{Laid, Pen};
 use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
 
-/// Yarns that share a course lie so many diameters apart where they cross, if the course has room for it.
+/// Yarns that share a course lie so many diameters apart where they cross, if the course has room
+/// for it.
 const CROSSING: f64 = 1.0;
 
 /// The share of a course that such yarns take.
@@ -19,7 +20,8 @@ const ROOM: f64 = 0.75;
 /// The end of a yarn lies so many diameters behind loops that hang where it begins or ends.
 const END_BEHIND: f64 = 1.3;
 
-/// How far a yarn goes out beyond its arc where it turns, in wales; and each carrier further than the one before, in diameters.
+/// How far a yarn goes out beyond its arc where it turns, in wales; and each carrier further than
+/// the one before, in diameters.
 const TURN: f64 = 0.3;
 const NEXT_TURN: f64 = 1.1;
 
@@ -217,7 +219,8 @@ impl Cloth<'_> {
     }
 }
 
-/// z of the arc between two loops: as far back as the further one, half way if they lie on opposite sides.
+/// z of the arc between two loops: as far back as the further one, half way if they lie on opposite
+/// sides.
 fn between(one: f64, other: f64) -> f64 {
     if one * other <= 0.0 {
         f64::midpoint(one, other)

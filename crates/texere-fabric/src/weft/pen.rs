@@ -15,7 +15,8 @@ pub(super) struct Laid {
     pub(super) points: Vec<DVec3>,
     /// What each comes from: see [`Operation::source`](super::Operation::source).
     pub(super) sources: Vec<u32>,
-    /// Those that nothing but the machine holds: ends of the yarn, feet of the first course, and heads on needles.
+    /// Those that nothing but the machine holds: ends of the yarn, feet of the first course, and
+    /// heads on needles.
     pub(super) pinned: Vec<u64>,
 }
 
@@ -70,8 +71,9 @@ impl Pen {
         self.laid
     }
 
-    /// As many points in each cell, along the curve through those that were written. `onward` is how far the yarn's next round
-    /// lies from this one. What comes before the first cell and after the last stays as it is.
+    /// As many points in each cell, along the curve through those that were written. `onward` is
+    /// how far the yarn's next round lies from this one. What comes before the first cell and after
+    /// the last stays as it is.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, OutOfMemory> {

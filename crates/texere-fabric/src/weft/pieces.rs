@@ -1,4 +1,5 @@
-//! Which yarns of a knit hold which: loops that are drawn through others, and what floats between two beds.
+//! Which yarns of a knit hold which: loops that are drawn through others, and what floats between
+//! two beds.
 
 use std::collections::{HashMap, HashSet};
 
@@ -11,10 +12,12 @@ use crate::Pieces;
 use crate::diagnosis::Joined;
 
 impl Knitted {
-    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles there never is a loop.
+    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles
+    /// there never is a loop.
     ///
-    /// Yarns hold one another where a loop of one is drawn through a loop of the other, and where both go from bed to bed. A yarn without loops is held where it passes
-    /// between loops of both beds.
+    /// Yarns hold one another where a loop of one is drawn through a loop of the other, and where
+    /// both go from bed to bed. A yarn without loops is held where it passes between loops of both
+    /// beds.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let stitches = self.stitches();

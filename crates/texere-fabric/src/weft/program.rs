@@ -69,7 +69,8 @@ pub enum Direction {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct CarrierSet(pub u32);
 
-/// One thing that the machine does. Names and meaning are those of knitout 2 (McCann, "The Knitout File Format", v0.6).
+/// One thing that the machine does. Names and meaning are those of knitout 2 (McCann, "The Knitout
+/// File Format", v0.6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Instruction {
     /// Yarns are brought in.
@@ -82,7 +83,8 @@ pub enum Instruction {
     Out,
     /// Yarns are cut, and their ends taken out by the hook.
     OutHook,
-    /// Draws a new loop through all loops of a needle, which fall off it. Without a carrier they just fall.
+    /// Draws a new loop through all loops of a needle, which fall off it. Without a carrier they
+    /// just fall.
     Knit(Direction, Needle),
     /// Lays a loop on a needle, on top of what it holds.
     Tuck(Direction, Needle),
@@ -94,7 +96,8 @@ pub enum Instruction {
     Transfer(Needle, Needle),
     /// Carriers pass a needle: `Left` to its left side, `Right` to its right side.
     Miss(Direction, Needle),
-    /// Back needle b comes to lie at front needle b + rack. A fraction puts back needles between front ones.
+    /// Back needle b comes to lie at front needle b + rack. A fraction puts back needles between
+    /// front ones.
     Rack(f64),
     /// From here on loops are so long, mm; `None`: as the cloth says.
     LoopLength(Option<f64>),
@@ -134,9 +137,11 @@ impl fmt::Display for Instruction {
 pub struct Operation {
     /// What is done.
     pub instruction: Instruction,
-    /// The yarns that take part. In a set of several the first lies in front on the face: yarns are plated.
+    /// The yarns that take part. In a set of several the first lies in front on the face: yarns are
+    /// plated.
     pub carriers: CarrierSet,
-    /// The line of the file, or the cell of the chart, that it comes from: kept with each control point.
+    /// The line of the file, or the cell of the chart, that it comes from: kept with each control
+    /// point.
     pub source: u32,
 }
 
@@ -145,11 +150,13 @@ pub struct Operation {
 pub struct Program {
     /// The names of the yarn carriers. Which yarn is in which the cloth says.
     pub carriers: Vec<String>,
-    /// The sets of carriers that operations take, each a list of indices into `carriers`. The first set is the empty one.
+    /// The sets of carriers that operations take, each a list of indices into `carriers`. The first
+    /// set is the empty one.
     pub carrier_sets: Vec<Vec<u32>>,
     /// The operations.
     pub operations: Vec<Operation>,
-    /// Width of a repeat, in needles, where the program is one repeat of a cloth: needles are 0 to `width` - 1, and what is done
-    /// on others is done in the neighbouring repeats. The operations then end where they begin again: in the next courses.
+    /// Width of a repeat, in needles, where the program is one repeat of a cloth: needles are 0 to
+    /// `width` - 1, and what is done on others is done in the neighbouring repeats. The operations
+    /// then end where they begin again: in the next courses.
     pub repeat: Option<u32>,
 }

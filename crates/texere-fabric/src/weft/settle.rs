@@ -14,10 +14,12 @@ use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, 
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
 impl Knitted {
-    /// Lets the yarns settle: one repeat, which is then copied, or the whole cloth where none repeats. See [`settle`].
+    /// Lets the yarns settle: one repeat, which is then copied, or the whole cloth where none
+    /// repeats. See [`settle`].
     ///
-    /// Where `finish` says nothing of lengths, the mean loop gets the length that the gauge asks for; where that asks for none,
-    /// lengths are free. What [`Settled::clearance`] measures is the whole cloth, with its cut edges.
+    /// Where `finish` says nothing of lengths, the mean loop gets the length that the gauge asks
+    /// for; where that asks for none, lengths are free. What [`Settled::clearance`] measures is the
+    /// whole cloth, with its cut edges.
     ///
     /// `tension` is that of the splines of all yarns, from 0 to below 1.
     ///
@@ -49,7 +51,8 @@ impl Knitted {
         Finish { length: Some(length), ..*finish }
     }
 
-    /// What becomes of lengths where nobody says: all loops together get what each of them asks for, or else the gauge.
+    /// What becomes of lengths where nobody says: all loops together get what each of them asks
+    /// for, or else the gauge.
     fn length(&self, piece: &Piece, copies: [u32; 2]) -> Length {
         let stitches = &self.stitches().loops;
         let each = |stitch: &Stitch| stitch.length_mm.map(f64::from).or(self.gauge().loop_length_mm);
@@ -77,8 +80,9 @@ impl Knitted {
         self.stitches().loops.len() as u64 * across * along
     }
 
-    /// What of a yarn is the cloth's: one that goes on from repeat to repeat without what reaches beyond them, another one without the tails
-    /// that hang out beyond its first and its last stitch.
+    /// What of a yarn is the cloth's: one that goes on from repeat to repeat without what reaches
+    /// beyond them, another one without the tails that hang out beyond its first and its last
+    /// stitch.
     fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         if !matches!(yarns.layout().yarns()[yarn].origin, Origin::Course(_)) {

@@ -14,11 +14,11 @@ const HALVINGS: usize = 10;
 /// Loops that come this much nearer than they can be are near enough: it costs no depth.
 const CLOSE: f64 = 0.004;
 
-/// The first half of a plain loop that is drawn to the face: across in shares of the wale's and the neck's width, height in that
-/// of the loop's, and z in depths.
+/// The first half of a plain loop that is drawn to the face: across in shares of the wale's and the
+/// neck's width, height in that of the loop's, and z in depths.
 ///
-/// Feet and heads are round arcs, legs make a V. Feet lie behind the legs of the loop that they come through, legs in front of
-/// its head.
+/// Feet and heads are round arcs, legs make a V. Feet lie behind the legs of the loop that they
+/// come through, legs in front of its head.
 pub(super) const FOOT: Node = Node { up: 0.083, z: -0.48 };
 pub(super) const LOWER: Node = Node { up: 0.285, z: 0.41 };
 pub(super) const LEG: Node = Node { up: 0.5, z: 0.98 };
@@ -51,13 +51,14 @@ pub(super) struct Shape {
     pub(super) course: f64,
     /// Diameter of the thickest yarn, mm.
     pub(super) diameter: f64,
-    /// How far a loop reaches out of the plane of the cloth, mm, in units of which [`Node::z`] counts.
+    /// How far a loop reaches out of the plane of the cloth, mm, in units of which [`Node::z`]
+    /// counts.
     pub(super) depth: f64,
 }
 
 impl Shape {
-    /// The flattest loops that come no nearer to one another than they must: clearance rises with the depth, and then not any
-    /// more.
+    /// The flattest loops that come no nearer to one another than they must: clearance rises with
+    /// the depth, and then not any more.
     pub(super) fn new(gauge: &Gauge, diameter: f64) -> Self {
         let of = |depth: f64| Self {
             wale: gauge.wale_mm,
@@ -83,7 +84,8 @@ impl Shape {
         1.76 * self.course
     }
 
-    /// Half the width of a loop where it is narrowest, between both feet; so far are two heads apart, too. mm.
+    /// Half the width of a loop where it is narrowest, between both feet; so far are two heads
+    /// apart, too. mm.
     pub(super) fn narrow(&self) -> f64 {
         (0.53 * self.diameter).max(0.09 * self.wale)
     }
@@ -108,7 +110,8 @@ impl Shape {
         points
     }
 
-    /// The least distance of a plain loop's centreline to those of the courses beside it, in diameters.
+    /// The least distance of a plain loop's centreline to those of the courses beside it, in
+    /// diameters.
     fn clearance(&self) -> f64 {
         let points = self.plain();
         let count = points.len() as isize;
@@ -145,7 +148,8 @@ pub(super) fn cardinal([before, start, end, after]: [DVec3; 4], t: f64) -> DVec3
 mod tests {
     use super::*;
 
-    /// The depths that a search by another program found, in diameters, by the wale spacing in diameters.
+    /// The depths that a search by another program found, in diameters, by the wale spacing in
+    /// diameters.
     const DEPTHS: [(f64, f64); 6] =
         [(4.2, 0.70), (4.5, 0.68), (5.0, 0.67), (6.0, 0.65), (8.0, 0.64), (10.0, 0.64)];
 

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use super::{Bed, Direction};
 
-/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the other.
+/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the
+/// other.
 pub(super) const HALVES: i64 = 2;
 
-/// A loop, by its number in [`Stitches::loops`], and in which repeat it lies as seen from the one that refers to it.
+/// A loop, by its number in [`Stitches::loops`], and in which repeat it lies as seen from the one
+/// that refers to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct LoopRef {
     /// Its number.
@@ -44,15 +46,17 @@ pub enum Fate {
 /// Where the head of a loop hangs when its fate comes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Head {
-    /// Its needle's place, in wales from that of front needle 0. Other than [`Stitch::at`] where the loop was transferred.
+    /// Its needle's place, in wales from that of front needle 0. Other than [`Stitch::at`] where
+    /// the loop was transferred.
     pub at: f32,
     /// The bed of its needle.
     pub bed: Bed,
-    /// How many loops of the same needle lie between it and the side that the next loop is drawn to: 0 for the loop that came
-    /// to the needle first.
+    /// How many loops of the same needle lie between it and the side that the next loop is drawn
+    /// to: 0 for the loop that came to the needle first.
     pub layer: u16,
-    /// Where heads of one course cross on their way to other needles, the one that was transferred first, and so lies nearer
-    /// its new bed, has the smaller number; 0 for one that was never transferred.
+    /// Where heads of one course cross on their way to other needles, the one that was transferred
+    /// first, and so lies nearer its new bed, has the smaller number; 0 for one that was never
+    /// transferred.
     pub moved: u32,
 }
 
@@ -63,15 +67,19 @@ pub struct Stitch {
     pub kind: LoopKind,
     /// The bed on which it was made: the side to which it is drawn.
     pub bed: Bed,
-    /// Its needle's place when it was made, in wales from that of front needle 0, rising to the right.
+    /// Its needle's place when it was made, in wales from that of front needle 0, rising to the
+    /// right.
     pub at: f32,
-    /// Whether the needle opposite holds loops of its own then, so that two layers of cloth lie face to face there.
+    /// Whether the needle opposite holds loops of its own then, so that two layers of cloth lie
+    /// face to face there.
     pub opposite: bool,
     /// Its course, from 0: one more than the highest that any stitch of its pass is drawn through.
     pub course: u32,
-    /// Of several yarns in one stitch, which one: 0 lies in front on the side to which the loop is drawn.
+    /// Of several yarns in one stitch, which one: 0 lies in front on the side to which the loop is
+    /// drawn.
     pub plate: u16,
-    /// The loops that it is drawn through, in [`Stitches::parents`], in the order in which they came to the needle.
+    /// The loops that it is drawn through, in [`Stitches::parents`], in the order in which they
+    /// came to the needle.
     pub parents: Range<u32>,
     /// Where its head hangs in the end.
     pub head: Head,
@@ -93,7 +101,8 @@ pub enum Step {
         /// Which way.
         direction: Direction,
     },
-    /// It passes a needle of that bed without a loop, behind what hangs there (seen from the side to which the needle draws).
+    /// It passes a needle of that bed without a loop, behind what hangs there (seen from the side
+    /// to which the needle draws).
     Float {
         /// The needle's place, in wales.
         at: f32,
@@ -132,8 +141,8 @@ pub struct Strand {
     pub carrier: u32,
     /// What it does, in order.
     pub steps: Vec<Step>,
-    /// Where the program is one repeat: how many repeats to the right and upwards the yarn goes on after its last step with its
-    /// first. `None` where it ends.
+    /// Where the program is one repeat: how many repeats to the right and upwards the yarn goes on
+    /// after its last step with its first. `None` where it ends.
     pub onward: Option<[i32; 2]>,
 }
 

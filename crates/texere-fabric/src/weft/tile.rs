@@ -3,7 +3,8 @@
 use super::{Fate, LoopRef, Step, Stitch, Stitches, Strand};
 
 impl Stitches {
-    /// `tiles` copies of the repeat along x and along y, as one repeat; itself where nothing repeats.
+    /// `tiles` copies of the repeat along x and along y, as one repeat; itself where nothing
+    /// repeats.
     pub(super) fn tiled(&self, tiles: [u32; 2]) -> Self {
         let Some(size) = self.repeat.filter(|_| tiles != [1, 1]) else { return self.clone() };
         let tiling = Tiling { tiles: tiles.map(i64::from), loops: self.loops.len() as u32, size };

@@ -9,7 +9,8 @@ pub struct KnitYarn {
     pub material: u32,
     /// Index into the sections.
     pub section: u32,
-    /// Twist, rad per mm; positive is Z twist. [`twist_from_turns_per_m`](crate::twist_from_turns_per_m) gives it.
+    /// Twist, rad per mm; positive is Z twist.
+    /// [`twist_from_turns_per_m`](crate::twist_from_turns_per_m) gives it.
     pub twist: f32,
 }
 

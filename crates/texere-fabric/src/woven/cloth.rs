@@ -48,13 +48,14 @@ pub struct Woven {
 }
 
 impl Woven {
-    /// Checks and joins a drawdown, its ends (`warp`) and picks (`weft`), and the materials and sections that they refer
-    /// to.
+    /// Checks and joins a drawdown, its ends (`warp`) and picks (`weft`), and the materials and
+    /// sections that they refer to.
     ///
-    /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control points than
-    /// [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii outside \[[`RADIUS_MIN`],
-    /// [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections that are not sound, and
-    /// cloth wider or longer than [`COORDINATE_LIMIT`].
+    /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
+    /// points than [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii
+    /// outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], twists beyond
+    /// [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections that are
+    /// not sound, and cloth wider or longer than [`COORDINATE_LIMIT`].
     pub fn new(
         drawdown: Drawdown,
         warp: Vec<Thread>,
@@ -186,8 +187,8 @@ impl Woven {
         self.drawdown.set(end, pick, up)
     }
 
-    /// The same cloth, its drawdown, shape, crimp and selvedge, of other yarns: other ends (`warp`) and picks (`weft`), and the materials and
-    /// sections that they refer to.
+    /// The same cloth, its drawdown, shape, crimp and selvedge, of other yarns: other ends (`warp`)
+    /// and picks (`weft`), and the materials and sections that they refer to.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -259,8 +260,9 @@ impl Woven {
 
     /// Flattens all threads alike: width over height of each, with its area.
     ///
-    /// **Errors**: [`WovenError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and [`WovenError::Half`] for a thread
-    /// that would be too thin or too wide; the cloth is then as it was.
+    /// **Errors**: [`WovenError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and
+    /// [`WovenError::Half`] for a thread that would be too thin or too wide; the cloth is then as
+    /// it was.
     pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {
         let flattened = |set: &[Thread]| set.iter().map(|thread| Thread { flatness, ..*thread }).collect();
         let (warp, weft): (Vec<_>, Vec<_>) = (flattened(&self.warp), flattened(&self.weft));
@@ -272,7 +274,8 @@ impl Woven {
 
     /// Gives all threads one section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as it was.
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
+    /// it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -282,7 +285,8 @@ impl Woven {
         Ok(())
     }
 
-    /// Width (along the weft) and height (along the warp) of the cloth, mm: the sums of its threads' spacings.
+    /// Width (along the weft) and height (along the warp) of the cloth, mm: the sums of its
+    /// threads' spacings.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         [&self.warp, &self.weft].map(|threads| threads.iter().map(|thread| thread.spacing_mm).sum())
@@ -326,13 +330,14 @@ impl Woven {
         self.selvedge
     }
 
-    /// Chooses whether the weft turns back round the edge ends, or each pick is a yarn of its own, cut at both edges.
+    /// Chooses whether the weft turns back round the edge ends, or each pick is a yarn of its own,
+    /// cut at both edges.
     pub const fn set_selvedge(&mut self, selvedge: bool) {
         self.selvedge = selvedge;
     }
 
-    /// Where the middles of ends (x) and picks (y) lie, mm from the cloth's left and lower edges: each in the middle of a
-    /// column as wide as its own spacing.
+    /// Where the middles of ends (x) and picks (y) lie, mm from the cloth's left and lower edges:
+    /// each in the middle of a column as wide as its own spacing.
     ///
     /// ```
     /// use texere_core::{Material, Section};

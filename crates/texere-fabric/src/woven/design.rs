@@ -1,4 +1,5 @@
-//! A woven design: a cloth, the draft that it is woven by, and what is done about its jammed threads.
+//! A woven design: a cloth, the draft that it is woven by, and what is done about its jammed
+//! threads.
 
 use texere_core::Section;
 
@@ -31,8 +32,8 @@ pub struct WovenDesign {
 }
 
 impl WovenDesign {
-    /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that it is woven by, if it has
-    /// one: its drawdown is the cloth's.
+    /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that it
+    /// is woven by, if it has one: its drawdown is the cloth's.
     ///
     /// **Errors**: those of [`Woven::relieve`].
     pub fn new(mut cloth: Woven, draft: Option<Draft>, relief: Relief) -> Result<Self, FabricError> {
@@ -81,8 +82,8 @@ impl WovenDesign {
         Self::new(cloth, self.draft.clone(), Relief::Report)
     }
 
-    /// Says whether the warp is up at a crossing, end and pick counted from 0, and relieves the cloth again. A shaft draft does not weave it any
-    /// more then, and goes.
+    /// Says whether the warp is up at a crossing, end and pick counted from 0, and relieves the
+    /// cloth again. A shaft draft does not weave it any more then, and goes.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -97,7 +98,8 @@ impl WovenDesign {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth, and those of [`Woven::relieve`]; the design is then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth, and those of [`Woven::relieve`];
+    /// the design is then as it was.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
         let mut changed = self.as_given().clone();
         changed.drawdown_mut().set(end, pick, up)?;
@@ -118,8 +120,8 @@ impl WovenDesign {
 
     /// Gives all threads of the cloth as it was given one section, and relieves it again.
     ///
-    /// **Errors**: [`ThreadError::Section`](crate::ThreadError::Section) where its numbers are not sound, and those of [`Woven::relieve`]; the design is
-    /// then as it was.
+    /// **Errors**: [`ThreadError::Section`](crate::ThreadError::Section) where its numbers are not
+    /// sound, and those of [`Woven::relieve`]; the design is then as it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         let mut changed = self.given.as_ref().unwrap_or(&self.cloth).clone();
         changed.set_section(section)?;

@@ -9,7 +9,8 @@ use crate::{CROSSINGS_MAX, Drawdown, FabricError, WovenError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
 ///
-/// All numbers are counted from 1, as weavers write them; 0 stands for none, and a list may be empty.
+/// All numbers are counted from 1, as weavers write them; 0 stands for none, and a list may be
+/// empty.
 ///
 /// ```
 /// use texere_fabric::{Draft, Shedding};
@@ -33,7 +34,8 @@ pub struct Draft {
     pub threading: Vec<Vec<u32>>,
     /// What each pick lifts.
     pub shedding: Shedding,
-    /// Whether lifted shafts carry the warp to the face. Where they don't (a sinking shed), everything is inverted.
+    /// Whether lifted shafts carry the warp to the face. Where they don't (a sinking shed),
+    /// everything is inverted.
     pub rising_shed: bool,
 }
 
@@ -42,7 +44,8 @@ pub struct Draft {
 pub enum Shedding {
     /// By treadles.
     TieUp {
-        /// For each treadle the shafts that are tied to it. A treadle past the last one lifts nothing.
+        /// For each treadle the shafts that are tied to it. A treadle past the last one lifts
+        /// nothing.
         tie_up: Vec<Vec<u32>>,
         /// For each pick the treadles that are pressed.
         treadling: Vec<Vec<u32>>,
@@ -74,10 +77,11 @@ impl Draft {
         self.shedding.picks().len()
     }
 
-    /// The cloth that this draft weaves: the warp is up where one of the end's shafts is among those that the pick lifts.
+    /// The cloth that this draft weaves: the warp is up where one of the end's shafts is among
+    /// those that the pick lifts.
     ///
-    /// **Errors**: those of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends exceed
-    /// [`CROSSINGS_MAX`].
+    /// **Errors**: those of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
+    /// exceed [`CROSSINGS_MAX`].
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
         let shafts = self.shafts()?;
@@ -143,7 +147,8 @@ enum Lift {
 }
 
 impl Lift {
-    /// `ends` of a cloth whose rows have `words`. A list as long as a row has words takes as long to lift as the row.
+    /// `ends` of a cloth whose rows have `words`. A list as long as a row has words takes as long
+    /// to lift as the row.
     fn new(ends: Vec<u32>, words: usize) -> Result<Self, FabricError> {
         let many = ends.len() > words;
         let few = Self::Few(ends);

@@ -8,7 +8,8 @@ use crate::{FabricError, WovenError};
 
 /// The most ends, and the most picks, of a cloth.
 ///
-/// The finest silk has 300 ends to the centimetre; a million of them are more than thirty metres across.
+/// The finest silk has 300 ends to the centimetre; a million of them are more than thirty metres
+/// across.
 pub const THREADS_MAX: usize = 1_000_000;
 
 /// The most crossings of a drawdown: what a `u32` numbers, and half a gigabyte of bits.
@@ -50,8 +51,9 @@ impl fmt::Debug for Drawdown {
 impl Drawdown {
     /// A drawdown with every warp down.
     ///
-    /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of either;
-    /// [`WovenError::Crossings`] for more than [`CROSSINGS_MAX`]; [`FabricError::OutOfMemory`].
+    /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of
+    /// either; [`WovenError::Crossings`] for more than [`CROSSINGS_MAX`];
+    /// [`FabricError::OutOfMemory`].
     pub fn new(ends: usize, picks: usize) -> Result<Self, FabricError> {
         if !(1..=THREADS_MAX).contains(&ends) || !(1..=THREADS_MAX).contains(&picks) {
             return Err(WovenError::Size { ends, picks, limit: THREADS_MAX }.into());
@@ -81,8 +83,9 @@ impl Drawdown {
         Ok(drawdown)
     }
 
-    /// A drawdown whose warp is up where `up(end, pick)` says so of the first `repeat.0` ends and `repeat.1` picks, from
-    /// where they repeat over all others. `up` is asked once for each crossing of the repeat that the cloth has.
+    /// A drawdown whose warp is up where `up(end, pick)` says so of the first `repeat.0` ends and
+    /// `repeat.1` picks, from where they repeat over all others. `up` is asked once for each
+    /// crossing of the repeat that the cloth has.
     ///
     /// **Errors**: those of [`Drawdown::new`].
     ///
@@ -128,7 +131,8 @@ impl Drawdown {
         self.picks
     }
 
-    /// Whether the warp is up where `end` and `pick` cross, both from 0. Outside the cloth nothing is.
+    /// Whether the warp is up where `end` and `pick` cross, both from 0. Outside the cloth nothing
+    /// is.
     #[must_use]
     pub fn up(&self, end: usize, pick: usize) -> bool {
         end < self.ends

@@ -238,7 +238,8 @@ pub enum WovenError {
     /// Yarns that are not those of the cloth that is measured.
     #[error("yarn {yarn} is not one of the cloth's")]
     OtherCloth {
-        /// The first yarn that differs, from 0; the number of the cloth's where there are more or fewer.
+        /// The first yarn that differs, from 0; the number of the cloth's where there are more or
+        /// fewer.
         yarn: usize,
     },
     /// A cloth further across than coordinates reach.

@@ -1,4 +1,5 @@
-//! Whether threads have the room that they need beside one another and between those that cross them.
+//! Whether threads have the room that they need beside one another and between those that cross
+//! them.
 
 use rayon::prelude::*;
 use texere_core::Origin;
@@ -11,17 +12,18 @@ use crate::FabricWarning;
 /// The share by which room may fall short before it counts: radii are rounded to `f32`.
 pub(super) const ROUNDING: f64 = 1e-6;
 
-/// The least pitch of two threads, in half their widths and twice half the height of a thread that changes sides between
-/// them, all added up; `share` is that thread's share of the crimp.
+/// The least pitch of two threads, in half their widths and twice half the height of a thread that
+/// changes sides between them, all added up; `share` is that thread's share of the crimp.
 ///
-/// It is jammed when it goes from arc to arc with nothing straight between. Round a crossed thread its centreline
-/// follows a circle of radius R, half the heights together. The centre of the circle is (1 - share) R beyond the cloth's
-/// middle, so that the circle meets the middle √(share (2 - share)) R to the side. Flat threads stretch it in the ratio
-/// of half the crossed thread's width and half the own height to R. For two sets of round threads of diameter d and half
-/// the crimp each it is √3 d.
+/// It is jammed when it goes from arc to arc with nothing straight between. Round a crossed thread
+/// its centreline follows a circle of radius R, half the heights together. The centre of the circle
+/// is (1 - share) R beyond the cloth's middle, so that the circle meets the middle √(share (2 -
+/// share)) R to the side. Flat threads stretch it in the ratio of half the crossed thread's width
+/// and half the own height to R. For two sets of round threads of diameter d and half the crimp
+/// each it is √3 d.
 ///
-/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937: both sets' jamming
-/// at l = D θ, here for each of them at its own share of the crimp.
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
+/// 1937: both sets' jamming at l = D θ, here for each of them at its own share of the crimp.
 pub(super) fn reach(share: f32) -> f32 {
     (share * (2.0 - share)).sqrt()
 }
@@ -37,12 +39,14 @@ pub(super) struct Gap {
     pub(super) widths: f32,
     /// Half their heights together, mm.
     heights: f32,
-    /// Twice half the height of the thickest thread that changes sides between them, mm; none where none does.
+    /// Twice half the height of the thickest thread that changes sides between them, mm; none where
+    /// none does.
     pub(super) between: Option<f32>,
 }
 
 impl Gap {
-    /// The least pitch at which the threads between are not jammed, mm; `share` is their share of the crimp.
+    /// The least pitch at which the threads between are not jammed, mm; `share` is their share of
+    /// the crimp.
     pub(super) fn needed(&self, shape: Shape, share: f32) -> f64 {
         self.between.map_or(0.0, |between| match shape {
             Shape::Crossing => f64::from(crossing::PITCH_MIN * (self.heights + between) / 2.0),
@@ -51,8 +55,8 @@ impl Gap {
     }
 }
 
-/// The gaps between the threads of `set`; `apart(thread, crossing)` says whether that one of the `crossing` threads lies
-/// on different sides of `thread` and the next one.
+/// The gaps between the threads of `set`; `apart(thread, crossing)` says whether that one of the
+/// `crossing` threads lies on different sides of `thread` and the next one.
 pub(super) fn gaps(
     set: &Set,
     pitches: impl Iterator<Item = f64>,
@@ -91,7 +95,8 @@ impl Woven {
         ]
     }
 
-    /// What a designer should know before looking at the cloth: threads without the room that they need.
+    /// What a designer should know before looking at the cloth: threads without the room that they
+    /// need.
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         let [warp, weft] = self.gaps();
@@ -122,7 +127,8 @@ fn crowded(gaps: &[Gap], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
     Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
 }
 
-/// Among threads (which, room needed, room there is): how many lack room, the first, and the one that lacks most.
+/// Among threads (which, room needed, room there is): how many lack room, the first, and the one
+/// that lacks most.
 fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
     threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
         Some(match found {

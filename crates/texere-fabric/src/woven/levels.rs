@@ -2,14 +2,16 @@
 
 use super::Drawdown;
 
-/// A thread lies above the next one where at most one in so many of what they cross says otherwise: the stitches of a double cloth.
+/// A thread lies above the next one where at most one in so many of what they cross says otherwise:
+/// the stitches of a double cloth.
 const STITCHED: u64 = 4;
 
-/// More threads side by side than that are no layer of a cloth that has several: a satin stripe lies above the plain weave beside it, but not over it.
+/// More threads side by side than that are no layer of a cloth that has several: a satin stripe
+/// lies above the plain weave beside it, but not over it.
 const SIDE_BY_SIDE: usize = 4;
 
-/// Of a cloth of several layers at least so great a share of neighbours lie above one another: where three threads of the face go to one of the
-/// back, a half.
+/// Of a cloth of several layers at least so great a share of neighbours lie above one another:
+/// where three threads of the face go to one of the back, a half.
 const STACKED: f64 = 0.4;
 
 /// No more levels than that are told apart.
@@ -24,13 +26,15 @@ enum Neighbours {
 }
 
 impl Drawdown {
-    /// The level of each end, and of each pick, among its set: 0 for the lowest one. Threads of one level lie side by side, those of another one
-    /// above or below: a double cloth has two levels of ends and of picks, a weft-backed cloth two of picks. Most cloths have one.
+    /// The level of each end, and of each pick, among its set: 0 for the lowest one. Threads of one
+    /// level lie side by side, those of another one above or below: a double cloth has two levels
+    /// of ends and of picks, a weft-backed cloth two of picks. Most cloths have one.
     ///
-    /// A pick lies above the next one where ends that lie between both say so: below the first, above the second. Where as many say the
-    /// opposite, as in plain weave, twills and satins, both lie side by side; stitches of two layers, one end in five at most, don't count. Of ends
-    /// likewise. Where neighbours contradict one another round the cloth, or fewer than two in five lie above one
-    /// another, all threads lie side by side.
+    /// A pick lies above the next one where ends that lie between both say so: below the first,
+    /// above the second. Where as many say the opposite, as in plain weave, twills and satins, both
+    /// lie side by side; stitches of two layers, one end in five at most, don't count. Of ends
+    /// likewise. Where neighbours contradict one another round the cloth, or fewer than two in five
+    /// lie above one another, all threads lie side by side.
     ///
     /// ```
     /// use texere_fabric::{Drawdown, Weave};
@@ -75,8 +79,8 @@ const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     }
 }
 
-/// The lowest levels that agree with all neighbours; 0 for all where none do. What the last thread is to the first one counts where one of them lies
-/// above the other: a cloth need not repeat.
+/// The lowest levels that agree with all neighbours; 0 for all where none do. What the last thread
+/// is to the first one counts where one of them lies above the other: a cloth need not repeat.
 fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
     let count = neighbours.len();
     // Threads side by side follow one another: the number of each one's run, and how long runs are.

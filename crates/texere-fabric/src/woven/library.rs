@@ -1,21 +1,24 @@
 //! Weaves that go by a name: reversed twills, and the ones that are drawn.
 
-/// The larger repeat that is commonly woven on eight shafts: a ridge of warp and a ridge of weft round each hollow, and
-/// plain weave at its bottom. Last pick on top, `#` warp up.
+/// The larger repeat that is commonly woven on eight shafts: a ridge of warp and a ridge of weft
+/// round each hollow, and plain weave at its bottom. Last pick on top, `#` warp up.
 ///
-/// Source: Encyclopædia Britannica, 11th edition, 1911, "Honeycomb", design A, the perfect honeycomb: seven of weft and
-/// five of warp in its longest floats.
+/// Source: Encyclopædia Britannica, 11th edition, 1911, "Honeycomb", design A, the perfect
+/// honeycomb: seven of weft and five of warp in its longest floats.
 pub(super) const HONEYCOMB: [&str; 8] =
     [".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."];
 
-/// Crepe (crape, oatmeal) on eight ends, without a line in any direction. Last pick on top, `#` warp up.
+/// Crepe (crape, oatmeal) on eight ends, without a line in any direction. Last pick on top, `#`
+/// warp up.
 ///
-/// Source: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes of the ends of a twill in
-/// another order, and gives the twill 2/2*1/1*1/1 for it; here every third of its ends follows, as in an eight-end satin.
+/// Source: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes of the
+/// ends of a twill in another order, and gives the twill 2/2*1/1*1/1 for it; here every third of
+/// its ends follows, as in an eight-end satin.
 pub(super) const CREPE: [&str; 8] =
     ["##...#.#", "..#.###.", ".###...#", "#...#.##", ".#.###..", "###...#.", "...#.###", "#.###..."];
 
-/// Whether `#` stands where `end` and `pick`, both from 0, cross in a drawing with the last pick on top.
+/// Whether `#` stands where `end` and `pick`, both from 0, cross in a drawing with the last pick on
+/// top.
 pub(super) fn drawn(drawing: &[&str], end: usize, pick: usize) -> bool {
     let row = drawing.iter().rev().nth(pick).and_then(|row| row.as_bytes().get(end));
     row == Some(&b'#')
@@ -24,15 +27,16 @@ pub(super) fn drawn(drawing: &[&str], end: usize, pick: usize) -> bool {
 /// How a twill's ends turn round where its line changes direction.
 #[derive(Clone, Copy)]
 pub(super) enum Reversal {
-    /// Herringbone: the line is cut, and the other way starts half a repeat further on, so that floats of warp meet
-    /// floats of weft.
+    /// Herringbone: the line is cut, and the other way starts half a repeat further on, so that
+    /// floats of warp meet floats of weft.
     Cut,
     /// The line turns at a single end, the point.
     Point,
 }
 
 impl Reversal {
-    /// The fewest ends one way with which each pick of a twill on `repeat` ends still meets all of them.
+    /// The fewest ends one way with which each pick of a twill on `repeat` ends still meets all of
+    /// them.
     pub(super) const fn least(self, repeat: usize) -> usize {
         match self {
             Self::Cut => repeat.div_ceil(2),

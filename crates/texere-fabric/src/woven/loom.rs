@@ -11,9 +11,11 @@ use super::path::Station;
 use super::yarns::{Kind, Measured, Pass};
 use crate::{FabricError, WovenError, yarn_check};
 
-/// A cloth on the loom: its lifts are changed, and the yarns that this changes are laid anew, each for itself.
+/// A cloth on the loom: its lifts are changed, and the yarns that this changes are laid anew, each
+/// for itself.
 ///
-/// Yarns are as [`Woven::yarns`] has them, to the bit, and have its numbers. A lift changes the end and the pick that cross there, and no other yarn.
+/// Yarns are as [`Woven::yarns`] has them, to the bit, and have its numbers. A lift changes the end
+/// and the pick that cross there, and no other yarn.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -69,16 +71,19 @@ impl Loom {
         self.cloth
     }
 
-    /// Says whether the warp is up at a crossing, both counted from 0. Gives the numbers of the yarns that this changes; none where it was so before.
+    /// Says whether the warp is up at a crossing, both counted from 0. Gives the numbers of the
+    /// yarns that this changes; none where it was so before.
     ///
     /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<Vec<usize>, WovenError> {
         self.set_lifts(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
 
-    /// Says whether the warp is up at all crossings of some ends and picks, counted from 0. Gives the numbers of the yarns that this changes, in order.
+    /// Says whether the warp is up at all crossings of some ends and picks, counted from 0. Gives
+    /// the numbers of the yarns that this changes, in order.
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] where a crossing lies outside the cloth, which is then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] where a crossing lies outside the cloth, which is
+    /// then as it was.
     pub fn set_lifts(
         &mut self,
         ends: Range<usize>,
@@ -116,7 +121,8 @@ impl Loom {
         self.cloth.set_material(material, with)
     }
 
-    /// Gives the threads that yarn number `yarn` consists of the material, the section and the twist of `what`. No yarn lies otherwise for it.
+    /// Gives the threads that yarn number `yarn` consists of the material, the section and the
+    /// twist of `what`. No yarn lies otherwise for it.
     ///
     /// **Errors**: those of [`Woven::new`] for a thread; the cloth is then as it was.
     ///
@@ -156,7 +162,8 @@ impl Loom {
         self.each_point(yarn, &mut |point, _| points.push(point));
     }
 
-    /// Where the control points of yarn number `yarn` come from, as [`Yarns::sources`](texere_core::Yarns::sources) of [`Woven::yarns`] has it.
+    /// Where the control points of yarn number `yarn` come from, as
+    /// [`Yarns::sources`](texere_core::Yarns::sources) of [`Woven::yarns`] has it.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

@@ -5,19 +5,22 @@ use crate::{WovenError, hyphen_look_alike, slash_look_alike};
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///
-/// Notation is for weaves that a weaver can name; what repeats over more threads than this is a picture.
+/// Notation is for weaves that a weaver can name; what repeats over more threads than this is a
+/// picture.
 pub const REPEAT_MAX: usize = 4096;
 
 /// A weave as it is written.
 #[derive(Clone)]
 pub(super) enum Notation {
-    /// A row of ends, each pick moved `step` ends (0 to below its length) further to the right; `picks` until it is back.
+    /// A row of ends, each pick moved `step` ends (0 to below its length) further to the right;
+    /// `picks` until it is back.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
     /// A column of picks, upright for `left` ends and upside down for `right`.
     Matt { base: Vec<bool>, left: usize, right: usize },
     /// A twill of move 1 whose line goes one way for `way` ends and back again.
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
-    /// Each pick binds one end, from 0: that end alone is down, or up where the weave is not `warp_faced`.
+    /// Each pick binds one end, from 0: that end alone is down, or up where the weave is not
+    /// `warp_faced`.
     Bound { order: Vec<usize>, warp_faced: bool },
     /// A drawing, the last pick on top.
     Drawn(&'static [&'static str; 8]),
@@ -279,7 +282,8 @@ fn twill(
     Ok(Notation::Shifted { base, step, picks: ends / apart })
 }
 
-/// The name of a weave nearest to a word that is none, if any is near: no further than a third of its letters and one.
+/// The name of a weave nearest to a word that is none, if any is near: no further than a third of
+/// its letters and one.
 fn nearest(word: &str) -> Option<&'static str> {
     let word: String = word.chars().take(20).flat_map(char::to_lowercase).collect();
     let names = NAMES.iter().flat_map(|(name, others)| others.iter().chain([name]));
@@ -315,7 +319,8 @@ impl Cursor<'_> {
         found
     }
 
-    /// Takes the name of a weave and gives the one that it is known by; `None` where none stands, as before floats.
+    /// Takes the name of a weave and gives the one that it is known by; `None` where none stands,
+    /// as before floats.
     fn name(&mut self) -> Result<Option<&'static str>, WovenError> {
         let before = self.rest;
         if self.hand().is_some() {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::bend::{Bend, ROUNDING, STRIDE};
 use super::shape::Shape;
 
-/// The path of all threads of one height across those that they cross. What does not depend on the sides on which they lie
-/// is worked out once.
+/// The path of all threads of one height across those that they cross. What does not depend on the
+/// sides on which they lie is worked out once.
 pub(super) struct ThreadPath<'a> {
     bend: Bend<'a>,
     /// Where the threads come into the cloth and where they leave it, mm.
@@ -26,7 +26,8 @@ pub(super) struct Station {
     depth: f32,
     /// How far away the shoulders are towards the crossings before and after, mm.
     aside: [f32; 2],
-    /// Height of the shoulders of a thread that changes sides before the crossing, after it, and both, mm.
+    /// Height of the shoulders of a thread that changes sides before the crossing, after it, and
+    /// both, mm.
     shoulder_z: [f32; 3],
     /// Places of the three points of a change of sides to the next crossing, mm.
     change: [f32; 3],
@@ -55,14 +56,16 @@ impl<'a> ThreadPath<'a> {
         Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations, bend }
     }
 
-    /// Control points of a thread, cut as in [`ThreadPath::walk`], where their number does not depend on sides.
+    /// Control points of a thread, cut as in [`ThreadPath::walk`], where their number does not
+    /// depend on sides.
     pub(super) fn fixed_count(&self, cut: [bool; 2]) -> Option<usize> {
         let cuts = cut.into_iter().filter(|cut| *cut).count();
         (self.bend.shape == Shape::Crossing).then_some(self.stations.len() + cuts)
     }
 
-    /// Calls `stop` with each control point in order. `above` says on which side of each crossed thread the thread lies,
-    /// `cut` whether it is cut off at the cloth's edge at its beginning and at its end.
+    /// Calls `stop` with each control point in order. `above` says on which side of each crossed
+    /// thread the thread lies, `cut` whether it is cut off at the cloth's edge at its beginning and
+    /// at its end.
     pub(super) fn walk(&self, above: impl Fn(usize) -> bool, cut: [bool; 2], mut stop: impl FnMut(Stop)) {
         let ([first, ..], [.., last]) = (&self.stations[..], &self.stations[..]) else { return };
         if self.bend.shape == Shape::Crossing {
@@ -120,7 +123,8 @@ impl<'a> ThreadPath<'a> {
     }
 }
 
-/// What threads of one height cross, in the order in which they run: against that of the crossed ones where they run `back`.
+/// What threads of one height cross, in the order in which they run: against that of the crossed
+/// ones where they run `back`.
 pub(super) fn stations(bend: &Bend<'_>, back: bool) -> Arc<[Station]> {
     let count = bend.crossed.at.len();
     let number = |step: usize| if back { count - 1 - step } else { step };
@@ -162,8 +166,9 @@ impl Station {
     }
 }
 
-/// Places of the points between the neighbours `from` and `to` of a thread that lies on different sides of them: its
-/// shoulders, and where it passes the cloth's middle, nearer to the thinner of the two.
+/// Places of the points between the neighbours `from` and `to` of a thread that lies on different
+/// sides of them: its shoulders, and where it passes the cloth's middle, nearer to the thinner of
+/// the two.
 fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
     let (start, end) = (bend.crossed.at[from], bend.crossed.at[to]);
     let pitch = bend.pitch(from, to);
@@ -183,8 +188,9 @@ struct Float {
 }
 
 impl Float {
-    /// The points within it, next to the crossings at its ends, on the sides where the thread lies there: where the steps
-    /// beside it are so short that a single step would be too long. Evenly spaced threads need none.
+    /// The points within it, next to the crossings at its ends, on the sides where the thread lies
+    /// there: where the steps beside it are so short that a single step would be too long. Evenly
+    /// spaced threads need none.
     fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
         let forward = (self.to - self.from).signum();
         let mut left = (self.to - self.from).abs();
@@ -202,7 +208,8 @@ impl Float {
             at += forward * step;
             stop(Stop { along: at, z: first.0, crossing: first.1 });
         }
-        // From the other end the steps grow against the thread's direction: the last one found comes first.
+        // From the other end the steps grow against the thread's direction: the last one found
+        // comes first.
         let step = self.beside[1].unwrap_or(left);
         let mut steps = 0;
         let mut rest = left;

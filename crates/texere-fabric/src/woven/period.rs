@@ -1,4 +1,5 @@
-//! What of woven cloth is measured: whole repeats, so that small samples of a cloth and large ones have the same numbers.
+//! What of woven cloth is measured: whole repeats, so that small samples of a cloth and large ones
+//! have the same numbers.
 
 use std::borrow::Cow;
 
@@ -8,8 +9,9 @@ use super::{Drawdown, Woven};
 use crate::FabricError;
 use crate::own::Own;
 
-/// A thread that crosses so many others in one repeat alone is measured as it is: the stretch from its last crossing to its first one in the
-/// next repeat changes its crimp by less than a share of this. The repeat of fewer is woven among others.
+/// A thread that crosses so many others in one repeat alone is measured as it is: the stretch from
+/// its last crossing to its first one in the next repeat changes its crimp by less than a share of
+/// this. The repeat of fewer is woven among others.
 const FEW: usize = 256;
 
 /// Cloth to be measured, with its yarns.
@@ -21,7 +23,8 @@ pub(crate) struct Sample<'a> {
 }
 
 impl Woven {
-    /// As many threads of either set as whole repeats of how they lie and cross have, and what these take, mm.
+    /// As many threads of either set as whole repeats of how they lie and cross have, and what
+    /// these take, mm.
     pub(crate) fn whole(&self) -> [(usize, f64); 2] {
         self.whole_of(self.repeat())
     }
@@ -43,8 +46,9 @@ impl Woven {
 }
 
 impl<'a> Sample<'a> {
-    /// The sample of a cloth and its yarns. Those of a small cloth as it is woven, whose threads are cut off straight at its edges, are
-    /// woven again among others: how a thread bends at the edge depends on floats that are cut off there.
+    /// The sample of a cloth and its yarns. Those of a small cloth as it is woven, whose threads
+    /// are cut off straight at its edges, are woven again among others: how a thread bends at the
+    /// edge depends on floats that are cut off there.
     ///
     /// **Errors**: those of [`Woven::yarns`].
     pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
@@ -94,7 +98,8 @@ impl<'a> Sample<'a> {
         ratios
     }
 
-    /// As many repeats of a thread as there are without the outermost ones, and their length in the cloth, mm.
+    /// As many repeats of a thread as there are without the outermost ones, and their length in the
+    /// cloth, mm.
     fn round(&self, set: usize, thread: usize, yarn: usize) -> Option<(Own, f64)> {
         let (across, repeat) = (&self.middles[1 - set], self.repeat[1 - set]);
         let repeats = (across.len().saturating_sub(1) / repeat).checked_sub(2)? * repeat;

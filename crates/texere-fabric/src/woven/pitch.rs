@@ -26,9 +26,11 @@ pub struct Pitch {
     pub thread: Origin,
     /// Its distance to the thread before, mm.
     pub pitch_mm: f64,
-    /// The least distance at which the two lie side by side without piercing: half their widths together, mm.
+    /// The least distance at which the two lie side by side without piercing: half their widths
+    /// together, mm.
     pub beside_mm: f64,
-    /// The least distance at which those that change sides between them can pass, mm; 0 where none does.
+    /// The least distance at which those that change sides between them can pass, mm; 0 where none
+    /// does.
     pub passing_mm: f64,
 }
 
@@ -47,10 +49,12 @@ impl Pitch {
 }
 
 impl Woven {
-    /// The pitches of the ends from the second one on, and those of the picks, in the cloth's present shape.
+    /// The pitches of the ends from the second one on, and those of the picks, in the cloth's
+    /// present shape.
     ///
-    /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937, for
-    /// [`Shape::Round`](crate::Shape::Round); measured, for [`Shape::Crossing`](crate::Shape::Crossing).
+    /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
+    /// 1937, for [`Shape::Round`](crate::Shape::Round); measured, for
+    /// [`Shape::Crossing`](crate::Shape::Crossing).
     #[must_use]
     pub fn pitches(&self) -> [Vec<Pitch>; 2] {
         let [warp, weft] = self.gaps();

@@ -1,4 +1,5 @@
-//! What can be done for threads that are jammed: share the crimp otherwise, flatten them, or thin them.
+//! What can be done for threads that are jammed: share the crimp otherwise, flatten them, or thin
+//! them.
 
 use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN};
 
@@ -14,19 +15,23 @@ pub enum Relief {
     /// Nothing: the numbers alone.
     #[default]
     Report,
-    /// Share the crimp otherwise, then flatten: a thread keeps its area and grows wider ([`Thread::flatness`]), as far as the
-    /// threads beside it allow, so that those that cross it have less to climb.
+    /// Share the crimp otherwise, then flatten: a thread keeps its area and grows wider
+    /// ([`Thread::flatness`]), as far as the threads beside it allow, so that those that cross it
+    /// have less to climb.
     Flatten,
-    /// Share the crimp otherwise, then scale all diameters down until everything fits. Materials keep their tex.
+    /// Share the crimp otherwise, then scale all diameters down until everything fits. Materials
+    /// keep their tex.
     Shrink,
 }
 
-/// How close the threads of one set lie, against the least pitch at which those that cross them are not jammed.
+/// How close the threads of one set lie, against the least pitch at which those that cross them are
+/// not jammed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tightness {
     /// How many lie closer than that to the one before.
     pub jammed: usize,
-    /// The one that has the least share of its pitch; none where nothing changes sides between two threads.
+    /// The one that has the least share of its pitch; none where nothing changes sides between two
+    /// threads.
     pub tightest: Option<Origin>,
     /// The least pitch there, mm.
     pub pitch_min_mm: f64,
@@ -43,15 +48,16 @@ pub struct JamReport {
     pub after: [Tightness; 2],
     /// The warp's share of the crimp, before and now.
     pub warp_share: [f32; 2],
-    /// By how much ends and picks grew wider, 1 for not at all; their height fell in the same ratio.
+    /// By how much ends and picks grew wider, 1 for not at all; their height fell in the same
+    /// ratio.
     pub widened: [f32; 2],
     /// By how much all diameters were scaled.
     pub scaled: f32,
 }
 
-/// Room, in pitches that just are not jammed, from which threads stay at 0.99 of touching, and a little over. Tested:
-/// round threads from 1.0 at a share of 0.5, 1.04 at 0.35 and 1.15 at 0.2, ellipses twice as wide as high (by their
-/// surfaces) from 1.02 at 0.5 and 1.1 at 0.35.
+/// Room, in pitches that just are not jammed, from which threads stay at 0.99 of touching, and a
+/// little over. Tested: round threads from 1.0 at a share of 0.5, 1.04 at 0.35 and 1.15 at 0.2,
+/// ellipses twice as wide as high (by their surfaces) from 1.02 at 0.5 and 1.1 at 0.35.
 fn slack(share: f32) -> f32 {
     1.03 + 0.5 * (share - 0.5).abs()
 }
@@ -71,7 +77,8 @@ struct Change {
     widened: [f32; 2],
 }
 
-/// The gaps of a set that can be the tightest: each as (half the widths together, thickest between) over its pitch.
+/// The gaps of a set that can be the tightest: each as (half the widths together, thickest between)
+/// over its pitch.
 struct Needs(Vec<[f32; 2]>);
 
 impl Needs {
@@ -91,7 +98,8 @@ impl Needs {
         Self(needs)
     }
 
-    /// The largest pitch that is needed, in those that there are. `share` is that of the threads between.
+    /// The largest pitch that is needed, in those that there are. `share` is that of the threads
+    /// between.
     fn worst(&self, share: f32, own: f32, crossing: f32) -> f32 {
         let needed = |[widths, between]: &[f32; 2]| {
             let beside = widths * own;
@@ -103,20 +111,24 @@ impl Needs {
 }
 
 impl Woven {
-    /// Makes room where threads are jammed, as `relief` says, and reports what there was and what there is.
+    /// Makes room where threads are jammed, as `relief` says, and reports what there was and what
+    /// there is.
     ///
-    /// In this order: first the warp's share of the crimp moves, within 20 and 80 %, as little as it must (a share that
-    /// was given as [`Crimp::WarpShare`] stays); it costs nothing, and where one set is dense its threads do the
-    /// bending in real cloth too. Only what is still jammed is then flattened or thinned. Flattening goes for the set
-    /// that passes between the jammed threads: a wider thread needs more room beside, so what relieves one set may
-    /// jam the other. What can't be relieved stays and is reported. All threads of a set are flattened alike: finishing
-    /// can't single out threads. Their sections, and what turns with the twist, stay inside the flattened outline.
+    /// In this order: first the warp's share of the crimp moves, within 20 and 80 %, as little as
+    /// it must (a share that was given as [`Crimp::WarpShare`] stays); it costs nothing, and where
+    /// one set is dense its threads do the bending in real cloth too. Only what is still jammed is
+    /// then flattened or thinned. Flattening goes for the set that passes between the jammed
+    /// threads: a wider thread needs more room beside, so what relieves one set may jam the other.
+    /// What can't be relieved stays and is reported. All threads of a set are flattened alike:
+    /// finishing can't single out threads. Their sections, and what turns with the twist, stay
+    /// inside the flattened outline.
     ///
-    /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
-    /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
+    /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least
+    /// one: only there the spline keeps the threads clear. The least pitch is that of
+    /// [`Shape::Round`], whatever the cloth's own shape.
     ///
-    /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] where a thread would have to be thinner than [`RADIUS_MIN`]; the cloth is
-    /// then as it was.
+    /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] where a thread would have to be
+    /// thinner than [`RADIUS_MIN`]; the cloth is then as it was.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -211,8 +223,8 @@ impl Woven {
     }
 }
 
-/// The change that asks least of the cloth among those with which everything fits, or else the one with which it fits
-/// best: widths before shares, as a share costs nothing.
+/// The change that asks least of the cloth among those with which everything fits, or else the one
+/// with which it fits best: widths before shares, as a share costs nothing.
 fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn(&Change) -> f32) -> Change {
     let cost = |change: &Change| {
         let excess = (worst(change) - 1.0).max(0.0);

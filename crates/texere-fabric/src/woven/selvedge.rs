@@ -9,7 +9,8 @@ use super::thread::Thread;
 /// Control points of a turn, on a half circle.
 pub(super) const TURN_POINTS: usize = 5;
 
-/// Picks that one yarn makes: all by themselves, or with `selvedge` runs of picks alike in material, section and twist.
+/// Picks that one yarn makes: all by themselves, or with `selvedge` runs of picks alike in
+/// material, section and twist.
 pub(super) fn runs(weft: &[Thread], selvedge: bool) -> Vec<Range<usize>> {
     let goes_on = |a: &Thread, b: &Thread| {
         selvedge && (a.material, a.section) == (b.material, b.section) && a.twist == b.twist
@@ -28,11 +29,12 @@ pub(super) const fn runs_left(pick: usize, selvedge: bool) -> bool {
     selvedge && pick % 2 == 1
 }
 
-/// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`; `outwards` is +1 at the right
-/// edge, -1 at the left. On its way it passes evenly from one pick's height and sizes to the other's.
+/// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`; `outwards`
+/// is +1 at the right edge, -1 at the left. On its way it passes evenly from one pick's height and
+/// sizes to the other's.
 ///
-/// Where the two picks lie on different sides of the edge end, the turn is level with that end half way round, as far
-/// from it as anywhere.
+/// Where the two picks lie on different sides of the edge end, the turn is level with that end half
+/// way round, as far from it as anywhere.
 pub(super) fn turn(
     x: f32,
     outwards: f32,

@@ -2,7 +2,8 @@
 
 use super::{Thread, Woven};
 
-/// How close the threads of a set lie, and how close they may lie in their weave, threads to the cm.
+/// How close the threads of a set lie, and how close they may lie in their weave, threads to the
+/// cm.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -21,26 +22,32 @@ use super::{Thread, Woven};
 pub struct Sett {
     /// Threads to the cm, in the mean.
     pub per_cm: f64,
-    /// How often a thread of the other set changes sides on its way over one of this set, 0 to 1: 1 in plain weave, 2/n in a satin of n. Of a cloth
-    /// of several levels, within each level, in the mean.
+    /// How often a thread of the other set changes sides on its way over one of this set, 0 to 1: 1
+    /// in plain weave, 2/n in a satin of n. Of a cloth of several levels, within each level, in the
+    /// mean.
     pub interlacings: f64,
-    /// The greatest sett by the rule of ends and intersections: where a thread changes sides it takes the room of one more thread. Levels have it
-    /// each, so that a double cloth has room for twice as many threads ([`Drawdown::levels`](crate::Drawdown::levels)).
+    /// The greatest sett by the rule of ends and intersections: where a thread changes sides it
+    /// takes the room of one more thread. Levels have it each, so that a double cloth has room for
+    /// twice as many threads ([`Drawdown::levels`](crate::Drawdown::levels)).
     ///
-    /// **Source**: T. R. Ashenhurst, "A treatise on textile calculations and the structure of fabrics", 1884: diameters to the inch × ends
-    /// of a repeat / (ends + intersections). J. T. Taylor, "Cotton weaving and designing", 6th edition 1909, counts "firmness" so.
+    /// **Source**: T. R. Ashenhurst, "A treatise on textile calculations and the structure of
+    /// fabrics", 1884: diameters to the inch × ends of a repeat / (ends + intersections). J. T.
+    /// Taylor, "Cotton weaving and designing", 6th edition 1909, counts "firmness" so.
     pub greatest_per_cm: f64,
-    /// The sett at which the threads of plain weave jam as they lie between those of the other set at its own sett; none in other weaves, and none
-    /// of several levels.
+    /// The sett at which the threads of plain weave jam as they lie between those of the other set
+    /// at its own sett; none in other weaves, and none of several levels.
     ///
-    /// **Source**: F. T. Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937, of round threads; A. Kemp, "An extension
-    /// of Peirce's cloth geometry to the treatment of non-circular threads", the same 49, 1958, of flat ones ([`Thread::flatness`](crate::Thread)): as
-    /// round ones that are as thick as they are high, further apart by what is left of their width.
+    /// **Source**: F. T. Peirce, "The geometry of cloth structure", Journal of the Textile
+    /// Institute 28, 1937, of round threads; A. Kemp, "An extension of Peirce's cloth geometry to
+    /// the treatment of non-circular threads", the same 49, 1958, of flat ones
+    /// ([`Thread::flatness`](crate::Thread)): as round ones that are as thick as they are high,
+    /// further apart by what is left of their width.
     pub jammed_per_cm: Option<f64>,
 }
 
 impl Sett {
-    /// The sett as a share of the greatest one: above 1 the cloth is jammed unless its yarns flatten.
+    /// The sett as a share of the greatest one: above 1 the cloth is jammed unless its yarns
+    /// flatten.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.per_cm / self.greatest_per_cm
@@ -74,8 +81,8 @@ impl Woven {
         })
     }
 
-    /// How often picks change sides between one end and the next of its level, and ends between picks, for each level. Where a level of both sets
-    /// is a layer, within it.
+    /// How often picks change sides between one end and the next of its level, and ends between
+    /// picks, for each level. Where a level of both sets is a layer, within it.
     fn interlacings(&self) -> [Vec<Level>; 2] {
         let repeat = self.repeat();
         let levels = self.levels(repeat);
@@ -109,14 +116,16 @@ impl Woven {
     }
 }
 
-/// A level of a set: its share of the threads, and how often those of the other set change sides between them.
+/// A level of a set: its share of the threads, and how often those of the other set change sides
+/// between them.
 struct Level {
     share: f64,
     interlacings: f64,
 }
 
-/// The pitch at which threads of plain weave jam between those of the other set, mm: cos θ₁ + cos θ₂ = 1, where each set's pitch is the sum of both
-/// heights times sin θ, and what it is wider than high.
+/// The pitch at which threads of plain weave jam between those of the other set, mm: cos θ₁ + cos
+/// θ₂ = 1, where each set's pitch is the sum of both heights times sin θ, and what it is wider than
+/// high.
 fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
     let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
         let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));

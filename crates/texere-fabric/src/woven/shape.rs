@@ -1,4 +1,5 @@
-//! What shapes of cloth there are, and the threads of one direction as those that cross them see them.
+//! What shapes of cloth there are, and the threads of one direction as those that cross them see
+//! them.
 
 use texere_core::Section;
 
@@ -24,11 +25,13 @@ use crate::reach::Reach;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Shape {
-    /// One control point a crossing, and one before and after: the paper's count. Threads swing out further than they
-    /// are thick, so that the corners that the spline cuts stay clear; floats bulge.
+    /// One control point a crossing, and one before and after: the paper's count. Threads swing out
+    /// further than they are thick, so that the corners that the spline cuts stay clear; floats
+    /// bulge.
     Crossing,
-    /// Threads bend round one another as round threads do, and floats lie flat: three more control points wherever a
-    /// thread changes sides (and a few within floats that are long beside a close pitch).
+    /// Threads bend round one another as round threads do, and floats lie flat: three more control
+    /// points wherever a thread changes sides (and a few within floats that are long beside a close
+    /// pitch).
     #[default]
     Round,
 }
@@ -38,7 +41,8 @@ pub enum Shape {
 pub(super) struct Set {
     /// Where each thread lies, mm.
     pub(super) at: Vec<f32>,
-    /// Half the width of the room that each thread takes, mm: an ellipse that holds its section however twist turns it.
+    /// Half the width of the room that each thread takes, mm: an ellipse that holds its section
+    /// however twist turns it.
     pub(super) half_width: Vec<f32>,
     /// Half its height, mm.
     pub(super) half_height: Vec<f32>,

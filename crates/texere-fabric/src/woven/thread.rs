@@ -29,20 +29,23 @@ pub const STIFFNESS_MAX: f32 = 100.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thread {
-    /// Width of its column of the cloth, mm; the thread lies in the middle. So two neighbours are half of each spacing apart.
+    /// Width of its column of the cloth, mm; the thread lies in the middle. So two neighbours are
+    /// half of each spacing apart.
     pub spacing_mm: f64,
     /// Radius of the yarn where it is round, mm.
     pub radius_mm: f32,
-    /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one. The section, and what turns with
-    /// the twist, is inside that outline.
+    /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one. The
+    /// section, and what turns with the twist, is inside that outline.
     pub flatness: f32,
-    /// How stiff it is against bending where the cloth comes to rest: 1 for a cotton yarn of its diameter.
+    /// How stiff it is against bending where the cloth comes to rest: 1 for a cotton yarn of its
+    /// diameter.
     pub stiffness: f32,
     /// Index into the materials.
     pub material: u32,
     /// Index into the sections.
     pub section: u32,
-    /// Twist, rad per mm; positive is Z twist. [`twist_from_turns_per_m`](crate::twist_from_turns_per_m) gives it.
+    /// Twist, rad per mm; positive is Z twist.
+    /// [`twist_from_turns_per_m`](crate::twist_from_turns_per_m) gives it.
     pub twist: f32,
 }
 
@@ -67,7 +70,8 @@ impl Thread {
     }
 }
 
-/// Where the threads of a set lie, mm from the cloth's edge: each in the middle of a column as wide as its own spacing.
+/// Where the threads of a set lie, mm from the cloth's edge: each in the middle of a column as wide
+/// as its own spacing.
 ///
 /// **Source**: WIF 1.1 (Nielsen 1997) calls a thread's spacing the room that it takes in the cloth.
 pub(super) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {

@@ -22,26 +22,32 @@ use crate::{Drawdown, FabricError, WovenError};
 /// number = 1 to 4096
 /// ```
 ///
-/// Spaces may stand between any two parts, and case does not matter. The first pick is the bottom row, the first end the
-/// left column.
+/// Spaces may stand between any two parts, and case does not matter. The first pick is the bottom
+/// row, the first end the left column.
 ///
-/// - **Twill** `U/D(M)`: in the first pick U ends are up, the next D down; each pick moves that M ends further to the
-///   right (1 where no move is given). A positive move is a right-hand (Z) twill, a negative one left-hand (S).
-///   `U1/D1*U2/D2` strings several floats together. The hand may be said in words: `2/2 S`, `twill 2/2 left`.
-/// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends the other way round.
-///   `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave. By its name a matt has as many ends together as
-///   picks: `matt 2` is `2/2(2+2)`, and `hopsack 3/2` is `3/2(3+2)`.
-/// - **Satin** `N(M)` is warp-faced, (N-1)/1, **sateen** weft-faced, 1/(N-1). M shares no factor with N and is neither
-///   1 nor N-1; without it the smallest such move is taken. An irregular one names the end that each pick binds:
-///   `satin 6(1 3 5 2 6 4)`.
-/// - **Herringbone** `U/D(N)` is the twill `U/D`, right-hand for N ends and left-hand for the next N. Where the line
-///   turns it is cut: the other way starts half a repeat of the twill further on, so that in a balanced twill warp floats
-///   meet weft floats. `herringbone 2/2(2)` is the broken twill. N is at least half the ends of the twill's repeat.
-/// - **Pointed** `U/D(N)` turns at a single end instead, N ends from point to point with both of them; N is at least the
-///   ends of the twill's repeat.
-/// - **Honeycomb** (waffle) is the common one on eight ends and eight picks, ridges of floats round a plain hollow.
-/// - **Other names**: tabby is plain, waffle honeycomb, panama hopsack, point pointed, and crape and oatmeal are crepe.
-/// - **Crepe** is one on eight ends, made of the twill `2/2*1/1*1/1` with its ends in the order of a satin.
+/// - **Twill** `U/D(M)`: in the first pick U ends are up, the next D down; each pick moves that M
+///   ends further to the right (1 where no move is given). A positive move is a right-hand (Z)
+///   twill, a negative one left-hand (S). `U1/D1*U2/D2` strings several floats together. The hand
+///   may be said in words: `2/2 S`, `twill 2/2 left`.
+/// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends the
+///   other way round. `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave. By its name a
+///   matt has as many ends together as picks: `matt 2` is `2/2(2+2)`, and `hopsack 3/2` is
+///   `3/2(3+2)`.
+/// - **Satin** `N(M)` is warp-faced, (N-1)/1, **sateen** weft-faced, 1/(N-1). M shares no factor
+///   with N and is neither 1 nor N-1; without it the smallest such move is taken. An irregular one
+///   names the end that each pick binds: `satin 6(1 3 5 2 6 4)`.
+/// - **Herringbone** `U/D(N)` is the twill `U/D`, right-hand for N ends and left-hand for the next
+///   N. Where the line turns it is cut: the other way starts half a repeat of the twill further on,
+///   so that in a balanced twill warp floats meet weft floats. `herringbone 2/2(2)` is the broken
+///   twill. N is at least half the ends of the twill's repeat.
+/// - **Pointed** `U/D(N)` turns at a single end instead, N ends from point to point with both of
+///   them; N is at least the ends of the twill's repeat.
+/// - **Honeycomb** (waffle) is the common one on eight ends and eight picks, ridges of floats round
+///   a plain hollow.
+/// - **Other names**: tabby is plain, waffle honeycomb, panama hopsack, point pointed, and crape
+///   and oatmeal are crepe.
+/// - **Crepe** is one on eight ends, made of the twill `2/2*1/1*1/1` with its ends in the order of
+///   a satin.
 ///
 /// ```
 /// use texere_fabric::Weave;
@@ -56,8 +62,8 @@ pub struct Weave {
     repeat: Repeat,
 }
 
-/// What is repeated. A notation stays one: a satin of 4,095 ends would fill two megabytes, of which a small cloth sees
-/// nothing.
+/// What is repeated. A notation stays one: a satin of 4,095 ends would fill two megabytes, of which
+/// a small cloth sees nothing.
 #[derive(Clone)]
 enum Repeat {
     Written(Notation),
@@ -92,9 +98,10 @@ impl Weave {
 
     /// Reads the notation of a weave.
     ///
-    /// **Errors**: [`WovenError::NoWeave`] for a name that no weave has, [`WovenError::Hyphen`] and [`WovenError::Slash`] for
-    /// signs that only look like these, [`WovenError::Notation`] where the text departs from the grammar otherwise,
-    /// [`WovenError::SatinMove`], [`WovenError::NoSatin`] and [`WovenError::TwillMove`] for what can't be woven,
+    /// **Errors**: [`WovenError::NoWeave`] for a name that no weave has, [`WovenError::Hyphen`] and
+    /// [`WovenError::Slash`] for signs that only look like these, [`WovenError::Notation`] where
+    /// the text departs from the grammar otherwise, [`WovenError::SatinMove`],
+    /// [`WovenError::NoSatin`] and [`WovenError::TwillMove`] for what can't be woven,
     /// [`WovenError::Repeat`].
     pub fn parse(text: &str) -> Result<Self, WovenError> {
         Self { repeat: Repeat::Written(notation::parse(text)?) }.checked()

@@ -13,7 +13,8 @@ use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven};
 use crate::{FabricError, WovenError};
 
-/// The source of a control point that is next to no crossing: a yarn's first and last, and its turns at a selvedge.
+/// The source of a control point that is next to no crossing: a yarn's first and last, and its
+/// turns at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;
 
 /// Every crossing has two control points, so that none is numbered as high as [`NO_CROSSING`].
@@ -48,22 +49,25 @@ pub(super) type Kind = (bool, bool, u32);
 impl Woven {
     /// The yarns of the cloth: all ends, then all picks.
     ///
-    /// An end runs along +y, from half a pitch before the first pick to half a pitch after the last; a pick likewise
-    /// along +x. The cloth spans \[0, width\] × \[0, height\] (see [`Woven::size_mm`]). At a crossing the upper thread is at
-    /// +z and the lower at -z, far enough apart for their sections' heights ([`Crimp`](crate::Crimp) says how far each).
-    /// Between crossings threads go as [`Shape`](crate::Shape) says. Origins are [`Origin::End`] and [`Origin::Pick`].
-    /// The source of a control point is the number, pick × ends + end, both from 0, of the crossing at which it lies or
-    /// next to which it bends (half way between two, of the first along the yarn), or [`NO_CROSSING`] at the yarn's
-    /// ends.
+    /// An end runs along +y, from half a pitch before the first pick to half a pitch after the
+    /// last; a pick likewise along +x. The cloth spans \[0, width\] × \[0, height\] (see
+    /// [`Woven::size_mm`]). At a crossing the upper thread is at +z and the lower at -z, far enough
+    /// apart for their sections' heights ([`Crimp`](crate::Crimp) says how far each). Between
+    /// crossings threads go as [`Shape`](crate::Shape) says. Origins are [`Origin::End`] and
+    /// [`Origin::Pick`]. The source of a control point is the number, pick × ends + end, both from
+    /// 0, of the crossing at which it lies or next to which it bends (half way between two, of the
+    /// first along the yarn), or [`NO_CROSSING`] at the yarn's ends.
     ///
-    /// With a selvedge ([`Woven::set_selvedge`]) consecutive picks that are alike in material, section and twist are one
-    /// yarn, whose origin is its first pick. Odd picks run along +x, even ones back.
+    /// With a selvedge ([`Woven::set_selvedge`]) consecutive picks that are alike in material,
+    /// section and twist are one yarn, whose origin is its first pick. Odd picks run along +x, even
+    /// ones back.
     ///
-    /// **Errors**: [`WovenError::Points`] for more than [`POINTS_MAX`] control points, [`FabricError::OutOfMemory`],
-    /// and [`FabricError::Yarns`] for what only the whole shows.
+    /// **Errors**: [`WovenError::Points`] for more than [`POINTS_MAX`] control points,
+    /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for what only the whole shows.
     ///
-    /// **Source**: one control point a crossing is the paper's count; the height of a crossing and round threads follow
-    /// Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ + h₂ = d₁ + d₂).
+    /// **Source**: one control point a crossing is the paper's count; the height of a crossing and
+    /// round threads follow Peirce, "The geometry of cloth structure", Journal of the Textile
+    /// Institute 28, 1937 (h₁ + h₂ = d₁ + d₂).
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let (measured, passes) = (self.measured(), self.passes());
         let laying = self.laying(&measured);
@@ -95,7 +99,8 @@ impl Woven {
         Ok(Yarns::new(layout, self.materials().to_vec(), points)?.with_sources(sources)?)
     }
 
-    /// Control points of all yarns, in the present [`Shape`](crate::Shape) and with or without selvedge.
+    /// Control points of all yarns, in the present [`Shape`](crate::Shape) and with or without
+    /// selvedge.
     #[must_use]
     pub fn point_count(&self) -> u64 {
         let measured = self.measured();
@@ -147,7 +152,8 @@ impl Woven {
         Ok(())
     }
 
-    /// What belongs to the yarn that begins with a pass beside its control points; none where none begins.
+    /// What belongs to the yarn that begins with a pass beside its control points; none where none
+    /// begins.
     pub(super) fn yarn(&self, pass: &Pass) -> Option<Yarn> {
         let (thread, origin): (Thread, _) = match *pass {
             Pass::End(end) => (self.warp()[end], Origin::End(end as u32 + 1)),
@@ -165,7 +171,8 @@ impl Woven {
 }
 
 impl<'a> Laying<'a> {
-    /// Calls `work` on all threads for each pass and what there is for it, with the path that passes of its kind take.
+    /// Calls `work` on all threads for each pass and what there is for it, with the path that
+    /// passes of its kind take.
     fn each<T: Send>(
         &self,
         passes: &[Pass],
@@ -259,9 +266,10 @@ impl<'a> Laying<'a> {
         selvedge::runs_left(pick, self.cloth.selvedge())
     }
 
-    /// The turn from the pick before to `pick`. It begins as far beyond the edge end as both threads are wide by half, so
-    /// that the two can't touch whatever the end's height, or a quarter of the picks' distance, so that the turn's steps
-    /// are not much longer than the one that leads to it.
+    /// The turn from the pick before to `pick`. It begins as far beyond the edge end as both
+    /// threads are wide by half, so that the two can't touch whatever the end's height, or a
+    /// quarter of the picks' distance, so that the turn's steps are not much longer than the one
+    /// that leads to it.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let Measured { warp, weft, .. } = self.measured;
         let right = self.runs_left(pick);

@@ -16,7 +16,8 @@ fn twill(end: usize, pick: usize) -> bool {
     (end + 64 - pick) % 4 < 2
 }
 
-/// Two cloths of a weave, face ends and picks first by turns. Where `stitched`, some ends of the back are lifted over a pick of the face.
+/// Two cloths of a weave, face ends and picks first by turns. Where `stitched`, some ends of the
+/// back are lifted over a pick of the face.
 fn double(weave: fn(usize, usize) -> bool, stitched: bool) -> Drawdown {
     let up = move |end: usize, pick: usize| match [end % 2, pick % 2] {
         [0, 0] | [1, 1] => weave(end / 2, pick / 2),

@@ -65,9 +65,11 @@ fn satin(end: usize, pick: usize) -> bool {
 
 /// Counts and threads to the inch as mills sell them.
 ///
-/// Crimp of denim: 10 to 14 % of the warp in mills. Of poplin: "the warp crimp could be 14 % and the weft crimp only 2 %"
-/// (<https://www.textilecalculations.com/calculate-crimp-percentage-of-woven-fabric/>). Of sheeting and sateen: J. T. Taylor, "Cotton weaving and
-/// designing", 6th edition: intersections to the inch × 4, in medium cloths × 3, over the weft's count.
+/// Crimp of denim: 10 to 14 % of the warp in mills. Of poplin: "the warp crimp could be 14 % and
+/// the weft crimp only 2 %"
+/// (<https://www.textilecalculations.com/calculate-crimp-percentage-of-woven-fabric/>). Of sheeting
+/// and sateen: J. T. Taylor, "Cotton weaving and designing", 6th edition: intersections to the inch
+/// × 4, in medium cloths × 3, over the weft's count.
 fn cloths() -> Vec<Cloth> {
     let cotton = |warp: f64, weft: f64, ends: f64, picks: f64| {
         ([warp, weft].map(tex_from_cotton_count), [25.4 / ends, 25.4 / picks])
@@ -201,7 +203,8 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// Where there is no room at all, threads are not thinned away, and what comes back is no worse than what came to rest.
+/// Where there is no room at all, threads are not thinned away, and what comes back is no worse
+/// than what came to rest.
 #[test]
 fn cloth_without_room_is_no_worse() {
     let thread = |pitch: f64| vec![Thread::new(pitch, 0.0837); 8];
@@ -237,7 +240,8 @@ fn chance(seed: &mut u64) -> f64 {
     (*seed >> 40) as f64 / (1_u64 << 24) as f64
 }
 
-/// Threads and crossings without any order: nothing repeats, and every thread begins and ends at an edge.
+/// Threads and crossings without any order: nothing repeats, and every thread begins and ends at an
+/// edge.
 #[test]
 fn uneven_cloth_comes_to_rest_whole() {
     let mut seed = 11;
@@ -273,7 +277,8 @@ fn uneven_cloth_comes_to_rest_whole() {
     }
 }
 
-/// A woven structure comes to rest by its crossings, which its measures follow; what only knits have is refused.
+/// A woven structure comes to rest by its crossings, which its measures follow; what only knits
+/// have is refused.
 #[test]
 fn a_woven_structure_comes_to_rest() {
     let cotton = Material { tex: Some(tex_from_cotton_count(20.0) as f32), ..Material::default() };
@@ -321,7 +326,8 @@ fn a_woven_structure_comes_to_rest() {
     }
 }
 
-/// Stiff threads stay straight, and those that cross them crimp; as stiff both ways, the cloth is as balanced as before.
+/// Stiff threads stay straight, and those that cross them crimp; as stiff both ways, the cloth is
+/// as balanced as before.
 #[test]
 fn stiff_threads_stay_straight() {
     let sheeting = cloths().swap_remove(2).woven;

@@ -14,8 +14,8 @@ fn stretched(cloth: &Woven, along: Set, by: f64) -> Result<(Woven, Finish), Fini
     cloth.stretched(&Finish::default(), Stretch { along, by }, 0.0, &device, |_| ControlFlow::Continue(()))
 }
 
-/// Threads keep their length, measured by the test along yarns at rest: what is pulled straightens, and the cloth narrows by what those across
-/// need more.
+/// Threads keep their length, measured by the test along yarns at rest: what is pulled straightens,
+/// and the cloth narrows by what those across need more.
 #[test]
 fn threads_keep_their_length() {
     for (name, along, by) in [

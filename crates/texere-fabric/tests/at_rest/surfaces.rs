@@ -1,4 +1,5 @@
-//! Surfaces as they are drawn, sampled by themselves: how near they come, and what is seen from above.
+//! Surfaces as they are drawn, sampled by themselves: how near they come, and what is seen from
+//! above.
 
 use std::collections::HashMap;
 
@@ -98,7 +99,8 @@ impl Surfaces {
         for (yarn, rings) in self.yarns.iter().enumerate() {
             for ring in rings {
                 let [x, y] = key(ring.middle);
-                // Of every other yarn the ring next to this one's middle, which is where its own surface is searched from.
+                // Of every other yarn the ring next to this one's middle, which is where its own
+                // surface is searched from.
                 let mut near: HashMap<usize, Vec<usize>> = HashMap::new();
                 for (dx, dy) in (-2..=2).flat_map(|dx| (-2..=2).map(move |dy| (dx, dy))) {
                     for &(other, number) in cells.get(&[x + dx, y + dy]).into_iter().flatten() {
@@ -114,7 +116,8 @@ impl Surfaces {
                     for side in 0..SIDES {
                         let (sin, cos) = (side as f64 / SIDES as f64 * std::f64::consts::TAU).sin_cos();
                         let out = ring.side * cos + ring.up * sin;
-                        // How far out the point lies in the other's section, less how far both have grown.
+                        // How far out the point lies in the other's section, less how far both have
+                        // grown.
                         let left =
                             |growth: f64| inside(rings, ring.middle + out * growth).map(|far| far - growth);
                         if left(least).is_some_and(|left| left < 0.0) {
@@ -170,7 +173,8 @@ impl Surfaces {
         high - low
     }
 
-    /// Straight from above, within the window between two corners: the share of ground, and the share of weft.
+    /// Straight from above, within the window between two corners: the share of ground, and the
+    /// share of weft.
     pub(crate) fn seen(&self, corners: [DVec2; 2], pixels: usize) -> [f64; 2] {
         let mut screen = vec![(f64::NEG_INFINITY, false); pixels * pixels];
         let scale = (corners[1] - corners[0]) / pixels as f64;
@@ -208,7 +212,8 @@ impl Surfaces {
     }
 }
 
-/// How far out a place lies in the sections of some rings, 1 on their outline, where it lies between two of them.
+/// How far out a place lies in the sections of some rings, 1 on their outline, where it lies
+/// between two of them.
 fn inside(rings: &[Ring], place: DVec3) -> Option<f64> {
     let mut least: Option<f64> = None;
     let before = |ring: &Ring| (place - ring.middle).dot(ring.tangent);

@@ -6,7 +6,8 @@
 use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, Shape, Thread, Weave, Woven};
 
-/// Random weave: Knuth's multiplicative congruential generator, whose high bits are random enough for one.
+/// Random weave: Knuth's multiplicative congruential generator, whose high bits are random enough
+/// for one.
 pub(crate) fn random_bits(seed: u64) -> impl FnMut() -> bool {
     let mut state = seed;
     move || {
@@ -24,7 +25,8 @@ pub(crate) fn random_weave(seed: u64) -> Drawdown {
     Drawdown::from_fn(10, 10, |_, _| bits()).unwrap()
 }
 
-/// Warp satin beside weft satin, the boundary running across both: what a damask's figure has all round it.
+/// Warp satin beside weft satin, the boundary running across both: what a damask's figure has all
+/// round it.
 fn damask() -> Drawdown {
     let (satin, sateen) = (weave("satin 5"), weave("sateen 5"));
     Drawdown::from_fn(10, 10, |end, pick| if end + pick / 3 < 6 { &satin } else { &sateen }.up(end, pick))
@@ -46,8 +48,8 @@ pub(crate) fn cloth(shape: Shape, drawdown: Drawdown, [end, pick]: [Thread; 2], 
     cloth
 }
 
-/// Least pitch over (widths + heights) / 2 at which a thread with this share of the crimp has something straight
-/// between two bends.
+/// Least pitch over (widths + heights) / 2 at which a thread with this share of the crimp has
+/// something straight between two bends.
 pub(crate) fn jam(share: f32) -> f64 {
     f64::from((share * (2.0 - share)).sqrt())
 }

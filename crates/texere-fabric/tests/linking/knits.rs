@@ -5,7 +5,8 @@ use texere_core::{ControlPoint, Origin, Yarn, Yarns};
 /// The diameter of all yarns, mm.
 pub(crate) const D: f32 = 0.2;
 
-/// A knit of loops alike: each yarn runs along x from loop to loop, and lies one course above the one before.
+/// A knit of loops alike: each yarn runs along x from loop to loop, and lies one course above the
+/// one before.
 #[derive(Debug, Clone)]
 pub(crate) struct Knit {
     /// One loop's control points, from the middle between it and the loop before, mm.
@@ -61,8 +62,9 @@ impl Knit {
         self.loop_points.len()
     }
 
-    /// All courses, `to` having moved their points: it takes the course, the wale, the point in the loop, and where
-    /// it is from the loop's start. A yarn ends with the first point of the loop after its last, unless it `repeats`.
+    /// All courses, `to` having moved their points: it takes the course, the wale, the point in the
+    /// loop, and where it is from the loop's start. A yarn ends with the first point of the loop
+    /// after its last, unless it `repeats`.
     fn lines(
         &self,
         repeats: bool,
@@ -80,7 +82,8 @@ impl Knit {
         (0..self.courses).map(line).collect()
     }
 
-    /// The yarns with `to`'s moves, with `finer` times as many control points along the same curves.
+    /// The yarns with `to`'s moves, with `finer` times as many control points along the same
+    /// curves.
     pub(crate) fn yarns(&self, finer: usize, to: impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3]) -> Yarns {
         courses(self.lines(false, to).iter().map(|line| refined(line, finer)))
     }
@@ -99,7 +102,8 @@ impl Knit {
         }
     }
 
-    /// One loop pulled straight, out of the one that it was drawn through and of the one drawn through it.
+    /// One loop pulled straight, out of the one that it was drawn through and of the one drawn
+    /// through it.
     pub(crate) fn pulled(&self, at: [usize; 2]) -> impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3] {
         let foot = self.loop_points[0][2];
         move |place, point, [x, y, z]| if place == at && point > 0 { [x, 0.1 * y, foot] } else { [x, y, z] }
@@ -135,8 +139,8 @@ fn refined(line: &[[f32; 3]], finer: usize) -> Vec<[f32; 3]> {
     points
 }
 
-/// Closed tricot of 9 points a course: guide `guide` laps one needle to the left, then one to the right. `to` moves
-/// points as [`Knit::yarns`] has it, with the guide and the course as the place.
+/// Closed tricot of 9 points a course: guide `guide` laps one needle to the left, then one to the
+/// right. `to` moves points as [`Knit::yarns`] has it, with the guide and the course as the place.
 pub(crate) fn tricot(
     guides: usize,
     courses: usize,

@@ -1,4 +1,5 @@
-//! What is refused, how much work there is at most, and that neither threads nor size change what is found.
+//! What is refused, how much work there is at most, and that neither threads nor size change what
+//! is found.
 
 use std::ops::ControlFlow;
 

@@ -1,5 +1,5 @@
-//! Whether yarns that pass through one another are told, and only these: rings, weaves, layers; the modules have
-//! knits, repeats, and what is refused.
+//! Whether yarns that pass through one another are told, and only these: rings, weaves, layers; the
+//! modules have knits, repeats, and what is refused.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -20,10 +20,12 @@ use texere_fabric::{Shape, Thread, Woven};
 use cloths::{cloth, random_bits, weaves};
 use knits::D;
 
-/// The most by which cloth changes the linking of a pair of windows that was only bent, stretched or sheared.
+/// The most by which cloth changes the linking of a pair of windows that was only bent, stretched
+/// or sheared.
 const HARMLESS: f64 = 0.15;
 
-/// The least by which a passage does. (Not of every pair of windows that sees it, but of the worst.)
+/// The least by which a passage does. (Not of every pair of windows that sees it, but of the
+/// worst.)
 const SEEN: f64 = 0.8;
 
 fn yarns_of(lines: &[(bool, Vec<[f32; 3]>)], radius: f32) -> Yarns {
@@ -35,7 +37,8 @@ fn yarns_of(lines: &[(bool, Vec<[f32; 3]>)], radius: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The same yarns with every control point moved: `to` takes its yarn, its number in the yarn, and where it is.
+/// The same yarns with every control point moved: `to` takes its yarn, its number in the yarn, and
+/// where it is.
 fn moved(yarns: &Yarns, mut to: impl FnMut(usize, usize, [f32; 3]) -> [f32; 3]) -> Yarns {
     let mut after = yarns.clone();
     for yarn in 0..yarns.layout().yarns().len() {
@@ -189,8 +192,8 @@ fn a_flipped_end_is_told() {
     }
 }
 
-/// Two layers of plain weave of eight ends and picks each; at some crossings the lower layer's ends rise over the
-/// upper's picks where `stitched`.
+/// Two layers of plain weave of eight ends and picks each; at some crossings the lower layer's ends
+/// rise over the upper's picks where `stitched`.
 fn layers(stitched: bool) -> Yarns {
     let pitch = 2.5 * D;
     let place = |thread: usize| (thread as f32 + 0.5) * pitch;

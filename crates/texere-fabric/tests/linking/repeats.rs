@@ -6,8 +6,8 @@ use texere_core::{Boundary, Ends, Yarns};
 use crate::knits::{D, Knit, as_it_is};
 use crate::{HARMLESS, SEEN, moved, noise, pairs, yarns_of};
 
-/// What `pairs` tells of a jersey's repeat of 4 wales and `courses` courses when `to` has moved its points, with a
-/// period along y too where `above` is set.
+/// What `pairs` tells of a jersey's repeat of 4 wales and `courses` courses when `to` has moved its
+/// points, with a period along y too where `above` is set.
 fn repeated(courses: usize, above: bool, to: impl FnOnce(&Knit) -> Yarns) -> Linking {
     let knit = Knit::jersey(5.0, 4, courses);
     let before = knit.repeat(as_it_is);
@@ -80,8 +80,8 @@ fn each_passage_counts_once_wherever_the_edge_lies() {
     assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
 }
 
-/// Plain weave of two ends and two picks, one control point a crossing, that goes on on all sides; `flips` moves end
-/// 1 to the other side of pick 2.
+/// Plain weave of two ends and two picks, one control point a crossing, that goes on on all sides;
+/// `flips` moves end 1 to the other side of pick 2.
 fn weave_repeat(flips: bool) -> Yarns {
     let pitch = 2.5 * D;
     let height = |end: usize, pick: usize| {

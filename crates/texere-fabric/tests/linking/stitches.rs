@@ -7,7 +7,8 @@ use crate::cloths::{cloth, weave};
 use crate::knits::{D, Knit, as_it_is, tricot};
 use crate::{SEEN, compared, harmless, moved, pairs, stays_linked};
 
-/// Jerseys of 8, 12, 24, 36 and 16 points a loop, tight and loose, and how many times finer their control points lie.
+/// Jerseys of 8, 12, 24, 36 and 16 points a loop, tight and loose, and how many times finer their
+/// control points lie.
 fn jerseys() -> Vec<(Knit, usize)> {
     let mut jerseys: Vec<_> = [3.6, 5.0, 8.0]
         .into_iter()
@@ -87,7 +88,8 @@ fn stitches_of_warp_knits_are_told() {
 
 #[test]
 fn cloth_that_turns_over_in_its_plane_stays_linked() {
-    // On the straight way there all yarns pass through one line, so that every integral is worked out.
+    // On the straight way there all yarns pass through one line, so that every integral is worked
+    // out.
     let threads = [Thread::new(0.5, 0.1); 2];
     let weave = cloth(Shape::Round, weave("2/2"), threads, Section::Circle).yarns().unwrap();
     for yarns in [weave, Knit::jersey(5.0, 4, 4).yarns(1, as_it_is), tricot(3, 4, as_it_is)] {

@@ -85,7 +85,8 @@ fn a_carrier_follows_its_transferred_loop() {
     let text = "in 1\nknit + f1 1\nknit + f2 1\nknit + f3 1\nxfer f2 b2\nrack 1\nxfer b2 f3\nrack 0\nknit - f3 1\nknit - f2 1\n\
                 knit - f1 1\nout 1";
     let Knit { stitches, .. } = knit(&program(text));
-    // The yarn goes on from the loop where it was made to the next, and the loop's head hangs on needle 3.
+    // The yarn goes on from the loop where it was made to the next, and the loop's head hangs on
+    // needle 3.
     assert_eq!(stitches.strands.len(), 1);
     let steps: Vec<_> = stitches.strands[0]
         .steps

@@ -102,7 +102,8 @@ fn made(program: &Program) -> Vec<(u32, u16)> {
     program.operations.iter().flat_map(of).collect()
 }
 
-/// Of each of these loops its number among those that the program makes. Some are left out, as nothing holds them.
+/// Of each of these loops its number among those that the program makes. Some are left out, as
+/// nothing holds them.
 fn names(program: &Program, stitches: &Stitches) -> Vec<usize> {
     let made = made(program);
     let name = |stitch: &Stitch| made.iter().position(|&loops| loops == (stitch.source, stitch.plate));

@@ -67,7 +67,8 @@ fn racks_that_are_no_numbers_are_faults_and_move_nothing() {
     }
 }
 
-/// Three million operations of each kind; were any to take time that grows with the program, this would not end.
+/// Three million operations of each kind; were any to take time that grows with the program, this
+/// would not end.
 #[test]
 fn large_programs_are_run_in_time_that_grows_with_them() {
     const COUNT: i32 = 3_000_000;

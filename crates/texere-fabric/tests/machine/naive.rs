@@ -1,4 +1,5 @@
-//! A machine as simple as can be, with code of its own: every needle of every repeat holds a list, and every round is kept.
+//! A machine as simple as can be, with code of its own: every needle of every repeat holds a list,
+//! and every round is kept.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,5 @@
-//! What nothing holds is no cloth: carriers that are parked beyond it, and sets of carriers that act at once.
+//! What nothing holds is no cloth: carriers that are parked beyond it, and sets of carriers that
+//! act at once.
 
 use proptest::prelude::*;
 use texere_fabric::weft::{Fault, FaultKind, Knit, Machine, Step, Stitches};
@@ -24,7 +25,8 @@ fn bare(mut stitches: Stitches) -> Stitches {
     stitches
 }
 
-/// Rows of knitting to and fro with `carriers`, over needles 1 to 4 of a bed. `right` and `left` are done at the end of each row.
+/// Rows of knitting to and fro with `carriers`, over needles 1 to 4 of a bed. `right` and `left`
+/// are done at the end of each row.
 fn rows(bed: &str, carriers: &str, [right, left]: [&str; 2]) -> String {
     let row = |way: &str, needles: [u32; 4], end: &str| {
         let knits = needles.map(|needle| format!("knit {way} {bed}{needle} {carriers}\n"));
@@ -102,7 +104,8 @@ fn carriers_of_a_set_act_at_once() {
     ] {
         assert_eq!(tangled(&text), [], "{text}");
     }
-    // What another operation lays on both sides of a set catches all of it, and a set catches what waits.
+    // What another operation lays on both sides of a set catches all of it, and a set catches what
+    // waits.
     let set = "in 1 2\nin 3\nknit + f2 1 2\nknit + f1 3\nknit + f3 3\nknit - f2 1 2";
     assert_eq!(tangled(set), [(6, "1".into(), "3".into()), (6, "2".into(), "3".into())]);
     let waits = "in 1 2\nin 3\nknit + f2 3\nknit + f1 1 2\nknit + f3 1 2\nknit - f2 3";
@@ -116,14 +119,16 @@ fn floats_between_loops_stay() {
         stitches.strands[0].steps.iter().map(|step| stitches.visit(step).at).collect()
     };
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f2 1\nmiss + f3 1\nknit + f4 1"), [1.0, 2.0, 3.0, 4.0]);
-    // On the way to a loop further out that is made on the way back, and on the way back to one further in.
+    // On the way to a loop further out that is made on the way back, and on the way back to one
+    // further in.
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f3 1\nmiss + f9 1\nknit - f5 1"), [1.0, 3.0, 5.0]);
     assert_eq!(places("in 1\nknit + f5 1\nmiss + f9 1\nmiss - f3 1\nknit - f1 1"), [5.0, 3.0, 1.0]);
     // What falls off a needle there floats.
     assert_eq!(places("in 1\nknit + f1 1\ntuck + f2 1\nknit + f3 1\ndrop f2"), [1.0, 2.0, 3.0]);
 }
 
-/// Carrier 1 waits between needles 4 and 5, and carrier 2 lays its yarn over it: it can't be drawn back any more.
+/// Carrier 1 waits between needles 4 and 5, and carrier 2 lays its yarn over it: it can't be drawn
+/// back any more.
 #[test]
 fn yarn_that_another_has_caught_is_held_there() {
     let text = "in 1\nin 2\nknit + f2 1\nmiss + f4 1\nknit + f1 2\nknit + f3 2\nknit + f5 2\nknit - f2 1";
@@ -144,7 +149,8 @@ fn yarn_that_no_loop_holds_is_left_out_and_told() {
 }
 
 proptest! {
-    /// However carriers are led astray, yarn ends in loops and lies between them, unless others catch it.
+    /// However carriers are led astray, yarn ends in loops and lies between them, unless others
+    /// catch it.
     #[test]
     fn yarns_are_taut(program in programs()) {
         let Knit { stitches, faults, .. } = Machine::default().knit(&program).expect("a knit");

@@ -79,7 +79,8 @@ fn near<'a>(
     })
 }
 
-/// The least distance between the centrelines of two different yarns over the sum of their radii, of round yarns; at most 2.
+/// The least distance between the centrelines of two different yarns over the sum of their radii,
+/// of round yarns; at most 2.
 pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
     let thickest = yarns
         .points()
@@ -142,8 +143,9 @@ pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
     least
 }
 
-/// Whether two different yarns pierce one another when their sections are scaled by `scale`: whether a point of one's
-/// surface lies inside the other. `samples` steps an interval, `sides` points round a section.
+/// Whether two different yarns pierce one another when their sections are scaled by `scale`:
+/// whether a point of one's surface lies inside the other. `samples` steps an interval, `sides`
+/// points round a section.
 pub(crate) fn pierce(yarns: &Yarns, samples: usize, sides: u32, scale: f64) -> bool {
     let sections = yarns.layout().sections();
     let outlines: Vec<Vec<DVec2>> = sections
@@ -194,7 +196,8 @@ fn inside(point: DVec3, pair: &[Place], outline: &[DVec2]) -> bool {
     outline.iter().zip(outline.iter().cycle().skip(1)).all(|(a, b)| (*b - *a).perp_dot(at - *a) > 0.0)
 }
 
-/// The scale of all sections at which the first two yarns touch, to within 1/256 of the way between `low` and `high`.
+/// The scale of all sections at which the first two yarns touch, to within 1/256 of the way between
+/// `low` and `high`.
 pub(crate) fn surface_clearance(
     yarns: &Yarns,
     samples: usize,

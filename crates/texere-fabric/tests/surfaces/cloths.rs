@@ -31,8 +31,8 @@ fn radians_a_mm(turns_a_metre: f32) -> f32 {
 
 /// A cloth whose yarns touch or pierce a little; `twist` in turns a metre.
 ///
-/// Untwisted it lies in the room that [`Woven`] makes, pressed to nine tenths of its height. Twisted yarns follow the paths of
-/// round ones that nearly hold them, or just.
+/// Untwisted it lies in the room that [`Woven`] makes, pressed to nine tenths of its height.
+/// Twisted yarns follow the paths of round ones that nearly hold them, or just.
 pub(crate) fn close(weave: &str, section: &Section, twist: f32) -> Yarns {
     let (size, sett) = match weave {
         "plain" => (4, 1.75),
@@ -58,7 +58,8 @@ pub(crate) fn close(weave: &str, section: &Section, twist: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A plain weave of flattened threads, half again as wide as high, pressed to nine tenths of its height.
+/// A plain weave of flattened threads, half again as wide as high, pressed to nine tenths of its
+/// height.
 pub(crate) fn flattened(section: &Section, twist: f32) -> Yarns {
     let threads: Vec<_> = set(4, [2.5; 2], RADIUS, twist)
         .into_iter()

@@ -1,5 +1,5 @@
-//! How near the surfaces of yarns come to one another, furrows, twist and all: an oracle of its own, and the clearance beside
-//! it.
+//! How near the surfaces of yarns come to one another, furrows, twist and all: an oracle of its
+//! own, and the clearance beside it.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -50,7 +50,8 @@ fn assert_near(ratio: f64, expected: f64) {
     assert!((ratio - expected).abs() < 5e-4, "{ratio} instead of {expected}");
 }
 
-/// The tube is the one that a backend makes vertices of: bent, flattened, twisted either way. So it is half way between rings.
+/// The tube is the one that a backend makes vertices of: bent, flattened, twisted either way. So it
+/// is half way between rings.
 #[test]
 fn vertices_lie_on_the_surface() {
     const SIDES: u32 = 48;
@@ -122,8 +123,8 @@ fn twisted_yarns_side_by_side() {
     assert_near(surface_ratio(&yarns, dense(&yarns)), 0.8);
 }
 
-/// Two straight yarns of two plies side by side, 1.95 radii apart: a short one whose ply points at the other, which has made
-/// a quarter turn on the way there and so turns a furrow to it.
+/// Two straight yarns of two plies side by side, 1.95 radii apart: a short one whose ply points at
+/// the other, which has made a quarter turn on the way there and so turns a furrow to it.
 fn furrow_and_ply() -> Yarns {
     let (lead, apart) = (5.0, 1.95 * RADIUS);
     let ply = straight([0.0, 0.0, 0.0], [0.0, 0.01, 0.0], 0, 0.0);
@@ -135,8 +136,9 @@ fn furrow_and_ply() -> Yarns {
 #[test]
 fn a_ply_lies_in_a_furrow() {
     let yarns = furrow_and_ply();
-    // r(θ) = 1 - depth (1 - cos 2θ) with a depth of 1/4, made as large as the circle: its plies reach to 1.2978, its furrows
-    // down to half of that. The hull lies over the furrows at (2/3)^(3/2) of the plies.
+    // r(θ) = 1 - depth (1 - cos 2θ) with a depth of 1/4, made as large as the circle: its plies
+    // reach to 1.2978, its furrows down to half of that. The hull lies over the furrows at
+    // (2/3)^(3/2) of the plies.
     let ply = (0.75f64 * 0.75 + 0.25 * 0.25 / 2.0).sqrt().recip();
     assert_near(surface_ratio(&yarns, dense(&yarns)), 1.95 / (ply * 1.5));
     assert_near(hull_ratio(&yarns, dense(&yarns)), 1.95 / (ply * (1.0 + (2.0f64 / 3.0).powf(1.5))));
@@ -181,8 +183,9 @@ fn the_clearance_is_that_of_surfaces() {
     }
 }
 
-/// A yarn that bends over backwards passes through the vertical between two rings, where the upright frame flips and the one that is
-/// carried along does not. A round yarn passes there on the section's wide side.
+/// A yarn that bends over backwards passes through the vertical between two rings, where the
+/// upright frame flips and the one that is carried along does not. A round yarn passes there on the
+/// section's wide side.
 #[test]
 fn a_carried_frame_does_not_flip_between_rings() {
     for (section, away) in [(Section::Ellipse { aspect: 3.0 }, 0.33), (Section::Lobed { plies: 2 }, 0.28)] {

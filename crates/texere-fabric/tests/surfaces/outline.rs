@@ -11,7 +11,8 @@ const CORNERS: u32 = 4096;
 /// Angles of the table.
 const ANGLES: usize = 4096;
 
-/// How far a star-shaped outline lies from its centre at each of [`ANGLES`] angles, in radii of the yarn.
+/// How far a star-shaped outline lies from its centre at each of [`ANGLES`] angles, in radii of the
+/// yarn.
 pub(crate) struct Outline {
     radii: Vec<f64>,
     /// The greatest of them.
@@ -27,7 +28,8 @@ impl Outline {
     /// The outline as a taut thread round it lies.
     pub(crate) fn hull_of(section: &Section) -> Self {
         let mut corners = corners(section);
-        // The furthest corner is one of the hull's. From there on each corner that the next one lies outside of goes.
+        // The furthest corner is one of the hull's. From there on each corner that the next one
+        // lies outside of goes.
         let (furthest, _) =
             corners.iter().enumerate().max_by(|a, b| a.1.length().total_cmp(&b.1.length())).unwrap();
         corners.rotate_left(furthest);

@@ -1,8 +1,9 @@
 //! How far the sections of two yarns have to grow until their surfaces touch, by dense sampling.
 //!
-//! Where sections grow about their centres, yarns at a ratio lie within the same yarns at any greater ratio. So there is
-//! one ratio below which no point of a surface lies in another yarn, and above which some do. It is looked for from above:
-//! any sample that lies in another yarn takes the ratio down to where it first touched that yarn, until none does.
+//! Where sections grow about their centres, yarns at a ratio lie within the same yarns at any
+//! greater ratio. So there is one ratio below which no point of a surface lies in another yarn, and
+//! above which some do. It is looked for from above: any sample that lies in another yarn takes the
+//! ratio down to where it first touched that yarn, until none does.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -23,8 +24,8 @@ const ANGLES: usize = 256;
 /// Samples whose gauge is within this of the ratio may hide a touch between them and the next.
 const DOUBT: f64 = 0.005;
 
-/// The factor by which all sections grow until the first two yarns touch, furrows and all: within 5e-4, if `settings` puts
-/// rings a twenty-fifth of a diameter apart. 0.4 at least, 1.15 at most.
+/// The factor by which all sections grow until the first two yarns touch, furrows and all: within
+/// 5e-4, if `settings` puts rings a twenty-fifth of a diameter apart. 0.4 at least, 1.15 at most.
 pub(crate) fn surface_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     first_touch(yarns, settings, Outline::of)
 }
@@ -80,8 +81,8 @@ struct Sample {
 }
 
 impl Search {
-    /// Tests one ring of `step` and one angle of `step` of each yarn against all other yarns, and gives the nearest sample of
-    /// each ring that is in doubt.
+    /// Tests one ring of `step` and one angle of `step` of each yarn against all other yarns, and
+    /// gives the nearest sample of each ring that is in doubt.
     fn sweep(&mut self, step: usize) -> Vec<Sample> {
         let mut doubtful = Vec::new();
         let pairs =
@@ -128,7 +129,8 @@ impl Search {
         other.gauge(point, &sample.stretch, &mut sample.ring, ratio + DOUBT) - ratio
     }
 
-    /// Moves a sample to where its surface lies deepest in the other yarn, in steps from a ring and an angle on down.
+    /// Moves a sample to where its surface lies deepest in the other yarn, in steps from a ring and
+    /// an angle on down.
     fn settle(&mut self, sample: &mut Sample) {
         let ratio = self.ratio;
         let last = (self.tubes[sample.yarns[0]].rings() - 1) as f64;

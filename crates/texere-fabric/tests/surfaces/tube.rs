@@ -71,7 +71,8 @@ impl Tube {
         self.stations.len()
     }
 
-    /// The centre between ring `ring` and the next, on the cubic through both that has their tangents.
+    /// The centre between ring `ring` and the next, on the cubic through both that has their
+    /// tangents.
     fn centre(&self, ring: usize, share: f64) -> DVec3 {
         let (from, to) = (&self.stations[ring], &self.stations[ring + 1]);
         let chord = to.centre - from.centre;
@@ -120,9 +121,10 @@ impl Tube {
         stretches
     }
 
-    /// How many times the sections in `stretch` have to grow to reach `point`, which lies between two rings alone (no bend is
-    /// so tight that more would hold it): exact up to `most`, never too much, and
-    /// infinite beyond the stretch's ends. `ring` is where to look first, and becomes where it was found.
+    /// How many times the sections in `stretch` have to grow to reach `point`, which lies between
+    /// two rings alone (no bend is so tight that more would hold it): exact up to `most`, never too
+    /// much, and infinite beyond the stretch's ends. `ring` is where to look first, and becomes
+    /// where it was found.
     pub(crate) fn gauge(
         &self,
         point: DVec3,

@@ -1,4 +1,5 @@
-//! BMP images: numbers that the palette has no colour for, which their decoder shows black, are looked for before.
+//! BMP images: numbers that the palette has no colour for, which their decoder shows black, are
+//! looked for before.
 
 use std::io::{self, Read, SeekFrom};
 use std::path::Path;
@@ -11,8 +12,8 @@ const PLAIN: u32 = 0;
 const RUNS_OF_8_BITS: u32 = 1;
 const RUNS_OF_4_BITS: u32 = 2;
 
-/// What follows a zero in runs (MS-WMF, bitmap compression): a row ends, the picture ends, pixels are left out; more is a list of so many
-/// numbers.
+/// What follows a zero in runs (MS-WMF, bitmap compression): a row ends, the picture ends, pixels
+/// are left out; more is a list of so many numbers.
 const ROW_END: u8 = 0;
 const END: u8 = 1;
 const LEAVE_OUT: u8 = 2;
@@ -46,7 +47,8 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes) -> Result<(), ReadError>
     }
 }
 
-/// Reads the headers and goes to where pixels begin. `None` where each number has a colour, and where the decoder will refuse the file.
+/// Reads the headers and goes to where pixels begin. `None` where each number has a colour, and
+/// where the decoder will refuse the file.
 fn header(file: &mut impl Bytes) -> io::Result<Option<Numbers>> {
     let mut head = [0; 54];
     file.rewind()?;

@@ -12,7 +12,8 @@ use super::keys::Keys;
 use super::knit::KnittedFrom;
 use super::refusal::Refusal;
 
-/// The most control points among which the place that is too crowded to settle is looked for: a second's work.
+/// The most control points among which the place that is too crowded to settle is looked for: a
+/// second's work.
 const CROWDED_POINTS: usize = 1 << 18;
 
 /// A design, read and checked.
@@ -28,7 +29,8 @@ pub struct Design {
     pub name: String,
     /// What it describes.
     pub structure: Structure,
-    /// Whether its yarns come to rest ([`Design::rest`]) before they are used. [`Design::yarns`] are as they are before.
+    /// Whether its yarns come to rest ([`Design::rest`]) before they are used. [`Design::yarns`]
+    /// are as they are before.
     pub settle: bool,
     /// How they settle.
     pub finish: Finish,
@@ -46,7 +48,8 @@ pub struct Design {
 pub struct MachineFault {
     /// Where, and what.
     pub said: String,
-    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was meant.
+    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was
+    /// meant.
     pub is_error: bool,
 }
 
@@ -59,7 +62,8 @@ pub struct Told {
     pub instructions: Vec<String>,
 }
 
-/// A place on a yarn in a designer's words. It is written as `end 3 at pick 4, cotton`, of a knit with what [`Told`] says.
+/// A place on a yarn in a designer's words. It is written as `end 3 at pick 4, cotton`, of a knit
+/// with what [`Told`] says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedPlace {
     /// The thread, and the crossing or the stitch.
@@ -144,14 +148,16 @@ impl Design {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
-    /// The same design with the keys of its file. Those that it has already are of the draft that this file names.
+    /// The same design with the keys of its file. Those that it has already are of the draft that
+    /// this file names.
     pub(super) fn keyed(self, keys: Keys) -> Self {
         let named = (!self.keys.lines.is_empty()).then(|| Box::new(self.keys));
         Self { keys: Keys { named, ..keys }, ..self }
     }
 
-    /// An error of its structure, or of how that comes to rest, with the file, line and key that ask for it: what [`Structure`]'s methods and
-    /// [`Design::yarns`] give back knows threads and bars alone.
+    /// An error of its structure, or of how that comes to rest, with the file, line and key that
+    /// ask for it: what [`Structure`]'s methods and [`Design::yarns`] give back knows threads and
+    /// bars alone.
     ///
     /// ```no_run
     /// let design = texere_formats::read("designs/jersey.toml")?;
@@ -211,33 +217,36 @@ impl Design {
 
     /// The same design with the files that it was read from.
     pub(super) fn read_from(self, files: &[PathBuf]) -> Self {
-        // A program may change its folder. Where the present one is not known, the path stays as it is.
+        // A program may change its folder. Where the present one is not known, the path stays as it
+        // is.
         let absolute = |file: &PathBuf| path::absolute(file).unwrap_or_else(|_| file.clone());
         Self { files: files.iter().map(absolute).collect(), ..self }
     }
 
-    /// The files that it was read from: the design's own, and the images, WIF draft or knitting program that it names; none where it was read
-    /// [from memory](super::read_from). [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
+    /// The files that it was read from: the design's own, and the images, WIF draft or knitting
+    /// program that it names; none where it was read [from memory](super::read_from).
+    /// [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 
-    /// What is wrong with the program of a knit; these are among the [`remarks`](Design::remarks), too.
+    /// What is wrong with the program of a knit; these are among the [`remarks`](Design::remarks),
+    /// too.
     #[must_use]
     pub fn faults(&self) -> &[MachineFault] {
         &self.faults
     }
 
-    /// What told a machine to make the yarn of a control point, by that point's [source](Yarns::sources). None of what is not
-    /// knitted.
+    /// What told a machine to make the yarn of a control point, by that point's
+    /// [source](Yarns::sources). None of what is not knitted.
     #[must_use]
     pub fn told(&self, source: u32) -> Option<Told> {
         self.knitted_from.as_ref().map(|from| from.told(source))
     }
 
-    /// A place on one of `yarns`, the design's own, settled or not, in a designer's words: thread and crossing or stitch, yarn, and what told a machine
-    /// to make it.
+    /// A place on one of `yarns`, the design's own, settled or not, in a designer's words: thread
+    /// and crossing or stitch, yarn, and what told a machine to make it.
     ///
     /// **Panics** past the last yarn.
     ///
@@ -277,8 +286,8 @@ impl Design {
         &self.remarks
     }
 
-    /// What a designer should know: the reader's [`remarks`](Design::remarks), and what the fabric lacks as its structure puts
-    /// its yarns ([`Structure::warnings`]).
+    /// What a designer should know: the reader's [`remarks`](Design::remarks), and what the fabric
+    /// lacks as its structure puts its yarns ([`Structure::warnings`]).
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.structure.warnings();

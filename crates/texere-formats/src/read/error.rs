@@ -35,7 +35,8 @@ const SAID: usize = 160;
 /// Characters of a path that an error shows.
 const PATH_SHOWN: usize = 160;
 
-/// A file's text as errors show it: on one line, without codes that would steer a terminal, cut where it is long.
+/// A file's text as errors show it: on one line, without codes that would steer a terminal, cut
+/// where it is long.
 pub(super) fn shown(text: &str) -> String {
     cut(text, SHOWN)
 }
@@ -341,8 +342,8 @@ pub enum ReadError {
         /// What would do.
         expected: String,
     },
-    /// A corner of a polygon at which its outline faces nowhere: it is too small for its edges to have a direction, or its
-    /// two edges point opposite ways.
+    /// A corner of a polygon at which its outline faces nowhere: it is too small for its edges to
+    /// have a direction, or its two edges point opposite ways.
     #[error("{place}: the outline faces nowhere at corner {corner}; it is too small or too sharp there")]
     Corner {
         /// Where the polygon stands.
@@ -366,7 +367,8 @@ pub enum ReadError {
         /// Why.
         source: FabricError,
     },
-    /// Yarns that were saved without the design that they are of, where a design is needed. [`read::yarns`](fn@crate::read::yarns) reads them.
+    /// Yarns that were saved without the design that they are of, where a design is needed.
+    /// [`read::yarns`](fn@crate::read::yarns) reads them.
     #[error("{} holds saved yarns alone, and this needs the design that they are of", named(.file))]
     WithoutDesign {
         /// The file.
@@ -413,7 +415,8 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// What is wrong at the bottom of it: the error of the file that a design names, or else this one.
+    /// What is wrong at the bottom of it: the error of the file that a design names, or else this
+    /// one.
     ///
     /// ```
     /// use texere_formats::{ReadError, read};
@@ -428,7 +431,8 @@ impl ReadError {
         }
     }
 
-    /// What a fabric refused of the design in `file`. Memory that is short has nothing to do with the design.
+    /// What a fabric refused of the design in `file`. Memory that is short has nothing to do with
+    /// the design.
     pub(super) fn fabric(file: &Path, source: FabricError) -> Self {
         match source {
             FabricError::OutOfMemory(error) => Self::OutOfMemory(error),
@@ -436,7 +440,8 @@ impl ReadError {
         }
     }
 
-    /// This error of a file that the design names at `place`. Memory that is short has nothing to do with the file.
+    /// This error of a file that the design names at `place`. Memory that is short has nothing to
+    /// do with the file.
     pub(super) fn named(self, place: FilePlace) -> Self {
         match self {
             Self::OutOfMemory(_) => self,

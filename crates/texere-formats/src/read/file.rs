@@ -1,4 +1,5 @@
-//! Files as readers get them: regular ones of a disk, or bytes that a program has. None is larger than any design of its kind.
+//! Files as readers get them: regular ones of a disk, or bytes that a program has. None is larger
+//! than any design of its kind.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::Read;
@@ -17,16 +18,16 @@ pub(super) enum Opened {
     Bytes(Vec<u8>),
 }
 
-/// What opens the file of a path, which may have so many bytes at most. The first that it is asked for is the design's own, all
-/// others are those that the design names.
+/// What opens the file of a path, which may have so many bytes at most. The first that it is asked
+/// for is the design's own, all others are those that the design names.
 pub(super) type Files<'a> = dyn Fn(&Path, u64) -> Result<Opened, ReadError> + 'a;
 
-/// Opens a regular file of at most `limit` bytes. Reading a pipe that nothing writes to would never return, and a
-/// device has no end.
+/// Opens a regular file of at most `limit` bytes. Reading a pipe that nothing writes to would never
+/// return, and a device has no end.
 pub(super) fn open(path: &Path, limit: u64) -> Result<Opened, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
-    // Before it is opened, as opening alone can do something to a device. After it, as the name may stand for another
-    // file by then.
+    // Before it is opened, as opening alone can do something to a device. After it, as the name may
+    // stand for another file by then.
     regular(path, &std::fs::metadata(path).map_err(io)?, limit)?;
     let file = options().open(path).map_err(io)?;
     regular(path, &file.metadata().map_err(io)?, limit)?;

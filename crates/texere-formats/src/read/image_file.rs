@@ -19,8 +19,9 @@ const PIXELS_MAX: u64 = 1 << 28;
 /// The most memory for an image's pixels, bytes: four for each.
 const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
 
-/// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of them, and what the file says of
-/// its picture. A colour profile has no more than a few MiB; compressed, one of a gigabyte fits a small file.
+/// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of them, and
+/// what the file says of its picture. A colour profile has no more than a few MiB; compressed, one
+/// of a gigabyte fits a small file.
 pub(super) const ASIDE_MAX: u64 = 1 << 25;
 
 /// The largest image file that is read: one that is not compressed.
@@ -62,7 +63,8 @@ pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError>
         file.rewind().map_err(io)?;
         reader = ImageReader::with_format(file, format);
     }
-    // These are for what stands before the pixels; a PNG's text and colour profile are not asked for their own.
+    // These are for what stands before the pixels; a PNG's text and colour profile are not asked
+    // for their own.
     let mut limits = Limits::default();
     limits.max_alloc = Some(ASIDE_MAX);
     reader.limits(limits.clone());
@@ -94,13 +96,14 @@ pub(super) fn undecodable(path: &Path, why: &str) -> ReadError {
     ReadError::Image { file: path.into(), source: said(why).into() }
 }
 
-/// Why an image is refused where a pixel has a number that its palette of `colors` has no colour for.
+/// Why an image is refused where a pixel has a number that its palette of `colors` has no colour
+/// for.
 pub(super) fn no_color(number: usize, colors: usize) -> String {
     format!("a pixel has number {number} of a palette of {}", counted(colors as u64, "colour"))
 }
 
-/// The first `count` numbers of so many bits, 1, 2, 4 or 8, that a row's bytes hold, the first in the highest bits. What is left of the
-/// last byte is no pixel.
+/// The first `count` numbers of so many bits, 1, 2, 4 or 8, that a row's bytes hold, the first in
+/// the highest bits. What is left of the last byte is no pixel.
 pub(super) fn packed_numbers(row: &[u8], bits: usize, count: usize) -> impl Iterator<Item = usize> {
     let digits = move |byte: u8| (0..8 / bits).rev().map(move |place| usize::from(byte) >> (place * bits));
     row.iter().flat_map(move |byte| digits(*byte)).map(move |number| number & ((1 << bits) - 1)).take(count)

@@ -1,5 +1,5 @@
-//! Where a design says what an error of its cloth is about: structures and settlings know threads, bars and sizes, and a file has keys
-//! and lines for these.
+//! Where a design says what an error of its cloth is about: structures and settlings know threads,
+//! bars and sizes, and a file has keys and lines for these.
 
 use std::path::{Path, PathBuf};
 
@@ -67,11 +67,13 @@ pub(super) const GAUGE: &str = ";;Gauge";
 pub(super) struct Keys {
     pub(super) file: PathBuf,
     pub(super) lines: Vec<(String, usize)>,
-    /// Sections of a WIF draft with a line for each thread, as `WARP SPACING`: the numbers of threads, rising, and their lines.
+    /// Sections of a WIF draft with a line for each thread, as `WARP SPACING`: the numbers of
+    /// threads, rising, and their lines.
     pub(super) numbered: Vec<(String, Vec<(u32, usize)>)>,
     /// The operation of a knitout file that each carrier is in first, and its line.
     pub(super) carriers: Vec<(Origin, String, usize)>,
-    /// The last operation of a knitout file that makes a loop, and its line: by there its cloth has grown so large.
+    /// The last operation of a knitout file that makes a loop, and its line: by there its cloth has
+    /// grown so large.
     pub(super) last: Option<(String, usize)>,
     /// The keys of the draft that the design names.
     pub(super) named: Option<Box<Self>>,
@@ -83,7 +85,8 @@ impl Keys {
         (!self.file.as_os_str().is_empty()).then_some(&*self.file)
     }
 
-    /// Where the file says what an error is about; `yarn` names the yarn of a thread. None of what no key says.
+    /// Where the file says what an error is about; `yarn` names the yarn of a thread. None of what
+    /// no key says.
     pub(super) fn place(
         &self,
         error: &FinishError,

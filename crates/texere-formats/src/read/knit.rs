@@ -1,4 +1,5 @@
-//! From a knitting program to a design: what the machine makes of it, and where its operations come from.
+//! From a knitting program to a design: what the machine makes of it, and where its operations come
+//! from.
 
 use std::mem::{Discriminant, discriminant};
 use std::path::{Path, PathBuf};
@@ -37,7 +38,8 @@ pub(super) struct Knit {
 pub(super) enum Drawn {
     /// Lines of a file, from 1.
     Lines { file: PathBuf },
-    /// Cells of a chart, row by row from the bottom, both from 0. In an image the bottom row may be the top one.
+    /// Cells of a chart, row by row from the bottom, both from 0. In an image the bottom row may be
+    /// the top one.
     Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
 }
 
@@ -91,7 +93,8 @@ impl KnittedFrom {
 }
 
 impl Knit {
-    /// The yarns of carriers, with the materials and sections that they have. `compression` is what is left of their diameters.
+    /// The yarns of carriers, with the materials and sections that they have. `compression` is what
+    /// is left of their diameters.
     pub(super) fn yarns_of(
         mut threads: Vec<Thread>,
         compression: f64,
@@ -155,7 +158,8 @@ impl Knit {
     }
 }
 
-/// The faults of a program as a designer reads them, the first few of each kind, and how many more there are.
+/// The faults of a program as a designer reads them, the first few of each kind, and how many more
+/// there are.
 fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
     let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
     let mut faults = Vec::new();

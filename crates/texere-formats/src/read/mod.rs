@@ -1,4 +1,5 @@
-//! Readers: from a design file to a [`Design`], and from a file of saved yarns to [the yarns](fn@yarns).
+//! Readers: from a design file to a [`Design`], and from a file of saved yarns to [the
+//! yarns](fn@yarns).
 
 #[cfg(all(feature = "images", feature = "toml"))]
 mod bmp_file;
@@ -62,11 +63,11 @@ pub(crate) use wif::{
     UNITS_MM as WIF_UNITS_MM,
 };
 
-/// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine (knitout, `.k`, feature `knitout`),
-/// or texere's own design file (`.toml`, feature `toml`).
+/// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine
+/// (knitout, `.k`, feature `knitout`), or texere's own design file (`.toml`, feature `toml`).
 ///
-/// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply; [`ReadError::Feature`] for a kind of
-/// file that this build was made without.
+/// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply;
+/// [`ReadError::Feature`] for a kind of file that this build was made without.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     let opened = RefCell::new(Vec::new());
     let design = design(path.as_ref(), &|path, limit| {
@@ -77,14 +78,16 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     Ok(design.read_from(&opened.into_inner()))
 }
 
-/// Reads a design that a program has in memory, such as a buffer of an editor or a row of a database. `name` says by its ending what kind of
-/// design `bytes` are, as a path does for [`read`], and errors call the design by it.
+/// Reads a design that a program has in memory, such as a buffer of an editor or a row of a
+/// database. `name` says by its ending what kind of design `bytes` are, as a path does for
+/// [`read`], and errors call the design by it.
 ///
-/// `files` gives the bytes of a file that the design names: a picture, a WIF draft or a knitting program. It is asked by the path of that file
-/// beside `name`: by `looms/twill.wif` where `looms/cloth.toml` names `twill.wif`. No file of a disk is opened.
+/// `files` gives the bytes of a file that the design names: a picture, a WIF draft or a knitting
+/// program. It is asked by the path of that file beside `name`: by `looms/twill.wif` where
+/// `looms/cloth.toml` names `twill.wif`. No file of a disk is opened.
 ///
-/// **Errors**: those of [`read`]. What `files` refuses is [`ReadError::Io`] with the path that it was asked for. What it gives is taken up to the
-/// size that files of its kind may have.
+/// **Errors**: those of [`read`]. What `files` refuses is [`ReadError::Io`] with the path that it
+/// was asked for. What it gives is taken up to the size that files of its kind may have.
 ///
 /// ```
 /// use std::io::{Error, ErrorKind};

@@ -9,11 +9,12 @@ use texere_core::backend::filled;
 use super::ReadError;
 use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, packed_numbers, undecodable};
 
-/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
-/// one bit. So a short file takes no memory for pixels that it can't have.
+/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and
+/// each is eight pixels of one bit. So a short file takes no memory for pixels that it can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
-/// Refuses a PNG of `file_bytes` that has a broken palette, fewer bytes than its pixels take, or pixels beyond its palette.
+/// Refuses a PNG of `file_bytes` that has a broken palette, fewer bytes than its pixels take, or
+/// pixels beyond its palette.
 ///
 /// **Source**: PNG 1.2, 4.1.2: a number that the palette has no colour for is an error.
 pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Result<(), ReadError> {
@@ -52,7 +53,8 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
     }
 }
 
-/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
+/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder
+/// takes that for granted.
 fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
     // Behind the signature each chunk has its length, its name, its data and a checksum.
     file.seek(SeekFrom::Start(8))?;

@@ -8,7 +8,8 @@ use texere_core::backend::room;
 use super::file::Files;
 use super::{ReadError, image_file};
 
-/// The most colours of a point paper: as many as a byte can number, and far more than a weaver uses.
+/// The most colours of a point paper: as many as a byte can number, and far more than a weaver
+/// uses.
 const COLORS_MAX: usize = 256;
 
 /// A pixel that is wholly transparent.
@@ -75,7 +76,8 @@ impl PointPaper {
         Ok(Self { file: path.into(), ends, picks, colors, pixels, rows })
     }
 
-    /// Which of `colors` stands where `end` and `pick` of an endless cloth of this paper cross, both from 0.
+    /// Which of `colors` stands where `end` and `pick` of an endless cloth of this paper cross,
+    /// both from 0.
     pub(super) fn color(&self, end: usize, pick: usize) -> usize {
         let (end, pick) = (end % self.ends, pick % self.picks);
         let row = match self.rows {
@@ -122,7 +124,8 @@ impl PaperColor {
         }
     }
 
-    /// How light it looks, by the weights of ITU-R BT.601, in thousandths. Where nothing is, it is lighter than anything.
+    /// How light it looks, by the weights of ITU-R BT.601, in thousandths. Where nothing is, it is
+    /// lighter than anything.
     fn luma(&self) -> u32 {
         if self.rgba == NOTHING {
             return u32::MAX;
@@ -143,9 +146,10 @@ pub(super) struct Image {
     pub(super) orientation: Orientation,
 }
 
-/// How an image is turned before it is shown, as TIFF and Exif count it: 1 not at all, from 2 on mirrored left to right,
-/// turned by half, mirrored top to bottom, at the falling diagonal, turned a quarter clockwise, mirrored at the rising
-/// diagonal, turned a quarter back. What is none of these turns nothing.
+/// How an image is turned before it is shown, as TIFF and Exif count it: 1 not at all, from 2 on
+/// mirrored left to right, turned by half, mirrored top to bottom, at the falling diagonal, turned
+/// a quarter clockwise, mirrored at the rising diagonal, turned a quarter back. What is none of
+/// these turns nothing.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992, page 36.
 #[derive(Debug, Clone, Copy)]

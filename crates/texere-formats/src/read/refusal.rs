@@ -8,8 +8,8 @@ use thiserror::Error;
 use super::FilePlace;
 use super::error::named;
 
-/// A design whose cloth can't be made, or can't come to rest: [`Design::refused`](super::Design::refused) says where the design asks
-/// for that.
+/// A design whose cloth can't be made, or can't come to rest:
+/// [`Design::refused`](super::Design::refused) says where the design asks for that.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Refusal {
@@ -29,14 +29,15 @@ pub enum Refusal {
         /// Why.
         source: FinishError,
     },
-    /// Memory, a device, a setting of the mesh, somebody who asked to stop, a call that does not fit: no fault of the design. Or the design is of
-    /// no file.
+    /// Memory, a device, a setting of the mesh, somebody who asked to stop, a call that does not
+    /// fit: no fault of the design. Or the design is of no file.
     #[error(transparent)]
     Other(#[from] FinishError),
 }
 
 impl Refusal {
-    /// Why, in one line, with the place that asks for it where a key does: for a cloth that is there all the same.
+    /// Why, in one line, with the place that asks for it where a key does: for a cloth that is
+    /// there all the same.
     #[must_use]
     pub fn why(&self) -> String {
         match self {

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use texere_core::{Material, Section};
 use texere_fabric::Thread;
 
-/// The materials and sections that `threads` have, in their order and each section once, and the threads with their
-/// numbers. What no thread has is left out.
+/// The materials and sections that `threads` have, in their order and each section once, and the
+/// threads with their numbers. What no thread has is left out.
 pub(super) fn only_used(
     threads: [&mut [Thread]; 2],
     materials: &[Material],

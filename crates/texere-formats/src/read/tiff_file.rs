@@ -1,5 +1,5 @@
-//! TIFF images of one channel, grey or numbers of a palette: these are read sample by sample, since the decoder of all
-//! images takes few of them. It is told that they are grey.
+//! TIFF images of one channel, grey or numbers of a palette: these are read sample by sample, since
+//! the decoder of all images takes few of them. It is told that they are grey.
 
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -36,7 +36,8 @@ pub(super) struct Header {
     order: ByteOrder,
 }
 
-/// Whether a file that begins so is a BigTIFF, which the decoder of all images reads but does not know by itself.
+/// Whether a file that begins so is a BigTIFF, which the decoder of all images reads but does not
+/// know by itself.
 pub(super) fn is_big(start: &[u8]) -> bool {
     BIG.iter().any(|big| start.starts_with(big))
 }
@@ -53,7 +54,8 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
         Ok(Page { fill_order: 2, .. }) => {
             refuse("its FillOrder is 2, the bits of each byte turned round; save it with FillOrder 1")
         }
-        // Of planes but the first one the decoder takes the lowest tiles for whole ones, and panics.
+        // Of planes but the first one the decoder takes the lowest tiles for whole ones, and
+        // panics.
         Ok(Page { in_planes_of_tiles: true, .. }) => refuse(
             "its samples lie in planes of tiles (PlanarConfiguration 2); save it with PlanarConfiguration 1",
         ),
@@ -124,7 +126,8 @@ fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::R
     Ok(None)
 }
 
-/// How many bytes the decoder may take at a time: for pixels, beside them, and for what the file says of its picture.
+/// How many bytes the decoder may take at a time: for pixels, beside them, and for what the file
+/// says of its picture.
 fn limits(pixels: usize) -> Limits {
     let bytes = pixels + ASIDE_MAX as usize;
     let mut limits = Limits::default();
@@ -134,7 +137,8 @@ fn limits(pixels: usize) -> Limits {
     limits
 }
 
-/// Reads the pixels of the first page, of which `header` has been told, as red, green, blue and opacity.
+/// Reads the pixels of the first page, of which `header` has been told, as red, green, blue and
+/// opacity.
 pub(super) fn decode(path: &Path, file: impl Bytes, header: &Header) -> Result<Image, ReadError> {
     let failed = |error: TiffError| undecodable(path, &error.to_string());
     let mut decoder = Grey::new(file, header)
@@ -194,7 +198,8 @@ impl Samples {
         let first = |values: Vec<u16>| values.first().copied();
         let count = first(all(Tag::SamplesPerPixel)?).unwrap_or(1).into();
         let extra = all(Tag::ExtraSamples)?;
-        // 1 and 2 are opacities, by which colours are multiplied or not. Where a pixel is wholly opaque that is the same.
+        // 1 and 2 are opacities, by which colours are multiplied or not. Where a pixel is wholly
+        // opaque that is the same.
         let alpha = extra.iter().position(|of| [1, 2].contains(of));
         let map = all(Tag::ColorMap)?;
         Ok(Self {
@@ -253,8 +258,8 @@ impl Samples {
     }
 }
 
-/// A TIFF that says of its samples that they are grey from black on, whatever they are: what the decoder gives is then
-/// what the file holds.
+/// A TIFF that says of its samples that they are grey from black on, whatever they are: what the
+/// decoder gives is then what the file holds.
 struct Grey<F> {
     file: F,
     /// Where in the file the next byte is.

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use texere_core::{BoundaryError, PipelineError, counted};
 use thiserror::Error;
 
-/// A mesh or a draft that can't be written. After any of these there is no new file, and an old one is as it was.
+/// A mesh or a draft that can't be written. After any of these there is no new file, and an old one
+/// is as it was.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -26,8 +27,9 @@ pub enum WriteError {
         /// The feature that writes it.
         feature: &'static str,
     },
-    /// The file system refused: no such folder, no permission, no room. A target that is a folder, a device, a link
-    /// that leads nowhere or a file that its user may not write is refused before any work is done.
+    /// The file system refused: no such folder, no permission, no room. A target that is a folder,
+    /// a device, a link that leads nowhere or a file that its user may not write is refused before
+    /// any work is done.
     #[error("can't {action} {}", .path.display())]
     Io {
         /// What was being done: create, write, rename or look at.
@@ -54,7 +56,8 @@ pub enum WriteError {
     /// The mesh could not be made, or progress asked to stop.
     #[error("{}", if matches!(.0, PipelineError::Cancelled) { "writing was stopped" } else { "the mesh could not be made" })]
     Pipeline(#[from] PipelineError),
-    /// GLB counts its bytes with 32 bits. PLY has no such limit; fewer sides or subdivisions make a smaller file.
+    /// GLB counts its bytes with 32 bits. PLY has no such limit; fewer sides or subdivisions make a
+    /// smaller file.
     #[error(
         "GLB of {bytes} bytes or more, but the format ends at {limit}; write PLY, or fewer sides or subdivisions"
     )]

@@ -1,4 +1,5 @@
-//! Feeds a mesh to a format's writer, and checks that every vertex comes once, in order, and finite.
+//! Feeds a mesh to a format's writer, and checks that every vertex comes once, in order, and
+//! finite.
 
 use std::borrow::Borrow;
 use std::io::{Seek, Write};

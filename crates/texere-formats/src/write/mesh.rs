@@ -22,10 +22,11 @@ pub struct Written {
 
 /// Writes a mesh that lies in memory, in the format that the extension of `output` stands for.
 ///
-/// Triangles are those of the mesh's plan; its `indices` are not read, so that any topology will do.
+/// Triangles are those of the mesh's plan; its `indices` are not read, so that any topology will
+/// do.
 ///
-/// **Errors**: [`WriteError`] where the format can't hold the mesh, the mesh is not what its plan says or not finite, or
-/// the file system refuses.
+/// **Errors**: [`WriteError`] where the format can't hold the mesh, the mesh is not what its plan
+/// says or not finite, or the file system refuses.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;
@@ -47,10 +48,11 @@ pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Writes a mesh that lies in memory to `out`, from where that stands: the bytes that [`mesh`](fn@mesh) writes to a file. Then `out`
-/// stands behind the last of them.
+/// Writes a mesh that lies in memory to `out`, from where that stands: the bytes that
+/// [`mesh`](fn@mesh) writes to a file. Then `out` stands behind the last of them.
 ///
-/// **Errors**: those of [`mesh`](fn@mesh), with [`WriteError::Writer`] where `out` refuses. What it has then is no whole file.
+/// **Errors**: those of [`mesh`](fn@mesh), with [`WriteError::Writer`] where `out` refuses. What it
+/// has then is no whole file.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -90,12 +92,13 @@ fn whole<W: Write + Seek>(
     feed.finish()
 }
 
-/// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension of `output`
-/// stands for. At most two chunks of it are in memory.
+/// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension
+/// of `output` stands for. At most two chunks of it are in memory.
 ///
 /// The pipeline's topology is replaced by [`Topology::Shared`], so that the device writes no index.
 ///
-/// **Errors**: those of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] where the pipeline fails or its progress asks to stop.
+/// **Errors**: those of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] where the pipeline fails or
+/// its progress asks to stop.
 ///
 /// ```
 /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_formats::WriteError> {
@@ -118,10 +121,11 @@ pub fn stream(
     Ok(Written { bytes: target.commit()?, ..written })
 }
 
-/// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from where `out` stands: the bytes that [`stream`] writes
-/// to a file. Then `out` stands behind the last of them.
+/// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from where `out`
+/// stands: the bytes that [`stream`] writes to a file. Then `out` stands behind the last of them.
 ///
-/// **Errors**: those of [`stream`], with [`WriteError::Writer`] where `out` refuses. What it has then is no whole file.
+/// **Errors**: those of [`stream`], with [`WriteError::Writer`] where `out` refuses. What it has
+/// then is no whole file.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -146,7 +150,8 @@ pub fn stream_to(
     Ok(Written { bytes: target.close()?, ..written })
 }
 
-/// Runs a pipeline and writes its mesh to the target that `start` gives. How many bytes it has, its end tells.
+/// Runs a pipeline and writes its mesh to the target that `start` gives. How many bytes it has, its
+/// end tells.
 fn streamed<W: Write + Seek>(
     pipeline: Pipeline<'_>,
     device: &dyn Backend,

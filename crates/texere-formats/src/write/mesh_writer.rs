@@ -22,7 +22,8 @@ pub(super) struct Run<'a> {
 
 /// A format's way to write.
 pub(super) trait MeshWriter<W: Write + Seek> {
-    /// Takes vertices. Each of the file comes once: those of rings in order, and those of caps in order.
+    /// Takes vertices. Each of the file comes once: those of rings in order, and those of caps in
+    /// order.
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError>;
 
     /// Takes the triangles of `chunk`, whose vertices have come but for a ring that is repeated.
@@ -32,8 +33,8 @@ pub(super) trait MeshWriter<W: Write + Seek> {
     fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
 }
 
-/// Which yarn each of `count` vertices of a chunk from number `first` on belongs to: runs of places, counted from
-/// `first`, in order.
+/// Which yarn each of `count` vertices of a chunk from number `first` on belongs to: runs of
+/// places, counted from `first`, in order.
 pub(super) fn yarn_runs(
     chunk: &Chunk,
     sides: u32,

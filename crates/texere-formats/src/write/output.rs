@@ -8,7 +8,8 @@ use same_file::Handle;
 
 use super::WriteError;
 
-/// The target of a write, and the files that it must not replace, such as those that the design was read from.
+/// The target of a write, and the files that it must not replace, such as those that the design was
+/// read from.
 ///
 /// Any path is an output that replaces whatever file lies there. All writers take one:
 ///
@@ -34,8 +35,9 @@ impl Output {
         Self { path: path.as_ref().to_owned(), spared: Vec::new() }
     }
 
-    /// Does not replace any of `files`, under whatever name: another spelling, a hard link or a symbolic one. Those of a
-    /// design are [`Design::files`](crate::Design::files). It adds to what was spared before.
+    /// Does not replace any of `files`, under whatever name: another spelling, a hard link or a
+    /// symbolic one. Those of a design are [`Design::files`](crate::Design::files). It adds to what
+    /// was spared before.
     #[must_use]
     pub fn sparing(mut self, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Self {
         self.spared.extend(files.into_iter().map(|file| file.as_ref().to_owned()));
@@ -48,11 +50,11 @@ impl Output {
         &self.path
     }
 
-    /// Checks whether a file may be put there now: for a program that has much to do before it writes. Writers check this
-    /// themselves, before they begin and again before the rename.
+    /// Checks whether a file may be put there now: for a program that has much to do before it
+    /// writes. Writers check this themselves, before they begin and again before the rename.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or where something lies that
-    /// no file may replace.
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or
+    /// where something lies that no file may replace.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }
@@ -98,7 +100,8 @@ impl FilePlace {
 
     /// The file that is to be replaced, if there is one.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] for what no file may take the place of.
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] for what no file may take the
+    /// place of.
     pub(super) fn check(&self) -> Result<Option<Metadata>, WriteError> {
         let refused = |source| WriteError::io("create", self.path(), source);
         let old = match fs::symlink_metadata(&self.real) {
@@ -151,8 +154,8 @@ fn follow(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Whether the file at a place may be replaced. Without this check a rename would also replace a device, or a file that
-/// the user may not write.
+/// Whether the file at a place may be replaced. Without this check a rename would also replace a
+/// device, or a file that the user may not write.
 fn replaceable(place: &Path, old: &Metadata) -> io::Result<()> {
     if old.is_dir() {
         Err(ErrorKind::IsADirectory.into())

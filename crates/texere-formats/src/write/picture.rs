@@ -5,11 +5,11 @@ use std::io::{self, ErrorKind, Write};
 use super::target::Target;
 use super::{Output, WriteError};
 
-/// Writes a picture of `size` pixels (width, height) to a PNG file: `pixels` are red, green and blue of each, sRGB, a byte each, or these
-/// and alpha, rows from the top.
+/// Writes a picture of `size` pixels (width, height) to a PNG file: `pixels` are red, green and
+/// blue of each, sRGB, a byte each, or these and alpha, rows from the top.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::Spared`], [`WriteError::Io`],
-/// also for pixels that are not as many as `size` says.
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// [`WriteError::Spared`], [`WriteError::Io`], also for pixels that are not as many as `size` says.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -28,7 +28,8 @@ pub fn picture(size: [u32; 2], pixels: &[u8], output: impl Into<Output>) -> Resu
 
 /// Writes a picture to `out`: the bytes that [`picture`](fn@picture) writes to a file.
 ///
-/// **Errors**: [`WriteError::Writer`] where `out` refuses, also for pixels that are not as many as `size` says.
+/// **Errors**: [`WriteError::Writer`] where `out` refuses, also for pixels that are not as many as
+/// `size` says.
 ///
 /// ```
 /// let mut png = Vec::new();

@@ -2,10 +2,12 @@
 
 use texere_core::backend::{Chunk, Plan};
 
-/// Where a file has the vertices of the chunks that come: first all rings of the fabric, each once, then all caps.
+/// Where a file has the vertices of the chunks that come: first all rings of the fabric, each once,
+/// then all caps.
 ///
-/// A chunk that ends inside a yarn repeats the next chunk's first ring. In the file that ring stands once, and the triangles of
-/// both chunks refer to it. So every yarn is one piece, and the file is the same wherever chunks are cut.
+/// A chunk that ends inside a yarn repeats the next chunk's first ring. In the file that ring
+/// stands once, and the triangles of both chunks refer to it. So every yarn is one piece, and the
+/// file is the same wherever chunks are cut.
 #[derive(Debug)]
 pub(super) struct Places {
     sides: u64,

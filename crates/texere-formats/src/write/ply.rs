@@ -1,6 +1,7 @@
 //! Binary PLY: one list of vertices, one list of triangles.
 //!
-//! Source: Greg Turk, "The PLY Polygon File Format", 1994. Colours are the yarns' sRGB values, as readers expect them.
+//! Source: Greg Turk, "The PLY Polygon File Format", 1994. Colours are the yarns' sRGB values, as
+//! readers expect them.
 
 use std::io::{Seek, Write};
 
@@ -24,8 +25,9 @@ const VERTICES_MAX: u64 = u32::MAX as u64;
 
 /// A PLY file under way.
 ///
-/// In the file all vertices come before all faces, and tubes before caps, but the mesh comes chunk by chunk. So the file grows in
-/// four places. To write all faces at the end would be half of the work, without progress and without a chance to cancel.
+/// In the file all vertices come before all faces, and tubes before caps, but the mesh comes chunk
+/// by chunk. So the file grows in four places. To write all faces at the end would be half of the
+/// work, without progress and without a chance to cancel.
 #[derive(Debug)]
 pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,

@@ -9,8 +9,8 @@ use super::{Output, WriteError};
 /// Bytes gathered before the system is called. With more, calls cost nothing beside the copying.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// A file that is written piece by piece: one that takes its place only when it is complete, or bytes to a writer of the
-/// caller's.
+/// A file that is written piece by piece: one that takes its place only when it is complete, or
+/// bytes to a writer of the caller's.
 #[derive(Debug)]
 pub(super) struct Target<W: Write> {
     /// The path that was asked for; none where the writer is the caller's.
@@ -18,7 +18,8 @@ pub(super) struct Target<W: Write> {
     out: W,
     /// Where `out` stood when the file began.
     start: u64,
-    /// Bytes that `out` has not got yet. Without memory for this buffer, every write goes straight to `out`.
+    /// Bytes that `out` has not got yet. Without memory for this buffer, every write goes straight
+    /// to `out`.
     waiting: Vec<u8>,
     /// From the file's start, in bytes.
     position: u64,
@@ -99,8 +100,8 @@ impl<W: Write + Seek> Target<W> {
         Ok(())
     }
 
-    /// Hands everything over to the caller's writer, and leaves that behind the file's last byte. Gives the file's length
-    /// in bytes.
+    /// Hands everything over to the caller's writer, and leaves that behind the file's last byte.
+    /// Gives the file's length in bytes.
     pub(super) fn close(mut self) -> Result<u64, WriteError> {
         self.go_to(self.end)?;
         self.done()

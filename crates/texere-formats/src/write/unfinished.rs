@@ -1,8 +1,9 @@
 //! A file that is not yet complete: under a temporary name, in the folder of its target.
 //!
-//! It never stays behind. After an error or a panic it is removed when its owner is dropped; before a signal ends the
-//! program, [`abandon`] removes it; and files that a killed process left are removed by the next write in that folder. A
-//! writer holds a lock on its file, which the system releases with the process: a file without a lock is a leftover.
+//! It never stays behind. After an error or a panic it is removed when its owner is dropped; before
+//! a signal ends the program, [`abandon`] removes it; and files that a killed process left are
+//! removed by the next write in that folder. A writer holds a lock on its file, which the system
+//! releases with the process: a file without a lock is a leftover.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -21,7 +22,8 @@ const PREFIX: &str = ".texere-";
 const RANDOM: usize = 16;
 const ENDING: &str = ".unfinished";
 
-/// How often a new file may be taken for a leftover, and removed, by others that start at the same moment.
+/// How often a new file may be taken for a leftover, and removed, by others that start at the same
+/// moment.
 const ATTEMPTS: usize = 100;
 
 /// The unfinished files of this process.
@@ -45,11 +47,11 @@ fn registry_in_use() -> io::Result<MutexGuard<'static, Registry>> {
     Ok(registry)
 }
 
-/// Removes every file that this process has not finished writing, and lets none be started or finished any more: for
-/// a program that is about to end, say by a signal.
+/// Removes every file that this process has not finished writing, and lets none be started or
+/// finished any more: for a program that is about to end, say by a signal.
 ///
-/// A file is either whole when this returns, or as it was before. Writers that are at work fail with
-/// [`WriteError::Io`].
+/// A file is either whole when this returns, or as it was before. Writers that are at work fail
+/// with [`WriteError::Io`].
 ///
 /// ```no_run
 /// // On Ctrl-C, in a thread that waits for it:
@@ -157,13 +159,15 @@ fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Takes a new file's lock. Gives `false` where another process took the file for a leftover first: that process holds the
-/// lock, or has removed the name. With the lock, no other process removes the file.
+/// Takes a new file's lock. Gives `false` where another process took the file for a leftover first:
+/// that process holds the lock, or has removed the name. With the lock, no other process removes
+/// the file.
 fn hold(file: &NamedTempFile) -> io::Result<bool> {
     match file.as_file().try_lock() {
         Ok(()) => Ok(is_named(file.path(), file.as_file().try_clone()?)),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // On a file system without locks no other process gets this one either, so none removes the file.
+        // On a file system without locks no other process gets this one either, so none removes the
+        // file.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }
@@ -189,7 +193,8 @@ fn is_name(name: &str) -> bool {
 fn remove_left(path: &Path, place: &FilePlace) -> io::Result<()> {
     let file = OpenOptions::new().read(true).write(true).open(path)?;
     file.try_lock()?;
-    // Before we had the lock, its writer may have finished it: then the name is gone, or another file's.
+    // Before we had the lock, its writer may have finished it: then the name is gone, or another
+    // file's.
     let handle = Handle::from_file(file)?;
     if Handle::from_path(path)? == handle && !place.spares(&handle) {
         fs::remove_file(path)?;

@@ -1,4 +1,5 @@
-//! Designs as files: what is read again equals what was written, and a second reader of WIF, which shares nothing with ours, agrees.
+//! Designs as files: what is read again equals what was written, and a second reader of WIF, which
+//! shares nothing with ours, agrees.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,8 @@ pub(crate) fn woven(design: &Design) -> &WovenDesign {
     design.structure.woven().unwrap()
 }
 
-/// What a design has once it was written with `write` to a file of this name and read again, and what the file left out.
+/// What a design has once it was written with `write` to a file of this name and read again, and
+/// what the file left out.
 pub(crate) fn again(
     design: &Design,
     name: &str,
@@ -303,7 +305,8 @@ fn threads_as_thick_as_their_spacing_stay_so() {
 
 #[test]
 fn sizes_that_no_unit_holds_to_the_bit_have_the_same_text_again() {
-    // Each unit is off in two of these, and decipoints have the fewest digits. What is read of them has as many in centimeters, which come first.
+    // Each unit is off in two of these, and decipoints have the fewest digits. What is read of them
+    // has as many in centimeters, which come first.
     let sizes = [(819.4922889486355, 214.85893), (10.0 / 12.0, 305.75195), (232.13929242082267, 159.15794)];
     let warp = sizes.map(|(spacing_mm, radius_mm)| Thread::new(spacing_mm, radius_mm)).to_vec();
     let drawdown = Weave::parse("plain").unwrap().drawdown(3, 2).unwrap();

@@ -12,8 +12,8 @@ use texere_formats::write::{SHAFTS_MAX, Side, draft};
 const WARP: [u8; 3] = [10, 120, 30];
 const WEFT: [u8; 3] = [200, 40, 90];
 
-/// Where things lie in a draft of six ends, four picks, four shafts and three treadles, of squares of 16 pixels: a margin
-/// of 12, a gap of 16 between blocks, and a line that closes each block.
+/// Where things lie in a draft of six ends, four picks, four shafts and three treadles, of squares
+/// of 16 pixels: a margin of 12, a gap of 16 between blocks, and a line that closes each block.
 const LEFT: u32 = 12;
 const BAR_TOP: u32 = 12;
 const THREADING_TOP: u32 = 12 + 17 + 16;
@@ -52,7 +52,8 @@ fn drawn(cloth: &Woven, shafts: Option<&Draft>, side: Side) -> RgbImage {
     picture
 }
 
-/// Squares of 16 pixels from a place, as a weaver writes them: `#` for black, `.` for white, `?` for a colour.
+/// Squares of 16 pixels from a place, as a weaver writes them: `#` for black, `.` for white, `?`
+/// for a colour.
 fn squares(picture: &RgbImage, left: u32, top: u32, columns: u32, rows: u32) -> Vec<String> {
     let sign = |column, row| match picture.get_pixel(left + column * 16 + 8, top + row * 16 + 8).0 {
         [0, 0, 0] => '#',

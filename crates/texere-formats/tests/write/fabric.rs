@@ -1,4 +1,5 @@
-//! A small fabric with everything in it that a file has to get right, and what its mesh is, told without any file.
+//! A small fabric with everything in it that a file has to get right, and what its mesh is, told
+//! without any file.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,8 @@ use texere_cpu::SerialBackend;
 /// Three vertices, as the bits of their six floats each.
 pub(crate) type Triangle = [[u32; 6]; 3];
 
-/// Two ends of one length, a closed yarn, one of no known origin that is lobed, and a pick of 65 rings with K = 1: one
-/// more than a block.
+/// Two ends of one length, a closed yarn, one of no known origin that is lobed, and a pick of 65
+/// rings with K = 1: one more than a block.
 pub(crate) fn fabric() -> Yarns {
     let mut yarns = Yarns::builder();
     let materials: Vec<u32> = ["cotton \"raw\"\n", "Wolle, grün"]
@@ -55,7 +56,8 @@ pub(crate) fn long_yarn() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Buffers that hold one block of 65 rings, five sides and a cap, 7,920 bytes, but hardly more: chunks cut through yarns.
+/// Buffers that hold one block of 65 rings, five sides and a cap, 7,920 bytes, but hardly more:
+/// chunks cut through yarns.
 pub(crate) const TINY: Limits = Limits { binding_bytes: 8000, ..Limits::NONE };
 
 /// All that should make no difference to what is in a file: topologies and ways to cut.
@@ -110,7 +112,8 @@ fn tiny_chunks_cut_where_it_hurts() {
     assert!(chunks.iter().any(|chunk| chunk.caps().len() == 1), "one end of a yarn without the other");
 }
 
-/// A box in the fabric that only some blocks of the closed yarn reach into, and the half of another yarn.
+/// A box in the fabric that only some blocks of the closed yarn reach into, and the half of another
+/// yarn.
 pub(crate) fn region() -> Bounds {
     Bounds::rectangle([-12.0, 5.0], [0.4, 12.0])
 }

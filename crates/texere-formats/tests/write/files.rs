@@ -26,8 +26,8 @@ fn contents(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
     all
 }
 
-/// Runs `attempt`, which must fail, towards a new file and over an old one in either format: no new file may be there
-/// after it, and the old one as it was.
+/// Runs `attempt`, which must fail, towards a new file and over an old one in either format: no new
+/// file may be there after it, and the old one as it was.
 fn leaves_no_trace(attempt: impl Fn(&Path) -> WriteError, expected: impl Fn(&WriteError) -> bool) {
     for format in Format::ALL {
         let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! A yarn is one piece for a reader that joins nothing of itself: triangles hang together where they share a vertex's number.
+//! A yarn is one piece for a reader that joins nothing of itself: triangles hang together where
+//! they share a vertex's number.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -63,7 +64,8 @@ fn of_ply(bytes: &[u8]) -> usize {
     Pieces::of(vertices, triangles).count()
 }
 
-/// Pieces of a GLB file: a primitive has vertices of its own, so what two of them have in common is not joined.
+/// Pieces of a GLB file: a primitive has vertices of its own, so what two of them have in common is
+/// not joined.
 fn of_glb(bytes: &[u8]) -> usize {
     let gltf = Gltf::from_slice(bytes).unwrap();
     let blob = gltf.blob.as_deref().unwrap();
@@ -101,7 +103,8 @@ fn leaked(yarns: Yarns) -> &'static Yarns {
     Box::leak(Box::new(yarns))
 }
 
-/// Caps have normals of their own, so they can't share vertices with the tube: each is a piece of its own.
+/// Caps have normals of their own, so they can't share vertices with the tube: each is a piece of
+/// its own.
 #[test]
 fn a_yarn_is_one_piece_however_it_is_cut() {
     for (yarns, open) in [(leaked(fabric()), 4), (leaked(long_yarn()), 1)] {
@@ -156,7 +159,8 @@ fn a_region_has_a_piece_for_each_run_of_rings() {
     }
 }
 
-/// Sixteen sides and six subdivisions of many ends and picks: the cut that the default limits make lies inside a yarn.
+/// Sixteen sides and six subdivisions of many ends and picks: the cut that the default limits make
+/// lies inside a yarn.
 #[test]
 fn the_default_limits_cut_no_yarn_in_two() {
     let mut yarns = Yarns::builder();

@@ -27,8 +27,9 @@ const NAMES: [&str; 12] = [
     "Wolle, grün [é]",
 ];
 
-/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every unit: proptest 1.12 fails an assertion of
-/// its own, rarely, where the lower bound has digits finer than those of the upper bound.
+/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
+/// unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has digits
+/// finer than those of the upper bound.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))
 }

@@ -13,7 +13,8 @@ use crate::fabric::{TINY, fabric, pipeline, ways, whole};
 /// What lies before and behind the file in the writer: neither may change.
 const BEFORE: &[u8] = b"what an archive has before it";
 
-/// What `write` leaves in a writer that stands behind `BEFORE`, whose old bytes reach further than any file.
+/// What `write` leaves in a writer that stands behind `BEFORE`, whose old bytes reach further than
+/// any file.
 fn written(write: impl FnOnce(&mut Cursor<Vec<u8>>)) -> Vec<u8> {
     let mut out = Cursor::new([BEFORE, &vec![0xa5; 1 << 20]].concat());
     out.set_position(BEFORE.len() as u64);

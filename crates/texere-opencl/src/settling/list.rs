@@ -15,7 +15,8 @@ use crate::buffers::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
-/// They run one after the other; the host waits for the extent of all chords, and for how many neighbours there are.
+/// They run one after the other; the host waits for the extent of all chords, and for how many
+/// neighbours there are.
 #[derive(Debug)]
 pub(super) struct ListKernels {
     extent: Kernel,
@@ -51,7 +52,8 @@ impl ListKernels {
         let groups = params.chords.div_ceil(SETTLING_EXTENT.group as u32).min(EXTENT_GROUPS);
         let value = [Arg::Value(bytes_of(params))];
         let args = [&value[..], &in_memory([&memory.chords, &memory.extents])].concat();
-        // SAFETY: the arguments are those of `settling_extent`; groups read all chords, and each writes its row.
+        // SAFETY: the arguments are those of `settling_extent`; groups read all chords, and each
+        // writes its row.
         unsafe { start(&mut self.extent, opened, &args, groups * SETTLING_EXTENT.group as u32) }?;
         let mut extents = vec![ExtentRow::default(); groups as usize];
         memory.extents.read_now(opened, 0, &mut extents)?;
@@ -60,12 +62,13 @@ impl ListKernels {
         let Memory { chords, cells, sorted, sums, .. } = memory;
         let value = [Arg::Value(bytes_of(&params))];
         let args = [&value[..], &in_memory([chords, cells])].concat();
-        // SAFETY: the arguments are those of `settling_cell_count`; a lane reads its chord and adds to its cell's count: there
-        // are no more cells than there is room for, and one behind them.
+        // SAFETY: the arguments are those of `settling_cell_count`; a lane reads its chord and adds
+        // to its cell's count: there are no more cells than there is room for, and one behind them.
         unsafe { start(&mut self.cell_count, opened, &args, params.chords) }?;
         self.scan.run(opened, cells, params.cells() + 1, sums)?;
         let args = [&value[..], &in_memory([chords, cells, sorted])].concat();
-        // SAFETY: the arguments are those of `settling_cell_fill`; a lane writes its chord's number where its cell's count says.
+        // SAFETY: the arguments are those of `settling_cell_fill`; a lane writes its chord's number
+        // where its cell's count says.
         unsafe { start(&mut self.cell_fill, opened, &args, params.chords) }?;
         Ok(params)
     }
@@ -84,8 +87,8 @@ impl ListKernels {
         let Memory { chords, chord_rows, place_rows, strands, cells, sorted, starts, sums, .. } = memory;
         let tables = in_memory([chords, chord_rows, place_rows, strands, cells, sorted, starts]);
         let args = [&value[..], &tables].concat();
-        // SAFETY: the arguments are those of `settling_count`; a lane reads its chord and those of the cells beside it with their
-        // rows, and writes its count.
+        // SAFETY: the arguments are those of `settling_count`; a lane reads its chord and those of
+        // the cells beside it with their rows, and writes its count.
         unsafe { start(&mut self.count, opened, &args, params.chords) }?;
         self.scan.run(opened, starts, params.chords + 1, sums)?;
         let mut total = [0];
@@ -96,8 +99,8 @@ impl ListKernels {
             memory;
         let tables = in_memory([chords, chord_rows, place_rows, strands, cells, sorted, starts, neighbours]);
         let args = [&value[..], &tables].concat();
-        // SAFETY: the arguments are those of `settling_fill`; a lane reads what it has counted by, and writes as many neighbours as it
-        // counted, for all of which there is room.
+        // SAFETY: the arguments are those of `settling_fill`; a lane reads what it has counted by,
+        // and writes as many neighbours as it counted, for all of which there is room.
         unsafe { start(&mut self.fill, opened, &args, params.chords) }?;
         flush(opened.queue.raw()).map_err(opened.failed("clFlush"))?;
         Ok(total[0])
@@ -124,8 +127,8 @@ impl Scan {
         let groups = count.div_ceil(SETTLING_SCAN_VALUES as u32);
         let lanes = groups * SETTLING_SCAN.group as u32;
         let args = [&[Arg::Value(bytes_of(&count))][..], &in_memory([values, own])].concat();
-        // SAFETY: the arguments are those of both kernels; a group reads and writes its values, of which there are `count` in all,
-        // and writes or reads its sum.
+        // SAFETY: the arguments are those of both kernels; a group reads and writes its values, of
+        // which there are `count` in all, and writes or reads its sum.
         unsafe { start(&mut self.sum, opened, &args, lanes) }?;
         if groups > 1 {
             self.run(opened, own, groups, further)?;
@@ -171,7 +174,8 @@ mod tests {
         }
     }
 
-    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of their numbers.
+    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of
+    /// their numbers.
     #[test]
     fn neighbours_are_listed_in_the_order_of_their_numbers() {
         let mut yarns = Yarns::builder();

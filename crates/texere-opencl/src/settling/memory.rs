@@ -46,7 +46,8 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
+    /// them, may have.
     pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);

@@ -60,7 +60,8 @@ impl OpenClSettler {
         })
     }
 
-    /// Writes all control points, padded as `plan` says, to `points` where that lies in the same context. Says whether it does.
+    /// Writes all control points, padded as `plan` says, to `points` where that lies in the same
+    /// context. Says whether it does.
     pub(crate) fn write_points(
         &mut self,
         opened: &Arc<Opened>,

@@ -1,4 +1,5 @@
-//! What Rust writes into a table, a kernel reads under the same name: on the device, with its compiler.
+//! What Rust writes into a table, a kernel reads under the same name: on the device, with its
+//! compiler.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -129,7 +130,8 @@ fn bits(number: usize) -> u32 {
     0x3f80_0000 + number as u32
 }
 
-/// What a kernel finds in its `parameter`, called `values`, which `set` hands over: `names`, in order.
+/// What a kernel finds in its `parameter`, called `values`, which `set` hands over: `names`, in
+/// order.
 fn probe(
     context: &Context,
     queue: &CommandQueue,

@@ -1,4 +1,5 @@
-//! A caller with a context and a queue of its own: our commands run there, and the mesh stays there.
+//! A caller with a context and a queue of its own: our commands run there, and the mesh stays
+//! there.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,

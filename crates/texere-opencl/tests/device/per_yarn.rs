@@ -43,7 +43,8 @@ fn what_it_does_agrees_with_the_oracle() {
 
 #[test]
 fn a_lane_cut_at_a_yarns_last_ring_takes_that_ring_alone() {
-    // 65 rings: a block of 64, and one of the last ring. Two rows a chunk leave the last ring for a chunk of its own.
+    // 65 rings: a block of 64, and one of the last ring. Two rows a chunk leave the last ring for a
+    // chunk of its own.
     let yarns = cases::winding(65, Yarn::default());
     let settings = Settings { subdivisions: 0, ..Settings::default() };
     let report = check(&yarns, settings, &device(Schedule::PerYarn), false).unwrap();

@@ -1,4 +1,5 @@
-//! Sessions on a device: pieces, memory, and what is refused. The suite tries misuse, edits and times.
+//! Sessions on a device: pieces, memory, and what is refused. The suite tries misuse, edits and
+//! times.
 
 use std::ops::ControlFlow;
 use std::process::Command;

@@ -1,4 +1,5 @@
-//! Fibres that stand off yarns: as long as they are said to be, the same in every picture, and none where nobody would see them.
+//! Fibres that stand off yarns: as long as they are said to be, the same in every picture, and none
+//! where nobody would see them.
 
 use std::f64::consts::PI;
 
@@ -58,7 +59,8 @@ fn hairs_are_not_seen_from_afar() {
     }
 }
 
-/// However the fabric is cut into chunks and the screen into bands, by either kind of atomics, and in every run.
+/// However the fabric is cut into chunks and the screen into bands, by either kind of atomics, and
+/// in every run.
 #[test]
 fn hairs_are_the_same_in_every_picture() {
     let whole = renderer().lock().unwrap();
@@ -106,7 +108,8 @@ fn a_hair_is_seen_as_its_yarn() {
             continue;
         };
         assert!(hairy.yarn < ENDS + PICKS);
-        // No hair is longer than two and a half millimetres, and the next point of its yarn no farther from its root than one.
+        // No hair is longer than two and a half millimetres, and the next point of its yarn no
+        // farther from its root than one.
         let points = yarns.yarn_points(hairy.yarn).unwrap();
         let off =
             points.iter().map(|point| point.position().distance(hairy.position.map(|at| at as f32).into()));
@@ -120,8 +123,9 @@ fn a_hair_is_seen_as_its_yarn() {
     assert!(beside > 20 && over > 20, "{beside} {over}");
 }
 
-/// By Cauchy and Crofton: seen from all sides, a curve is pi / 4 as long as it is in the mean. So what hairs cover of pictures is their length times pi / 4 of
-/// their width, however they bend. The yarns that they stand off are so thin that they hide nothing.
+/// By Cauchy and Crofton: seen from all sides, a curve is pi / 4 as long as it is in the mean. So
+/// what hairs cover of pictures is their length times pi / 4 of their width, however they bend. The
+/// yarns that they stand off are so thin that they hide nothing.
 #[test]
 fn hairs_are_as_long_as_their_yarn_says() {
     const VIEWS: u32 = 5;
@@ -147,7 +151,8 @@ fn hairs_are_as_long_as_their_yarn_says() {
     let size = [(LENGTH as f32 + 6.0) * PER_MM, (YARNS as f32 * APART) * PER_MM].map(|pixels| pixels as u32);
     let renderer = renderer().lock().unwrap();
     let extent = Extent::of(&yarns(0.0));
-    // Hairs stand off alike all round, so directions that lie evenly between across the yarns and along them do for all.
+    // Hairs stand off alike all round, so directions that lie evenly between across the yarns and
+    // along them do for all.
     let cameras: Vec<_> = (0..VIEWS)
         .map(|view| {
             let cosine = (view as f32 + 0.5) / VIEWS as f32;
@@ -167,6 +172,7 @@ fn hairs_are_as_long_as_their_yarn_says() {
     let hairs_mm = (covered(HAIRINESS) - covered(0.0)) / WIDTH_MM * 4.0 / PI;
     let said_mm = f64::from(HAIRINESS) * f64::from(YARNS * LENGTH);
     println!("{hairs_mm:.1} mm of hairs, {said_mm} said");
-    // Some thirteen hundred hairs of lengths that scatter by nine tenths of their mean, and some that cover others.
+    // Some thirteen hundred hairs of lengths that scatter by nine tenths of their mean, and some
+    // that cover others.
     assert!((hairs_mm / said_mm - 1.0).abs() < 0.06, "{hairs_mm} {said_mm}");
 }

@@ -6,8 +6,8 @@ use wgpu::{Backends, InstanceDescriptor, InstanceFlags, PollType};
 use super::{DEVICE, SETTINGS, SIZE, TWILL};
 use crate::{Camera, Quality, Renderer};
 
-/// wgpu's own count of what lives says whether anything of ours is left behind. The process's memory doesn't: lavapipe keeps one to three MiB of each
-/// picture.
+/// wgpu's own count of what lives says whether anything of ours is left behind. The process's
+/// memory doesn't: lavapipe keeps one to three MiB of each picture.
 #[test]
 fn scenes_that_come_and_go_leave_nothing_on_the_device() {
     let instance = wgpu::Instance::new(InstanceDescriptor {

@@ -1,6 +1,8 @@
-// The mesh, drawn by a device's own rasteriser: what is nearest in each sample, unlit. After texere_shaders::picture::KEPT and SIDES.
+// The mesh, drawn by a device's own rasteriser: what is nearest in each sample, unlit. After
+// texere_shaders::picture::KEPT and SIDES.
 
-// Rust: Run, 16 bytes. A block of the chunk's rings and the quads that start from them, or a yarn's cap.
+// Rust: Run, 16 bytes. A block of the chunk's rings and the quads that start from them, or a yarn's
+// cap.
 struct Run {
     yarn: u32,
     // Of the yarn.
@@ -25,8 +27,9 @@ fn position_of(number: u32) -> vec3<f32> {
 struct Seen {
     @builtin(position) position: vec4<f32>,
     @location(0) normal: vec3<f32>,
-    // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's corners turn with its
-    // twist. A facet's own, so that it does not depend on where a chunk is cut.
+    // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's
+    // corners turn with its twist. A facet's own, so that it does not depend on where a chunk is
+    // cut.
     @location(1) @interpolate(flat) fibre: vec3<f32>,
     // Where on the yarn: cosine and sine round it, rings along it.
     @location(2) around: vec2<f32>,
@@ -50,7 +53,8 @@ fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
     var seen: Seen;
     seen.position = clip_of(position);
     seen.normal = normal;
-    // To the next ring. Past a run's last ring there is another run or nothing, but no facet's first corner lies there.
+    // To the next ring. Past a run's last ring there is another run or nothing, but no facet's
+    // first corner lies there.
     seen.fibre = normal;
     if !is_cap && inside < run.gaps * SIDES {
         seen.fibre = position_of(number + SIDES) - position;
@@ -61,7 +65,8 @@ fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
     return seen;
 }
 
-// What is kept, in numbers of 16 bits: a rasteriser has no targets of 32 for several samples a pixel.
+// What is kept, in numbers of 16 bits: a rasteriser has no targets of 32 for several samples a
+// pixel.
 struct Kept {
     @location(0) directions: vec4<u32>,
     @location(1) place: vec4<u32>,

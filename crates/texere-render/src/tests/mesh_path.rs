@@ -1,4 +1,5 @@
-//! The judge of pictures: the mesh as any session makes it, drawn by the device's own rasteriser, and lit as ever.
+//! The judge of pictures: the mesh as any session makes it, drawn by the device's own rasteriser,
+//! and lit as ever.
 
 use bytemuck::{Pod, Zeroable};
 use image::RgbImage;
@@ -29,7 +30,8 @@ struct Run {
 /// `CAP` of `mesh.wgsl`.
 const CAP: u32 = 1 << 31;
 
-/// Counts the samples that both have a yarn in, or one, and those of them where it is another or its depth is.
+/// Counts the samples that both have a yarn in, or one, and those of them where it is another or
+/// its depth is.
 const COMPARE: &str = "
 @group(0) @binding(0) var drawn_depths: texture_depth_multisampled_2d;
 @group(0) @binding(2) var places: texture_multisampled_2d<u32>;
@@ -108,13 +110,15 @@ fn triangles(plan: &Plan, chunk: &Chunk) -> (Vec<Run>, Vec<[u32; 4]>) {
 /// What the judge says of a picture.
 #[derive(Debug)]
 pub(super) struct Judgement {
-    /// Of the samples that show a yarn the share in which the mesh has another one, or at another depth.
+    /// Of the samples that show a yarn the share in which the mesh has another one, or at another
+    /// depth.
     pub(super) off: f64,
     /// The picture as the scene draws it, and as the mesh shows it.
     pub(super) pictures: [RgbImage; 2],
 }
 
-/// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, however far it is.
+/// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, however
+/// far it is.
 pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     scene.look(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     let mut view = ViewUniform::new(camera, Background::Ground, 1, false);
@@ -137,7 +141,8 @@ fn lit(scene: &Scene, camera: &Camera) -> RgbImage {
     image_of(camera.size(), rgb)
 }
 
-/// Draws over the screen, and counts the samples that show a yarn, and those of them that are not what was there.
+/// Draws over the screen, and counts the samples that show a yarn, and those of them that are not
+/// what was there.
 fn draw(scene: &Scene, plan: &Plan, chunk: &Chunk, camera: &Camera) -> [u32; 2] {
     let (renderer, screen) = (&scene.renderer, scene.screen.as_ref().unwrap());
     let device = renderer.device.device();

@@ -138,7 +138,8 @@ fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     }
 }
 
-/// Scenes of one renderer take over what pictures are drawn into, but not from a scene that still has it.
+/// Scenes of one renderer take over what pictures are drawn into, but not from a scene that still
+/// has it.
 #[test]
 fn a_scene_keeps_its_picture_while_others_are_drawn() {
     let renderer = renderer().lock().unwrap();
@@ -162,7 +163,8 @@ fn a_scene_keeps_its_picture_while_others_are_drawn() {
     assert_eq!(seen(&last), before);
 }
 
-/// Where a pixel of the screen has its first sample in a picture of threads finer than pixels: `sample_in` of `view.wgsl`.
+/// Where a pixel of the screen has its first sample in a picture of threads finer than pixels:
+/// `sample_in` of `view.wgsl`.
 fn shifted_sample(x: u32, y: u32) -> [f32; 2] {
     let mixed = x.wrapping_mul(1_597_334_677) ^ y.wrapping_mul(3_812_015_801);
     let hash = (mixed ^ (mixed >> 16)).wrapping_mul(2_246_822_519);
@@ -191,7 +193,8 @@ fn threads_finer_than_pixels_are_seen_where_rays_hit_them() {
             *if hit == seen { &mut alike } else { &mut others } +=
                 usize::from(hit.is_some() || seen.is_some());
         }
-        // Corners are rounded to 1/256 of a pixel, so some samples on an edge fall to its other side.
+        // Corners are rounded to 1/256 of a pixel, so some samples on an edge fall to its other
+        // side.
         assert!(alike > 250 && others * 50 < alike, "{alike} {others}");
     }
 }
@@ -273,12 +276,14 @@ fn eyes_that_see_nothing_are_refused() {
     }
 }
 
-/// A chunk's control points are bound as one piece, and so are the rolls of its rings: both must fit whatever yarns it is cut from.
+/// A chunk's control points are bound as one piece, and so are the rolls of its rings: both must
+/// fit whatever yarns it is cut from.
 #[test]
 fn chunks_of_pictures_fit_a_binding() {
     const BYTES: u64 = 1 << 17;
     let info = renderer().lock().unwrap().info().clone();
-    // Yarns of all lengths, and then those that are one block each and have as many points as such a yarn can.
+    // Yarns of all lengths, and then those that are one block each and have as many points as such
+    // a yarn can.
     let counts = [&[3, 64, 65, 66, 130, 500, 4, 3, 3, 2000][..], &[63], &[64], &[31], &[8]];
     for (counts, closed) in counts.iter().flat_map(|counts| [(counts, false), (counts, true)]) {
         let mut yarns = Yarns::builder();
@@ -304,7 +309,8 @@ fn chunks_of_pictures_fit_a_binding() {
     }
 }
 
-/// Of yarns that an eye looks at from outside only the outside is drawn; one that the near plane goes through is seen from inside.
+/// Of yarns that an eye looks at from outside only the outside is drawn; one that the near plane
+/// goes through is seen from inside.
 #[test]
 fn an_eye_in_a_yarn_sees_its_wall() {
     let mut yarns = Yarns::builder();

@@ -1,4 +1,5 @@
-//! Cloth from afar shows no waves that it does not have: threads finer than pixels must not beat with them.
+//! Cloth from afar shows no waves that it does not have: threads finer than pixels must not beat
+//! with them.
 
 use std::f64::consts::TAU;
 
@@ -10,11 +11,13 @@ use crate::{Camera, Extent, Pose, Quality};
 /// Pixels of the pictures each way.
 const SIZE: usize = 96;
 
-/// A wave of more levels of 255 is seen, of those that the cloth does not have: half of what an eye makes out at its best, and a fifth and less of what
-/// pixels beat by that are means of what lies in them.
+/// A wave of more levels of 255 is seen, of those that the cloth does not have: half of what an eye
+/// makes out at its best, and a fifth and less of what pixels beat by that are means of what lies
+/// in them.
 const SEEN: f64 = 4.0;
 
-/// Waves are told from one another where they are so far apart, in waves over the picture: the window's main lobe has two each way.
+/// Waves are told from one another where they are so far apart, in waves over the picture: the
+/// window's main lobe has two each way.
 const APART: f64 = 3.0;
 
 /// A weave: its repeat, and whether an end lies above a pick.
@@ -43,7 +46,8 @@ fn cloth((_, up): Weave, threads: usize) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The waves of a line of numbers, real and imaginary parts: its discrete Fourier transform, by the definition.
+/// The waves of a line of numbers, real and imaginary parts: its discrete Fourier transform, by the
+/// definition.
 fn waves_of(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let wave = |number: usize| {
         line.iter().enumerate().fold([0.0; 2], |sum, (at, [real, imaginary])| {
@@ -54,13 +58,16 @@ fn waves_of(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     (0..line.len()).map(wave).collect()
 }
 
-/// The greatest wave of a picture that none of its cloth's can be, levels of 255, and how often it goes up and down over the picture, each way.
+/// The greatest wave of a picture that none of its cloth's can be, levels of 255, and how often it
+/// goes up and down over the picture, each way.
 ///
-/// A picture of `pitch` pixels from thread to thread has waves of the cloth at multiples of one over its repeat, each way. Of those that pixels can show, the
-/// neighbourhood is left out; others must be gone.
+/// A picture of `pitch` pixels from thread to thread has waves of the cloth at multiples of one
+/// over its repeat, each way. Of those that pixels can show, the neighbourhood is left out; others
+/// must be gone.
 fn strangest(grey: &[f64], pitch: f64, repeat: usize) -> (f64, [f64; 2]) {
     let mean = grey.iter().sum::<f64>() / grey.len() as f64;
-    // A window that fades at the edges: else they are waves themselves (Harris 1978, that of von Hann).
+    // A window that fades at the edges: else they are waves themselves (Harris 1978, that of von
+    // Hann).
     let window = |at: usize| 0.5 - 0.5 * (TAU * (at as f64 + 0.5) / SIZE as f64).cos();
     let total = (0..SIZE).map(window).sum::<f64>().powi(2);
     let faded = |x: usize, y: usize| [(grey[y * SIZE + x] - mean) * window(x) * window(y), 0.0];

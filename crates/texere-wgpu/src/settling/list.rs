@@ -11,7 +11,8 @@ use crate::gpu::Gpu;
 use crate::kernels::Kernel;
 
 impl WgpuSettler {
-    /// Works out all chords, and cells as they need them while yarns have `growth` of their thickness.
+    /// Works out all chords, and cells as they need them while yarns have `growth` of their
+    /// thickness.
     pub(super) fn find_cells(&mut self, growth: f32) -> Result<(), BackendError> {
         self.params.growth = growth;
         self.send_params()?;
@@ -48,7 +49,8 @@ impl WgpuSettler {
     }
 }
 
-/// Turns the first `count` of `values` into sums of those before each, with room for the sums of groups, level by level.
+/// Turns the first `count` of `values` into sums of those before each, with room for the sums of
+/// groups, level by level.
 fn scan(
     gpu: &Gpu,
     kernels: &SettlingKernels,
@@ -127,7 +129,8 @@ mod tests {
         }
     }
 
-    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of their numbers.
+    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of
+    /// their numbers.
     #[test]
     fn neighbours_are_listed_in_the_order_of_their_numbers() {
         let mut yarns = Yarns::builder();

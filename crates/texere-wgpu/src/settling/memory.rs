@@ -53,7 +53,8 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
+    /// them, may have.
     pub(super) fn new(gpu: &Gpu, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(gpu, limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
@@ -117,7 +118,8 @@ impl Memory {
         Ok(())
     }
 
-    /// What a shader sees as `resource`; nothing where that is none of a settling, or lies elsewhere.
+    /// What a shader sees as `resource`; nothing where that is none of a settling, or lies
+    /// elsewhere.
     pub(super) fn resource(&self, resource: Resource) -> Option<BindingResource<'_>> {
         let buffer = match resource {
             Resource::SettlingParams => &self.params,

@@ -12,8 +12,8 @@ use super::{WgpuSettler, submit};
 use crate::kernels::{Kernel, Opened};
 
 impl WgpuSettler {
-    /// Writes all control points, padded as `plan` says, to `points` where that lies on the same device and in one binding. Says
-    /// whether it does.
+    /// Writes all control points, padded as `plan` says, to `points` where that lies on the same
+    /// device and in one binding. Says whether it does.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,

@@ -11,7 +11,8 @@ use super::{Live, LiveError, SetYarn, Source};
 impl Live {
     /// Changes a material: a colour is none of the mesh's, so nothing is made again.
     ///
-    /// **Errors**: [`LiveError::NoMaterial`], and [`LiveError::Yarns`] for a material that no yarn can have; the fabric is then as it was.
+    /// **Errors**: [`LiveError::NoMaterial`], and [`LiveError::Yarns`] for a material that no yarn
+    /// can have; the fabric is then as it was.
     pub fn set_material(&mut self, number: usize, material: Material) -> Result<(), LiveError> {
         let materials = self.materials.len();
         if number >= materials {
@@ -25,10 +26,12 @@ impl Live {
         Ok(())
     }
 
-    /// Says whether the warp is up at a crossing, end and pick counted from 0 (errors name them from 1, as weavers do). Both yarns are those of the weave then, even if they were
+    /// Says whether the warp is up at a crossing, end and pick counted from 0 (errors name them
+    /// from 1, as weavers do). Both yarns are those of the weave then, even if they were
     /// [set](Live::set_yarn) before.
     ///
-    /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] outside the cloth, and [`LiveError::Session`] of the device.
+    /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] outside the cloth, and
+    /// [`LiveError::Session`] of the device.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), LiveError> {
         self.set_drawdown(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
@@ -52,10 +55,12 @@ impl Live {
         self.show_all(&changed)
     }
 
-    /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its control points, mm. Where it has [up directions of
-    /// its own](Yarns::with_ups), as many control points as before keep them; more or fewer points stand as a yarn does that has none.
+    /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its
+    /// control points, mm. Where it has [up directions of its own](Yarns::with_ups), as many
+    /// control points as before keep them; more or fewer points stand as a yarn does that has none.
     ///
-    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] for what no yarn can be and for a device that fails.
+    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] for
+    /// what no yarn can be and for a device that fails.
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
         let yarns = self.mesh.plan().layout().yarns().len();
         if yarn >= yarns {
@@ -128,8 +133,8 @@ impl Live {
         Ok(())
     }
 
-    /// Takes other yarns in place of these: such as have come to rest. Yarns that stay as they are are not made again. The fabric is known by its
-    /// yarns alone from then on.
+    /// Takes other yarns in place of these: such as have come to rest. Yarns that stay as they are
+    /// are not made again. The fabric is known by its yarns alone from then on.
     ///
     /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension),
     /// [`LiveError::Session`] of the device.
@@ -158,8 +163,9 @@ impl Live {
         Ok(())
     }
 
-    /// Lays all yarns as `rest` has them, which were brought to rest since, and keeps the weave: yarns that are lifted later are laid as woven, among
-    /// those at rest, until the next call. Yarns that stay as they are are not made again.
+    /// Lays all yarns as `rest` has them, which were brought to rest since, and keeps the weave:
+    /// yarns that are lifted later are laid as woven, among those at rest, until the next call.
+    /// Yarns that stay as they are are not made again.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -243,7 +249,8 @@ impl Live {
         shown
     }
 
-    /// Gives the mesh these yarns as they are now, all at once, or begins another mesh where it has no room for one of them or where one of them has up directions of its own.
+    /// Gives the mesh these yarns as they are now, all at once, or begins another mesh where it has
+    /// no room for one of them or where one of them has up directions of its own.
     fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
         let (plan, mut laid) = (self.mesh.plan().clone(), Vec::with_capacity(yarns.len()));
         for &yarn in yarns {

@@ -144,7 +144,8 @@ impl Own<'_> {
             let tags = self.plan.tags()[place + lane];
             let chords = self.plan.chords()[place + lane + 1] - self.plan.chords()[place + lane];
             if tags & (tag::OPENS | tag::ENDS) != 0 || chords > BEND_PARTS {
-                // Its bends count otherwise, or are looked at in more places: by the core's own function.
+                // Its bends count otherwise, or are looked at in more places: by the core's own
+                // function.
                 self.alone(place + lane, (tags, chords), pull);
                 continue;
             }

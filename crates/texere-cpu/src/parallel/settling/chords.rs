@@ -1,4 +1,5 @@
-//! Pairs of chords in lanes: which image of the repeat is nearest, and where the chords come nearest to one another.
+//! Pairs of chords in lanes: which image of the repeat is nearest, and where the chords come
+//! nearest to one another.
 
 use texere_core::settling::{SHORT, SettlingPlan};
 
@@ -100,8 +101,8 @@ impl<S: Simd> Images<S> {
         }
     }
 
-    /// The way to the nearest image, and how many repeats away that is, negated. `middles` lead from the ends of the way to what is to be
-    /// near, mm.
+    /// The way to the nearest image, and how many repeats away that is, negated. `middles` lead
+    /// from the ends of the way to what is to be near, mm.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn nearest(
         &self,

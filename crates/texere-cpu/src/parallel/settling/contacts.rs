@@ -1,7 +1,7 @@
 //! Contacts, a vector of pairs of chords at a time.
 //!
-//! All pairs are looked at on their chords. Those that are near go on to their exact places, again in full vectors. What they
-//! pull is then added up pair by pair, in the order of the lists.
+//! All pairs are looked at on their chords. Those that are near go on to their exact places, again
+//! in full vectors. What they pull is then added up pair by pair, in the order of the lists.
 
 use std::ops::Range;
 
@@ -145,7 +145,8 @@ impl Source<'_> {
         tags
     }
 
-    /// Where along their intervals places on chords are, and how far from there the exact ones may be.
+    /// Where along their intervals places on chords are, and how far from there the exact ones may
+    /// be.
     #[cfg_attr(optimized, inline(always))]
     fn places<S: Simd>(&self, simd: S, chords: &[u32], share: S::Floats) -> (S::Floats, S::Floats) {
         let shares: &[[[f32; 4]; 1]] = bytemuck::cast_slice(&self.fixed.shares);

@@ -1,7 +1,8 @@
 //! Neighbours of all chords.
 //!
-//! Chords are sorted by cells, so that those of cells side by side lie side by side in memory, too. Most of them are refused by
-//! the distance of their middles. The others are looked at as the core does.
+//! Chords are sorted by cells, so that those of cells side by side lie side by side in memory, too.
+//! Most of them are refused by the distance of their middles. The others are looked at as the core
+//! does.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -28,7 +29,8 @@ pub(super) struct Lists {
     pub(super) starts: Vec<u32>,
     /// With [`LANES_MAX`] entries more than there are.
     pub(super) neighbours: Vec<u32>,
-    /// Of each chord: where its middle is (as bits), and how far from there a neighbour's reach may begin, mm.
+    /// Of each chord: where its middle is (as bits), and how far from there a neighbour's reach may
+    /// begin, mm.
     middles: Vec<[f32; 4]>,
     /// Each chord's cell, above its number: in the order of both.
     sorted: Vec<u64>,
@@ -174,7 +176,8 @@ impl Job for MiddleJob<'_> {
             let own = Chords::<S>::new(simd, chords, &numbers);
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
-            // What `are_neighbours` allows, half of it each; more than rounding and the units of middles may take away.
+            // What `are_neighbours` allows, half of it each; more than rounding and the units of
+            // middles may take away.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
             let [x, y, z] = bit_cast(own.middle(simd, unit));
@@ -200,7 +203,8 @@ struct Sorted<'a> {
 }
 
 impl Sorted<'_> {
-    /// Writes the chords that may be neighbours of one whose middle is `own`, and gives back how many they are.
+    /// Writes the chords that may be neighbours of one whose middle is `own`, and gives back how
+    /// many they are.
     #[cfg_attr(optimized, inline(always))]
     fn near<S: Simd>(&self, simd: S, images: &Images<S>, own: &[f32; 4], near: &mut Vec<u32>) -> usize {
         let zero = [simd.splat(0.0); 3];

@@ -32,9 +32,11 @@ pub(crate) struct ParallelSettler {
     set: InstructionSet,
     plan: Arc<SettlingPlan>,
     fixed: Fixed,
-    /// Where everything is, with [`FRONT`] entries before the first place and [`BACK`] behind the last one.
+    /// Where everything is, with [`FRONT`] entries before the first place and [`BACK`] behind the
+    /// last one.
     places: Vec<Place>,
-    /// Where everything was when the last pass saw it, likewise; the next places while a pass makes them.
+    /// Where everything was when the last pass saw it, likewise; the next places while a pass makes
+    /// them.
     seen: Vec<Place>,
     /// Where everything was kept, likewise; empty before that.
     kept: Vec<Place>,
@@ -215,7 +217,8 @@ impl Settler for ParallelSettler {
     }
 }
 
-/// Copies what pulls at the intervals beyond a yarn's ends that the points at its ends steer, where it goes on.
+/// Copies what pulls at the intervals beyond a yarn's ends that the points at its ends steer, where
+/// it goes on.
 fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     if strand.shift().is_some() {
         let first = FRONT + strand.first as usize;

@@ -1,4 +1,5 @@
-//! What the lanes of a settling read: rows of four floats, so that a vector of them is four loads and a transposition.
+//! What the lanes of a settling read: rows of four floats, so that a vector of them is four loads
+//! and a transposition.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::settling::{Place, SettlingPlan, tag};
@@ -15,14 +16,15 @@ pub(super) const TASK: usize = 512;
 /// What never changes.
 #[derive(Debug)]
 pub(super) struct Fixed {
-    /// Of each place's interval: the growth of its half width, its half width and its half height at the beginning, the growth
-    /// of that, mm.
+    /// Of each place's interval: the growth of its half width, its half width and its half height
+    /// at the beginning, the growth of that, mm.
     pub(super) halves: Vec<[f32; 4]>,
     /// Of each place's interval: the largest half width or half height.
     pub(super) thickest: Vec<f32>,
     /// The place of each chord's interval.
     pub(super) owners: Vec<u32>,
-    /// Of each chord: where along the interval it begins and ends, its number there, and one over their count.
+    /// Of each chord: where along the interval it begins and ends, its number there, and one over
+    /// their count.
     pub(super) shares: Vec<[f32; 4]>,
 }
 
@@ -51,13 +53,14 @@ impl Fixed {
     }
 }
 
-/// An interval: where it begins (as bits of `i32`) and the growth of its half width; what goes with u and its half width; with u²
-/// and its half height; with u³ and the growth of that.
+/// An interval: where it begins (as bits of `i32`) and the growth of its half width; what goes with
+/// u and its half width; with u² and its half height; with u³ and the growth of that.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct IntervalRow(pub(super) [[f32; 4]; 4]);
 
-/// A chord: where it begins and the place of its interval (as bits); its span and the interval's thickest half.
+/// A chord: where it begins and the place of its interval (as bits); its span and the interval's
+/// thickest half.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct ChordRow(pub(super) [[f32; 4]; 2]);
@@ -70,8 +73,8 @@ pub(super) struct PullRow {
     pub(super) slots: [[[f32; 4]; 3]; 4],
     /// Half of the length that the interval has too much, along its chord, and its length, mm.
     pub(super) length: [f32; 4],
-    /// The least distance seen, mm, the same over both reaches, the least radius of curvature in diameters, and the share by which
-    /// the length is off.
+    /// The least distance seen, mm, the same over both reaches, the least radius of curvature in
+    /// diameters, and the share by which the length is off.
     pub(super) seen: [f32; 4],
 }
 
@@ -100,7 +103,8 @@ impl PullRow {
     }
 }
 
-/// Entries before the first place's and behind the last one's, so that no window of a vector ends outside.
+/// Entries before the first place's and behind the last one's, so that no window of a vector ends
+/// outside.
 pub(super) const FRONT: usize = 4;
 pub(super) const BACK: usize = 2 * LANES_MAX;
 

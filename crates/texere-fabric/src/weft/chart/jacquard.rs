@@ -9,16 +9,20 @@ use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, known, sized
 pub enum Backing {
     /// Every other needle, by turns from yarn to yarn and from row to row: flecks of all yarns.
     Birdseye,
-    /// Of n yarns in a row each knits every n-th needle, always the same ones: a light back of upright lines.
+    /// Of n yarns in a row each knits every n-th needle, always the same ones: a light back of
+    /// upright lines.
     Ladder,
 }
 
 impl Chart {
-    /// A chart of a picture: `yarn` is that at a column and a row, both from 0, row 0 at the bottom. Each row of it becomes a course
-    /// for each yarn that occurs there, by rising numbers: the front needles knit where the picture has this yarn. Without a
-    /// backing the yarn floats past the others; with one, back needles knit it in between, half a needle beside the front ones.
+    /// A chart of a picture: `yarn` is that at a column and a row, both from 0, row 0 at the
+    /// bottom. Each row of it becomes a course for each yarn that occurs there, by rising numbers:
+    /// the front needles knit where the picture has this yarn. Without a backing the yarn floats
+    /// past the others; with one, back needles knit it in between, half a needle beside the front
+    /// ones.
     ///
-    /// **Errors**: [`ChartError`] for a size that is not taken; with a backing also where a back needle would never knit.
+    /// **Errors**: [`ChartError`] for a size that is not taken; with a backing also where a back
+    /// needle would never knit.
     ///
     /// ```
     /// use texere_fabric::weft::Chart;

@@ -18,8 +18,9 @@ use super::machine::CARRIERS_MAX;
 /// The most wales or rows of a chart.
 pub const CHART_SIDE_MAX: usize = 1 << 16;
 
-/// The most cells of all courses of a chart. Before a machine has knitted them it is not known how many loops they make, and knitting takes up
-/// to 160 bytes a cell, until a repeat of more than a million loops is refused.
+/// The most cells of all courses of a chart. Before a machine has knitted them it is not known how
+/// many loops they make, and knitting takes up to 160 bytes a cell, until a repeat of more than a
+/// million loops is refused.
 pub const CHART_CELLS_MAX: usize = 1 << 22;
 
 /// The most yarns of a chart: each has a carrier of its own.
@@ -43,8 +44,8 @@ pub enum Cell {
     BackTuck,
     /// The yarn floats past: `m`.
     Miss,
-    /// The front needle knits, and its loop then goes to another needle: `<` and `>` to the next one, for lace; `RRrr` and `llLL`
-    /// to the places of others, for cables.
+    /// The front needle knits, and its loop then goes to another needle: `<` and `>` to the next
+    /// one, for lace; `RRrr` and `llLL` to the places of others, for cables.
     Moved {
         /// So many needles to the right, [`CHART_MOVED_MAX`] at most either way.
         by: i32,
@@ -94,8 +95,8 @@ pub struct Chart {
 impl Chart {
     /// A chart of cells, `wales` to a course, the first course first. All courses are of yarn 0.
     ///
-    /// **Errors**: [`ChartError`] for a size that is not taken, for cells that are not for these beds, and for needles that hold
-    /// loops but never knit.
+    /// **Errors**: [`ChartError`] for a size that is not taken, for cells that are not for these
+    /// beds, and for needles that hold loops but never knit.
     pub fn new(wales: usize, beds: Beds, cells: Vec<Cell>) -> Result<Self, ChartError> {
         let rows = cells.len().checked_div(wales).unwrap_or(0);
         sized(wales, rows, cells.len())?;
@@ -110,7 +111,8 @@ impl Chart {
         Self { wales, beds, courses, cells }.checked()
     }
 
-    /// A chart from symbols, a line for each row, the last course on top. Spaces and empty lines count for nothing.
+    /// A chart from symbols, a line for each row, the last course on top. Spaces and empty lines
+    /// count for nothing.
     ///
     /// | symbol | stitch |
     /// |---|---|
@@ -137,7 +139,8 @@ impl Chart {
         Self::from_symbols(wales, rows.len(), beds, |column, row| rows[row][column])
     }
 
-    /// A chart from a symbol for each place, given by column and by row from the top: those of [`Chart::parse`].
+    /// A chart from a symbol for each place, given by column and by row from the top: those of
+    /// [`Chart::parse`].
     ///
     /// **Errors**: [`ChartError`] with row, from the top, and column.
     pub fn from_symbols(
@@ -155,11 +158,11 @@ impl Chart {
         Self::new(wales, beds, cells)
     }
 
-    /// The chart with these yarns for its courses, over and over from the first course on. Where they end in the middle of the
-    /// chart, it is repeated upwards until both end.
+    /// The chart with these yarns for its courses, over and over from the first course on. Where
+    /// they end in the middle of the chart, it is repeated upwards until both end.
     ///
-    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large, [`ChartError::Yarn`] for a yarn beyond
-    /// [`CHART_YARNS_MAX`].
+    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large,
+    /// [`ChartError::Yarn`] for a yarn beyond [`CHART_YARNS_MAX`].
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};
@@ -200,7 +203,8 @@ impl Chart {
         self.courses.len()
     }
 
-    /// Puts another stitch into a cell, both counted from 0: the wale from the left, the course from the first.
+    /// Puts another stitch into a cell, both counted from 0: the wale from the left, the course
+    /// from the first.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Cell, Chart};
@@ -212,7 +216,8 @@ impl Chart {
     /// # Ok::<(), texere_fabric::weft::ChartError>(())
     /// ```
     ///
-    /// **Errors**: [`ChartError::NoCell`] outside the chart, and those of [`Chart::new`]; the chart is then as it was.
+    /// **Errors**: [`ChartError::NoCell`] outside the chart, and those of [`Chart::new`]; the chart
+    /// is then as it was.
     pub fn set(&mut self, wale: usize, course: usize, cell: Cell) -> Result<(), ChartError> {
         let (wales, courses) = (self.wales, self.courses());
         if wale >= wales || course >= courses {
@@ -233,7 +238,8 @@ impl Chart {
     fn checked(self) -> Result<Self, ChartError> {
         let on_two = self.beds == Beds::Two;
         let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
-        // Of the front and of the back needle of each wale: whether it gets loops, and whether it knits.
+        // Of the front and of the back needle of each wale: whether it gets loops, and whether it
+        // knits.
         let mut gets = filled("wales of a chart", self.wales, [false; 2])?;
         let mut knits = filled("wales of a chart", self.wales, [false; 2])?;
         for (number, &cell) in self.cells.iter().enumerate() {

@@ -9,9 +9,10 @@ use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Pr
 const HALF: f64 = 0.5;
 
 impl Chart {
-    /// The program that knits one repeat of the chart, over and over. Its carriers are the yarns of the courses, by number; each goes
-    /// to the right in its first course, to the left in its next, and so on. An operation's source is row × wales + column of
-    /// its cell, both from 0 and row 0 at the bottom; of a Jacquard picture it is that of its pixel.
+    /// The program that knits one repeat of the chart, over and over. Its carriers are the yarns of
+    /// the courses, by number; each goes to the right in its first course, to the left in its next,
+    /// and so on. An operation's source is row × wales + column of its cell, both from 0 and row 0
+    /// at the bottom; of a Jacquard picture it is that of its pixel.
     ///
     /// **Errors**: [`ChartError::OutOfMemory`].
     pub fn program(&self) -> Result<Program, ChartError> {
@@ -22,7 +23,8 @@ impl Chart {
             goes: filled("carriers", carriers as usize, Direction::Left)?,
             operations: Vec::new(),
         };
-        // At its end each wale hangs on the bed of its last stitch: there the next round, and so this one, begins.
+        // At its end each wale hangs on the bed of its last stitch: there the next round, and so
+        // this one, begins.
         for course in 0..self.courses() {
             knitter.follow(course);
         }
@@ -88,7 +90,8 @@ impl Knitter<'_> {
     fn knit(&mut self, course: usize) -> Result<(), ChartError> {
         let chart = self.chart;
         let cells = chart.course(course);
-        // A course takes at most a change of beds, two needles and two moves for each cell, and two racks for each kind of move.
+        // A course takes at most a change of beds, two needles and two moves for each cell, and two
+        // racks for each kind of move.
         room_for(&mut self.operations, 8 * cells.len() + 1, "a knitting program")?;
         if chart.beds == Beds::One {
             self.change_beds(course, cells);
@@ -151,7 +154,8 @@ impl Knitter<'_> {
         }
     }
 
-    /// Moves loops to other needles by way of the back bed. Those that come back first lie in front.
+    /// Moves loops to other needles by way of the back bed. Those that come back first lie in
+    /// front.
     fn move_loops(&mut self, course: usize, cells: &[Cell]) {
         let mut moves = Vec::new();
         for (wale, cell) in cells.iter().enumerate() {
@@ -172,7 +176,8 @@ impl Knitter<'_> {
         for &(_, _, wale) in &moves {
             self.transfer(wale as i32, Bed::Front, wale as i32, self.source(course, wale));
         }
-        // To the right before to the left, so that of two loops that come to one needle the left one comes first.
+        // To the right before to the left, so that of two loops that come to one needle the left
+        // one comes first.
         moves.sort_by_key(|&(behind, by, wale)| (behind, -by, wale));
         let mut racked = 0;
         for (_, by, wale) in moves {

@@ -151,7 +151,8 @@ fn jacquard_has_a_course_for_each_yarn_of_a_row() {
     );
 }
 
-/// On a bird's-eye back the yarns of a row change needles from row to row: no wale of it is of one colour.
+/// On a bird's-eye back the yarns of a row change needles from row to row: no wale of it is of one
+/// colour.
 #[test]
 fn birdseye_has_flecks_of_all_yarns() {
     let chart = Chart::jacquard(4, 4, Some(Backing::Birdseye), |column, row| ((column + row) / 2 % 2) as u32);

@@ -43,7 +43,8 @@ pub(super) struct Beds {
 }
 
 impl Beds {
-    /// Empty needles `low` to `low + width - 1`; where they are those of a repeat, all others are theirs in other repeats.
+    /// Empty needles `low` to `low + width - 1`; where they are those of a repeat, all others are
+    /// theirs in other repeats.
     pub(super) fn new(low: i32, width: i32, repeats: bool) -> Result<Self, OutOfMemory> {
         let count = 4 * usize::try_from(width).unwrap_or(0);
         let mut stacks = Vec::new();
@@ -64,7 +65,8 @@ impl Beds {
         HALVES * i64::from(needle.number) + racked
     }
 
-    /// How many half wales a loop is to the left of its needle of repeat 0, which hangs there so many repeats further on.
+    /// How many half wales a loop is to the left of its needle of repeat 0, which hangs there so
+    /// many repeats further on.
     pub(super) fn shift(&self, repeats: i32) -> i64 {
         HALVES * i64::from(repeats) * i64::from(self.width)
     }

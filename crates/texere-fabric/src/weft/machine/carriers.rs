@@ -93,8 +93,8 @@ impl Carriers {
         self.carriers[carrier as usize].loops
     }
 
-    /// Counts a loop on a needle that may be empty. Answers with the needle next to it, where that was empty as well and took the yarn
-    /// just before, on the same way.
+    /// Counts a loop on a needle that may be empty. Answers with the needle next to it, where that
+    /// was empty as well and took the yarn just before, on the same way.
     pub(super) fn cast_on(
         &mut self,
         carrier: u32,
@@ -123,7 +123,8 @@ impl Carriers {
     /// Another carrier that the hook holds already, where it is to take these.
     pub(super) fn hooked_beside(&self, carriers: &[u32]) -> Option<u32> {
         let taken: BTreeSet<_> = carriers.iter().collect();
-        // At most as many as are taken are among these: the search is short however many the hook holds.
+        // At most as many as are taken are among these: the search is short however many the hook
+        // holds.
         self.hook.iter().copied().find(|held| !taken.contains(held))
     }
 
@@ -137,12 +138,14 @@ impl Carriers {
         self.hook.remove(&carrier)
     }
 
-    /// Whether a carrier can make a stitch. In a repeat, those that nothing brings in come from the repeat beside.
+    /// Whether a carrier can make a stitch. In a repeat, those that nothing brings in come from the
+    /// repeat beside.
     pub(super) fn is_in(&self, carrier: u32) -> bool {
         self.carriers[carrier as usize].is_in || self.repeats
     }
 
-    /// The pass of the next stitch of a set of carriers. `newest` is the latest pass of which the needle holds loops.
+    /// The pass of the next stitch of a set of carriers. `newest` is the latest pass of which the
+    /// needle holds loops.
     pub(super) fn pass(&mut self, set: u32, carriers: &[u32], spot: Spot, newest: Option<u32>) -> u32 {
         let Some(&first) = carriers.first() else { return 0 };
         let Carrier { run, pass, .. } = self.carriers[first as usize];
@@ -166,7 +169,8 @@ impl Carriers {
         }
     }
 
-    /// Moves a carrier that has set off to a stitch, which it adds to its yarn. Answers with the carrier that its yarn is caught behind.
+    /// Moves a carrier that has set off to a stitch, which it adds to its yarn. Answers with the
+    /// carrier that its yarn is caught behind.
     pub(super) fn lay(&mut self, carrier: u32, [set, pass]: [u32; 2], spot: Spot, step: Step) -> Option<u32> {
         let Spot { direction, at, row } = spot;
         let own = &mut self.carriers[carrier as usize];
@@ -200,8 +204,8 @@ impl Carriers {
         caught
     }
 
-    /// Notes which carriers wait between two loops that `by` has made one after the other. Yarn that is carried on from a loop, but
-    /// makes none there, is drawn back and catches nothing.
+    /// Notes which carriers wait between two loops that `by` has made one after the other. Yarn
+    /// that is carried on from a loop, but makes none there, is drawn back and catches nothing.
     fn catch(&mut self, by: u32, [left, right]: [i64; 2]) {
         while let Some(&(place, other)) = self.waiting.range((left + 1, 0)..(right.max(left + 1), 0)).next() {
             self.waiting.remove(&(place, other));

@@ -19,9 +19,10 @@ const SWEEPS_MAX: u32 = 64;
 
 /// The course of each pass, and how many courses a repeat has; none where it is no repeat.
 ///
-/// A pass lies one course above the highest pass that it is drawn through. One that is drawn through nothing lies in the course
-/// of its carrier's pass before it (`before`), and the first of all in course 0. `aboves` are ordered by pass. In a repeat the
-/// loops of the round before lie as many courses lower as the repeat has.
+/// A pass lies one course above the highest pass that it is drawn through. One that is drawn
+/// through nothing lies in the course of its carrier's pass before it (`before`), and the first of
+/// all in course 0. `aboves` are ordered by pass. In a repeat the loops of the round before lie as
+/// many courses lower as the repeat has.
 pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -> (Vec<u32>, Option<u32>) {
     let mut courses = vec![0; before.len()];
     sweep(before, aboves, &mut courses, 0);
@@ -46,8 +47,8 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
     (courses, Some(heights[2]))
 }
 
-/// Raises each pass above those that it is drawn through, where they count `height` courses lower for each round between. Returns
-/// whether any was too low.
+/// Raises each pass above those that it is drawn through, where they count `height` courses lower
+/// for each round between. Returns whether any was too low.
 fn sweep(before: &[Option<u32>], aboves: &[Above], courses: &mut [u32], height: u32) -> bool {
     let (mut changed, mut rest) = (false, aboves);
     for (pass, &previous) in before.iter().enumerate() {

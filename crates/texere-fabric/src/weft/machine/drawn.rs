@@ -1,9 +1,10 @@
 //! Yarn that nothing holds: its carrier draws it back.
 //!
-//! A yarn is held by its loops, and where another one has caught it. From one such place to the next it is taut, and floats past what
-//! lies between them. What it did further out, on its way to where its carrier was parked, is no cloth; neither is what it did before
-//! the first place that holds it, or after the last one. A loop that was drawn through nothing and fell off its needle holds no more
-//! than a float.
+//! A yarn is held by its loops, and where another one has caught it. From one such place to the
+//! next it is taut, and floats past what lies between them. What it did further out, on its way to
+//! where its carrier was parked, is no cloth; neither is what it did before the first place that
+//! holds it, or after the last one. A loop that was drawn through nothing and fell off its needle
+//! holds no more than a float.
 
 use texere_core::OutOfMemory;
 use texere_core::backend::room_for;
@@ -71,7 +72,8 @@ pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMem
     leave_out(run)
 }
 
-/// Of each loop whether it holds its yarn: none does that was drawn through nothing, and that nothing was drawn through before it fell.
+/// Of each loop whether it holds its yarn: none does that was drawn through nothing, and that
+/// nothing was drawn through before it fell.
 fn holding(run: &Run<'_>) -> Result<Vec<bool>, OutOfMemory> {
     let mut holding = Vec::new();
     room_for(&mut holding, run.loops.len(), "what holds a yarn")?;

@@ -13,13 +13,15 @@ pub enum FaultKind {
     CarrierNotIn,
     /// A carrier is brought in that is in already. It stays where it is.
     CarrierIn,
-    /// The hook takes a carrier, in or out, while it still holds another, which is named. It is taken to do both.
+    /// The hook takes a carrier, in or out, while it still holds another, which is named. It is
+    /// taken to do both.
     HookHolds(String),
     /// The hook lets go of a carrier that it does not hold.
     HookWithout,
     /// A carrier is taken out that is not in.
     OutWithoutIn,
-    /// The beds are racked further than the machine can. They are taken to be racked so all the same, if there are such needles.
+    /// The beds are racked further than the machine can. They are taken to be racked so all the
+    /// same, if there are such needles.
     Racked {
         /// How far.
         rack: f64,
@@ -28,7 +30,8 @@ pub enum FaultKind {
     },
     /// Loops go to another needle of the same bed. They are taken to go there.
     SameBed(Needle),
-    /// Loops go to a needle that does not lie opposite as the beds are racked. They are taken to go there.
+    /// Loops go to a needle that does not lie opposite as the beds are racked. They are taken to go
+    /// there.
     NotAligned {
         /// The needle that they go to.
         to: Needle,
@@ -50,17 +53,20 @@ pub enum FaultKind {
         /// The most.
         limit: u32,
     },
-    /// A carrier is brought in and laid past needles, but no loop holds its yarn. It is left out of the cloth.
+    /// A carrier is brought in and laid past needles, but no loop holds its yarn. It is left out of
+    /// the cloth.
     Loose,
-    /// Two needles that hold nothing, next to each other, take a yarn one after the other: until the next course it goes straight through
-    /// their hooks, and may slip off. It is told once for a program, of the first such pair.
+    /// Two needles that hold nothing, next to each other, take a yarn one after the other: until
+    /// the next course it goes straight through their hooks, and may slip off. It is told once for
+    /// a program, of the first such pair.
     CastOn {
         /// The needle that takes it first.
         beside: Needle,
         /// How many more such pairs there are.
         others: u32,
     },
-    /// A carrier is taken out after a single loop, from which its yarn may slip. It is told once for a program, of the first such carrier.
+    /// A carrier is taken out after a single loop, from which its yarn may slip. It is told once
+    /// for a program, of the first such carrier.
     OnlyLoop {
         /// How often it happens again.
         others: u32,
@@ -72,13 +78,14 @@ pub enum FaultKind {
         /// The most.
         limit: u32,
     },
-    /// A carrier waits between needles while the one that is named lays its yarn on both sides of it, and then goes on: its yarn is
-    /// caught behind the other.
+    /// A carrier waits between needles while the one that is named lays its yarn on both sides of
+    /// it, and then goes on: its yarn is caught behind the other.
     Tangled(String),
 }
 
 impl FaultKind {
-    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was meant.
+    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was
+    /// meant.
     #[must_use]
     pub const fn is_error(&self) -> bool {
         !matches!(
@@ -95,7 +102,8 @@ impl FaultKind {
     }
 }
 
-/// Something wrong in a knitting program, and where. None stops the machine; each kind says what is done instead.
+/// Something wrong in a knitting program, and where. None stops the machine; each kind says what is
+/// done instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
     /// What.

@@ -12,7 +12,8 @@ pub const STACK_MAX: usize = 256;
 /// The most faults that are listed.
 pub const FAULTS_LISTED: usize = 1000;
 
-/// The most entries of [`Stitches::parents`](crate::weft::Stitches::parents): splits can draw loop after loop through the same ones.
+/// The most entries of [`Stitches::parents`](crate::weft::Stitches::parents): splits can draw loop
+/// after loop through the same ones.
 pub(super) const PARENTS_MAX: usize = 1 << 28;
 
 /// The most carriers and sets of carriers.
@@ -23,8 +24,8 @@ pub(in crate::weft) const CARRIERS_MAX: usize = 1 << 16;
 pub struct Machine {
     /// How far the beds can be racked to either side, in needles: 4.
     pub rack_max: f64,
-    /// How many needles a yarn may float past: 6, "usually the maximum number for a continuous float" (Spencer, Knitting
-    /// Technology).
+    /// How many needles a yarn may float past: 6, "usually the maximum number for a continuous
+    /// float" (Spencer, Knitting Technology).
     pub float_max: u32,
     /// How many loops a needle may hold: 4, as many as a needle usually tucks at most (likewise).
     pub pile_max: u32,

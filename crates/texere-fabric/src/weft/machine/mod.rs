@@ -19,8 +19,8 @@ use crate::weft::WeftError;
 use beds::{Beds, Held, Slot};
 use run::Run;
 
-/// How often a repeat is knitted until what hangs on needles at its end is the same each time. Most take two rounds: loops
-/// that go on being transferred without being knitted take longer.
+/// How often a repeat is knitted until what hangs on needles at its end is the same each time. Most
+/// take two rounds: loops that go on being transferred without being knitted take longer.
 const ROUNDS_MAX: u32 = 8;
 
 /// What comes of a program.
@@ -28,7 +28,8 @@ const ROUNDS_MAX: u32 = 8;
 pub struct Knit {
     /// Loops and yarns.
     pub stitches: Stitches,
-    /// What is wrong, in the order of the operations: [`FAULTS_LISTED`] of it at most. In a repeat, what is wrong every time.
+    /// What is wrong, in the order of the operations: [`FAULTS_LISTED`] of it at most. In a repeat,
+    /// what is wrong every time.
     pub faults: Vec<Fault>,
     /// How many more faults there are.
     pub unlisted: u64,
@@ -37,15 +38,15 @@ pub struct Knit {
 impl Machine {
     /// Runs a program.
     ///
-    /// A program that is a repeat is run over and over, until what hangs on its needles at the end is the same each time; one
-    /// such round is the cloth. Each pass of a carrier is then a strand that goes on in the repeat beside, unless the program
-    /// itself brings the carrier in.
+    /// A program that is a repeat is run over and over, until what hangs on its needles at the end
+    /// is the same each time; one such round is the cloth. Each pass of a carrier is then a strand
+    /// that goes on in the repeat beside, unless the program itself brings the carrier in.
     ///
     /// No fault stops the machine: [`FaultKind`] says what is done instead.
     ///
-    /// **Errors**: [`WeftError::KnitSize`] for too many loops, carriers or loops on one needle, [`WeftError::KnitNeedle`] for
-    /// needles beyond [`NEEDLE_MAX`], [`WeftError::KnitCarriers`] for carriers that the program does not have, and
-    /// [`FabricError::OutOfMemory`].
+    /// **Errors**: [`WeftError::KnitSize`] for too many loops, carriers or loops on one needle,
+    /// [`WeftError::KnitNeedle`] for needles beyond [`NEEDLE_MAX`], [`WeftError::KnitCarriers`] for
+    /// carriers that the program does not have, and [`FabricError::OutOfMemory`].
     ///
     /// ```
     /// use texere_fabric::weft::{CarrierSet, Direction, Fate, Instruction, LoopRef, Machine, Needle, Operation, Program};

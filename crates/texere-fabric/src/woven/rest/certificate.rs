@@ -1,4 +1,5 @@
-//! The certificate: surfaces as drawn are measured, and threads are made thinner where they lack clearance.
+//! The certificate: surfaces as drawn are measured, and threads are made thinner where they lack
+//! clearance.
 
 use std::ops::ControlFlow;
 
@@ -30,13 +31,15 @@ const LOST_MOST: f64 = 0.06;
 /// The most that a half height loses in a round for the sake of a bend.
 const BENT_MOST: f64 = 0.25;
 
-/// The least share of a half width or a half height at rest that is left: threads so thin are no cloth.
+/// The least share of a half width or a half height at rest that is left: threads so thin are no
+/// cloth.
 const KEPT_LEAST: f32 = 0.6;
 
 /// At least so many threads beyond a repeat are measured with it, where the cloth has them.
 const BEYOND: usize = 4;
 
-/// A round: how clear surfaces are, up to what is enough, and how wide bends, up to what is no fold; which round it is, and what was drawn.
+/// A round: how clear surfaces are, up to what is enough, and how wide bends, up to what is no
+/// fold; which round it is, and what was drawn.
 struct Round {
     measured: [f64; 2],
     /// How clear surfaces are, [`NEAR`] at most.
@@ -45,8 +48,8 @@ struct Round {
     drawn: Vec<[[f32; 2]; 2]>,
 }
 
-/// Measures and thins. Gives the clearance before and after, the tightest bend after, and how often threads were thinned. Where no round makes surfaces clear, threads stay as
-/// in the best one.
+/// Measures and thins. Gives the clearance before and after, the tightest bend after, and how often
+/// threads were thinned. Where no round makes surfaces clear, threads stay as in the best one.
 pub(super) fn certify(
     cloth: &Woven,
     lies: &mut Lies,
@@ -97,7 +100,8 @@ fn first(yarns: &Yarns, place: &YarnPlace) -> usize {
     yarns.layout().offsets()[place.yarn] as usize + place.interval
 }
 
-/// Whether the interval from each control point on is another one than before: it is what four points make of it.
+/// Whether the interval from each control point on is another one than before: it is what four
+/// points make of it.
 fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     let differs: Vec<bool> =
         before.points().iter().zip(after.points()).map(|(one, two)| one != two).collect();
@@ -105,8 +109,8 @@ fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     (0..differs.len()).map(near).collect()
 }
 
-/// The intervals that are not a repeat of others, by the number of their first control point: those at crossings of the first repeat and some threads
-/// more, and of the last threads.
+/// The intervals that are not a repeat of others, by the number of their first control point: those
+/// at crossings of the first repeat and some threads more, and of the last threads.
 fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     let [ends, picks] = [piece.warp().len(), piece.weft().len()];
     let counts =
@@ -119,7 +123,8 @@ fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     sources.iter().map(|source| *source == NO_CROSSING || at(source)).collect()
 }
 
-/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges as they are.
+/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges
+/// as they are.
 pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
     let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
@@ -128,8 +133,8 @@ pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricErr
     cloth.like(drawdown, warp, weft)
 }
 
-/// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts at a crossing, and less high where they bend
-/// more tightly than they reach.
+/// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts
+/// at a crossing, and less high where they bend more tightly than they reach.
 fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tight: &[(f64, YarnPlace)]) {
     let mut shares = vec![[[1.0_f64; 2]; 2]; lies.drawn.len()];
     let mut keep = |place: &YarnPlace, kept: [f64; 2]| {
@@ -153,7 +158,8 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
                 (dz / f64::from(point.half_height())).powi(2),
             );
             let (wide, high) = (wide / (wide + high), high / (wide + high));
-            // The least that both lose together, where the one counts so much and the other so much.
+            // The least that both lose together, where the one counts so much and the other so
+            // much.
             let both = wide * wide + high * high;
             keep(place, [1.0 - lacking * wide / both, 1.0 - lacking * high / both]);
         }

@@ -16,8 +16,9 @@ const WIDE: f64 = 1.02;
 /// The last stop of a change of sides, at the second crossing.
 const LAST: usize = CHANGE_POINTS + 1;
 
-/// Moves the stops between two crossings up or down where the spline through them would bend more tightly than the thread is thick. `turns` says
-/// whether the thread changes sides before the first crossing, and after the second one, too: it is then taken to bend there as if mirrored.
+/// Moves the stops between two crossings up or down where the spline through them would bend more
+/// tightly than the thread is thick. `turns` says whether the thread changes sides before the first
+/// crossing, and after the second one, too: it is then taken to bend there as if mirrored.
 pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
     let place = |stop: &Stop| DVec2::new(stop.along, stop.z);
     for _ in 0..EASINGS {

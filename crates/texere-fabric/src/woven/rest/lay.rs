@@ -21,7 +21,8 @@ pub(super) struct Lies {
     /// As they are drawn: half width and half height of the end, then of the pick.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
-    /// The layer of each thread of the repeat, 0 for the lowest one. All have 0 where warp and weft have not as many levels.
+    /// The layer of each thread of the repeat, 0 for the lowest one. All have 0 where warp and weft
+    /// have not as many levels.
     layers: [Vec<u32>; 2],
     /// Tension of the yarns' splines.
     tension: f32,
@@ -102,7 +103,8 @@ impl Lies {
     }
 }
 
-/// So many threads beyond either edge are where the repeat goes on. A thread bends round the next one that it meets there.
+/// So many threads beyond either edge are where the repeat goes on. A thread bends round the next
+/// one that it meets there.
 const BEYOND: usize = 8;
 
 /// One set of threads, measured.
@@ -139,7 +141,8 @@ impl<'a> Loom<'a> {
         Self { lies, cloth, sets }
     }
 
-    /// A thread where it crosses another. Crossed threads count from the first one beyond the edge, [`BEYOND`] of them.
+    /// A thread where it crosses another. Crossed threads count from the first one beyond the edge,
+    /// [`BEYOND`] of them.
     fn station(&self, (set, thread): Of, crossed: usize) -> Station {
         let other = 1 - set;
         let repeat = self.lies.repeat[other];
@@ -168,7 +171,8 @@ impl<'a> Loom<'a> {
         self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
     }
 
-    /// A pass's thread, where it is cut off, whether it runs against the order of the threads that it crosses, and how many these are.
+    /// A pass's thread, where it is cut off, whether it runs against the order of the threads that
+    /// it crosses, and how many these are.
     fn order(&self, pass: Pass) -> (Of, [bool; 2], bool, usize) {
         match pass {
             Pass::End(end) => ((0, end), [true; 2], false, self.cloth.weft().len()),
@@ -179,8 +183,8 @@ impl<'a> Loom<'a> {
         }
     }
 
-    /// Whether a thread bends round one that it crosses. A thread of a layer passes those of another one that lie above or below it as their
-    /// layers do.
+    /// Whether a thread bends round one that it crosses. A thread of a layer passes those of
+    /// another one that lie above or below it as their layers do.
     fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
         let [own, others] = [set, 1 - set].map(|set| &self.lies.layers[set]);
         let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
@@ -259,7 +263,8 @@ impl<'a> Loom<'a> {
         }
     }
 
-    /// The points from a thread's outermost crossing, at its upper end or its lower one, to where it is cut off.
+    /// The points from a thread's outermost crossing, at its upper end or its lower one, to where
+    /// it is cut off.
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };

@@ -1,4 +1,5 @@
-//! Woven cloth at rest: its crossings settle on a device, and its yarns are drawn from how they lie.
+//! Woven cloth at rest: its crossings settle on a device, and its yarns are drawn from how they
+//! lie.
 
 mod certificate;
 mod ease;
@@ -30,25 +31,29 @@ const CERTIFIED: f64 = 0.95;
 pub struct WovenRest {
     /// Its yarns, as [`Woven::yarns`] orders them.
     pub yarns: Yarns,
-    /// Ends and picks of what has settled: the smallest repeat of threads and crossings, or all of a cloth that has none.
+    /// Ends and picks of what has settled: the smallest repeat of threads and crossings, or all of
+    /// a cloth that has none.
     pub repeat: [usize; 2],
     /// Passes, and what the last one has seen.
     pub crossings: CrossingsRest,
-    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and after: 0.99 at most, contacts beyond are not looked for.
+    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and
+    /// after: 0.99 at most, contacts beyond are not looked for.
     pub clearance: [f64; 2],
-    /// The least radius of curvature over how far the thread reaches into the bend, 1 at most: wider bends are not looked for.
+    /// The least radius of curvature over how far the thread reaches into the bend, 1 at most:
+    /// wider bends are not looked for.
     pub bend: f64,
     /// How many times threads were made thinner where they lacked clearance.
     pub rounds: u32,
-    /// The share of its area that each set keeps, in the mean and at its worst place: warp, then weft.
+    /// The share of its area that each set keeps, in the mean and at its worst place: warp, then
+    /// weft.
     pub area: [[f64; 2]; 2],
     /// What of that was lost for the sake of clearance, in the mean.
     pub area_lost: [f64; 2],
 }
 
 impl Woven {
-    /// The problem that the cloth's crossings are: of its smallest repeat, or of all of it where it has none. The last threads lie beside the
-    /// first ones, so that something holds every edge.
+    /// The problem that the cloth's crossings are: of its smallest repeat, or of all of it where it
+    /// has none. The last threads lie beside the first ones, so that something holds every edge.
     #[must_use]
     pub fn crossings(&self) -> Crossings {
         Problem::new(self).crossings
@@ -61,9 +66,10 @@ impl Woven {
     /// its height before ([`Thread::flatness`](crate::Thread)) does not count, nor [`Woven::crimp`]
     /// and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
     ///
-    /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course, [`FinishError::Crossings`] for threads that
-    /// can't be settled, [`FinishError::Backend`] for a backend that settles no
-    /// crossings or a device that fails, [`FinishError::Fabric`] as [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()) have it.
+    /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course,
+    /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a
+    /// backend that settles no crossings or a device that fails, [`FinishError::Fabric`] as
+    /// [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()) have it.
     ///
     /// ```
     /// use std::ops::ControlFlow;

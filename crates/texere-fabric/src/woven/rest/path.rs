@@ -5,8 +5,8 @@ use texere_core::crossings::StraightPassage;
 use super::ease::ease;
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// Where a float has a control point next to a change of sides, as a share of the way to the next crossing: steps of the spline grow slowly then,
-/// so that it does not swing out.
+/// Where a float has a control point next to a change of sides, as a share of the way to the next
+/// crossing: steps of the spline grow slowly then, so that it does not swing out.
 const FLOAT_STEP: f64 = 0.3;
 
 /// Parts of each arc, and of the straight line between them, whose lengths are added up.
@@ -48,7 +48,8 @@ impl Station {
     }
 }
 
-/// A change of sides between two crossings: along arcs round both crossed threads, and the straight line that touches both.
+/// A change of sides between two crossings: along arcs round both crossed threads, and the straight
+/// line that touches both.
 pub(super) struct Change<'a> {
     way: Way<'a>,
     line: [[f64; 2]; LINE],
@@ -86,7 +87,8 @@ impl<'a> Change<'a> {
         stops.into_iter().skip(1).take(CHANGE_POINTS)
     }
 
-    /// The points from the first crossing to where the thread is cut off at `edge`, about as far apart.
+    /// The points from the first crossing to where the thread is cut off at `edge`, about as far
+    /// apart.
     pub(super) fn until(&self, edge: f64) -> impl Iterator<Item = Stop> {
         let [one, _] = self.way.stations;
         let x = (edge - one.at).abs();
@@ -125,7 +127,8 @@ impl<'a> Change<'a> {
     }
 }
 
-/// The points between two crossings on one side of which a thread lies, where it changes sides before the first one or after the second one.
+/// The points between two crossings on one side of which a thread lies, where it changes sides
+/// before the first one or after the second one.
 pub(super) fn float(one: &Station, two: &Station, changes: [bool; 2]) -> impl Iterator<Item = Stop> {
     let at = |share: f64, station: &Station| {
         let along = one.at + share * (two.at - one.at);
@@ -135,7 +138,8 @@ pub(super) fn float(one: &Station, two: &Station, changes: [bool; 2]) -> impl It
     points.into_iter().zip(changes).filter_map(|(point, changes)| changes.then_some(point))
 }
 
-/// The way from one crossed thread to the next, seen from the first one's middle, with the side on which the thread begins on top.
+/// The way from one crossed thread to the next, seen from the first one's middle, with the side on
+/// which the thread begins on top.
 struct Way<'a> {
     stations: [&'a Station; 2],
     across: f64,
@@ -152,7 +156,8 @@ impl<'a> Way<'a> {
         way
     }
 
-    /// What is left across a line of that slope between both crossed threads when the thread has its own.
+    /// What is left across a line of that slope between both crossed threads when the thread has
+    /// its own.
     fn room(&self, slope: f64) -> f64 {
         let (s, c) = slope.sin_cos();
         let [one, two] =
@@ -207,7 +212,8 @@ impl<'a> Way<'a> {
         })
     }
 
-    /// A place on the arc round a crossed thread, from its middle: `share` of the way from the crossing to the straight line.
+    /// A place on the arc round a crossed thread, from its middle: `share` of the way from the
+    /// crossing to the straight line.
     fn arc(&self, at: &Station, sign: f64, share: f64) -> [f64; 2] {
         let (s, c) = (share * self.slope).sin_cos();
         let [a, b] = at.crossed;
@@ -220,7 +226,8 @@ impl<'a> Way<'a> {
         [x + half_height * s, b * b * c / reach + half_height * c]
     }
 
-    /// How far the thread lies off each thread that it crosses: at the crossing itself it may be held away from it.
+    /// How far the thread lies off each thread that it crosses: at the crossing itself it may be
+    /// held away from it.
     fn lifts(&self) -> [f64; 2] {
         self.stations.map(|at| at.side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height)
     }

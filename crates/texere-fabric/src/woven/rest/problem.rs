@@ -8,12 +8,14 @@ use super::super::thread::pitches;
 use crate::reach::Reach;
 use crate::{Drawdown, Thread, Woven};
 
-/// What comes to rest of a cloth: so many ends and picks, from where its threads and their crossings repeat. A cloth that does not repeat is
-/// its own repeat: its last threads lie beside its first ones, so that something holds its edges.
+/// What comes to rest of a cloth: so many ends and picks, from where its threads and their
+/// crossings repeat. A cloth that does not repeat is its own repeat: its last threads lie beside
+/// its first ones, so that something holds its edges.
 pub(super) struct Problem {
     pub(super) repeat: [usize; 2],
     pub(super) crossings: Crossings,
-    /// Half width and half height of each section's room, in those of the thread that has it, thread by thread.
+    /// Half width and half height of each section's room, in those of the thread that has it,
+    /// thread by thread.
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The level of each thread of the repeat among its set.
     pub(super) levels: [Vec<u32>; 2],
@@ -68,12 +70,14 @@ impl Woven {
             .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels())
     }
 
-    /// After how many ends and picks all threads lie and cross as those before; all of them where nothing repeats, two at least.
+    /// After how many ends and picks all threads lie and cross as those before; all of them where
+    /// nothing repeats, two at least.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
         self.period_of(|_| None)
     }
 
-    /// After how many ends and picks all threads weigh what those before do as well: a pattern of yarns may be longer than the weave's repeat.
+    /// After how many ends and picks all threads weigh what those before do as well: a pattern of
+    /// yarns may be longer than the weave's repeat.
     pub(in crate::woven) fn repeat_by_weight(&self) -> [usize; 2] {
         self.period_of(|thread| self.materials()[thread.material as usize].tex)
     }
@@ -125,8 +129,8 @@ fn bits(count: usize, up: impl Fn(usize) -> bool) -> Vec<u64> {
     (0..count).step_by(64).map(word).collect()
 }
 
-/// After how many threads all further ones are as those before, by the longest start of the list that is its end as well (Knuth, Morris and
-/// Pratt).
+/// After how many threads all further ones are as those before, by the longest start of the list
+/// that is its end as well (Knuth, Morris and Pratt).
 fn period(kinds: &[usize]) -> usize {
     let mut borders = vec![0; kinds.len()];
     for at in 1..kinds.len() {

@@ -2,8 +2,8 @@
 
 /// Control points between two crossings where a thread changes sides.
 ///
-/// Three leave the cloths of the mills at 0.945 to 0.99 of touching, five at 0.955 to 0.994. Those of three lose up to 6 % of their area in the
-/// certificate, those of five up to 4 %.
+/// Three leave the cloths of the mills at 0.945 to 0.99 of touching, five at 0.955 to 0.994. Those
+/// of three lose up to 6 % of their area in the certificate, those of five up to 4 %.
 pub(super) const CHANGE_POINTS: usize = 5;
 
 /// A control point of a thread's path, mm.

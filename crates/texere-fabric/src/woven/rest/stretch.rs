@@ -1,4 +1,5 @@
-//! Cloth that is stretched one way: it gives the other way, since its threads stay as long as they are.
+//! Cloth that is stretched one way: it gives the other way, since its threads stay as long as they
+//! are.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +16,8 @@ const STRAIGHT: f64 = 0.002;
 /// How near the crimp of the pulled threads comes to what keeps their length.
 const NEAR: f64 = 2e-4;
 
-/// How much tauter one set may become over the other one, as a natural logarithm: what [`Finish::taut`] allows.
+/// How much tauter one set may become over the other one, as a natural logarithm: what
+/// [`Finish::taut`] allows.
 const TAUTER: f64 = 4.6;
 
 /// Halvings of that, and how often the cloth gives the other way in each.
@@ -39,9 +41,11 @@ impl Woven {
     /// yarns' splines, from 0 to below 1; `progress` gets the share of the work that is done, and
     /// `Break` ends it within one pass.
     ///
-    /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or jammed, and those of [`Woven::at_rest`].
+    /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or
+    /// jammed, and those of [`Woven::at_rest`].
     ///
-    /// **Source**: crimp interchange as F. T. Peirce has it, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
+    /// **Source**: crimp interchange as F. T. Peirce has it, "The geometry of cloth structure",
+    /// Journal of the Textile Institute 28, 1937.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -68,7 +72,8 @@ impl Woven {
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
         let [pulled, crossed] = [along as usize, along.other() as usize];
-        // Of each course of settling its own share, so that the first says something, too, and each pass hears that it is to end.
+        // Of each course of settling its own share, so that the first says something, too, and each
+        // pass hears that it is to end.
         let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
         let mut crimps_of = |cloth: &Self, finish: &Finish| {
             let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));

@@ -18,7 +18,8 @@ pub(super) struct Cloth {
 }
 
 impl Cloth {
-    /// `rests` says whether the cloth is to come to rest: then threads flatten as they must, and nothing else makes room for them.
+    /// `rests` says whether the cloth is to come to rest: then threads flatten as they must, and
+    /// nothing else makes room for them.
     pub(super) fn new(source: &Source<'_>, table: &ClothTable, rests: bool) -> Result<Self, ReadError> {
         let mut cloth = Self::default();
         if let Some(shape) = &table.shape {

@@ -9,8 +9,8 @@ use crate::read::ReadError;
 use crate::read::error::{first_few, named};
 use crate::read::point_paper::PointPaper;
 
-/// What each colour of the paper stands for by the table of that name, or the refusal of one that stands for nothing; a warning of those
-/// in the table alone.
+/// What each colour of the paper stands for by the table of that name, or the refusal of one that
+/// stands for nothing; a warning of those in the table alone.
 pub(super) fn of_paper<'a>(
     source: &Source<'_>,
     paper: &PointPaper,

@@ -21,7 +21,8 @@ const TENSION_MOST: f64 = 0.1;
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {
-    /// Whether yarns are to settle, where the table says so, and what is asked of them: of woven cloth other things than of knits.
+    /// Whether yarns are to settle, where the table says so, and what is asked of them: of woven
+    /// cloth other things than of knits.
     pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
         let knits = [
             ("finish.length", &self.length),

@@ -129,7 +129,8 @@ impl Reader<'_> {
                 let place = source.place("knit.yarns or knit.beds", span);
                 return Err(ReadError::Without { place, needs: "symbols in [knit.colors]" });
             }
-            // Courses of a row come in the order of their yarns' names: the same whatever the image.
+            // Courses of a row come in the order of their yarns' names: the same whatever the
+            // image.
             let mut names: Vec<&String> = meant.iter().collect();
             names.sort_unstable();
             names.dedup();
@@ -258,8 +259,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Numbers of the yarns of `knit.yarns`, one after another, and their names by number. Where nothing is given, it is the only
-    /// yarn that there is.
+    /// Numbers of the yarns of `knit.yarns`, one after another, and their names by number. Where
+    /// nothing is given, it is the only yarn that there is.
     pub(super) fn yarns_in_turn(&self) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
         let Some(list) = &self.table.yarns else {
             return match self.yarns.only() {

@@ -1,4 +1,5 @@
-//! What knits of either kind say about how they are laid: copies, compression, and how many control points they have.
+//! What knits of either kind say about how they are laid: copies, compression, and how many control
+//! points they have.
 
 use texere_fabric::weft::Cells;
 use toml::Spanned;

@@ -46,12 +46,14 @@
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` where not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
 //!
-//! Weaves of an image run through from the cloth's first end and first pick, so that areas of one weave join up, whatever
-//! lies between them and also from one repeat of the image to the next. Each colour of the image has to be in
-//! `[weave.colors]`; without that table it has two colours, and the darker one is warp up. Pixels are opaque, or
-//! wholly transparent: that is one colour, lighter than any. What a picture says of its colour space is not looked at.
+//! Weaves of an image run through from the cloth's first end and first pick, so that areas of one
+//! weave join up, whatever lies between them and also from one repeat of the image to the next.
+//! Each colour of the image has to be in `[weave.colors]`; without that table it has two colours,
+//! and the darker one is warp up. Pixels are opaque, or wholly transparent: that is one colour,
+//! lighter than any. What a picture says of its colour space is not looked at.
 //!
-//! The picks of a Jacquard cloth take the yarns of `[weft]` in turn, `["2 red", "white"]` two picks red and one white.
+//! The picks of a Jacquard cloth take the yarns of `[weft]` in turn, `["2 red", "white"]` two picks
+//! red and one white.
 //!
 //! Every key of `[cloth]`, which says how threads lie:
 //!
@@ -97,7 +99,8 @@
 //! | `run_in_mm` | yarn for a rack of 480 courses |
 //! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour what is displaced: `"0-0/1-1"` |
 //!
-//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]); `length`, `tension` and `press` are for knits, the last three for woven cloth:
+//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]);
+//! `length`, `tension` and `press` are for knits, the last three for woven cloth:
 //!
 //! | key | value |
 //! |---|---|

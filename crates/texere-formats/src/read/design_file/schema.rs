@@ -9,7 +9,8 @@ use super::value::{Any, Node, Value};
 use crate::read::ReadError;
 use crate::read::point_paper::RowOrder;
 
-/// Tables with the keys that each may have. One that may do without any of them may itself be left out.
+/// Tables with the keys that each may have. One that may do without any of them may itself be left
+/// out.
 macro_rules! tables {
     ($($(#[$doc:meta])* $table:ident { $($(#[$key_doc:meta])* $key:ident: $kind:ty,)* })*) => {$(
         $(#[$doc])*

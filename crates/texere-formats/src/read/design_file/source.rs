@@ -186,7 +186,8 @@ fn keys_of(above: &str, table: &DeTable<'_>, found: &mut Vec<(String, usize)>) {
         let key = format!("{above}{}", key.get_ref());
         match value.get_ref() {
             DeValue::Table(table) => keys_of(&format!("{key}."), table, found),
-            // Tables in a list are named as one of them and by their numbers: `bars, bar 2: lapping`.
+            // Tables in a list are named as one of them and by their numbers:
+            // `bars, bar 2: lapping`.
             DeValue::Array(list) => {
                 let one = key.rsplit('.').next().unwrap_or_default().trim_end_matches('s');
                 for (number, item) in (1..).zip(list.iter()) {

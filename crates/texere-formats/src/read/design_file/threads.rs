@@ -23,7 +23,8 @@ const DENSITY: [f64; 2] = [0.05, 20.0];
 /// Limpest and stiffest yarn, in the stiffness of cotton.
 const STIFFNESS: [f64; 2] = [0.01, 100.0];
 
-/// Yarn that stands on edge, and the flattest ribbon, as people write it: 0.1 as a f32 is a little more than that.
+/// Yarn that stands on edge, and the flattest ribbon, as people write it: 0.1 as a f32 is a little
+/// more than that.
 const FLATNESS: [f64; 2] = [0.1, 10.0];
 
 /// The most yarns in turn of a knit.
@@ -115,7 +116,8 @@ impl YarnTable {
         Some((name.clone(), *thread))
     }
 
-    /// The yarns of a list one after another, each a number among those that follow: names and yarns.
+    /// The yarns of a list one after another, each a number among those that follow: names and
+    /// yarns.
     pub(super) fn in_turn(
         &self,
         source: &Source<'_>,
@@ -258,8 +260,8 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
     }
     let place = || source.place(&format!("yarns.{name}.section"), shape.span());
     shape.as_ref().validate().map_err(|error| ReadError::Section { place: place(), source: error })?;
-    // A polygon's corners are the only points of an outline that a design gives; from those that face nowhere no
-    // surface can be made.
+    // A polygon's corners are the only points of an outline that a design gives; from those that
+    // face nowhere no surface can be made.
     let faces = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
     if let Section::Polygon(corners) = shape.as_ref()
         && let Some(corner) =

@@ -85,8 +85,8 @@ impl<'a> Node<'a> {
 
 /// The known key nearest to one that is not, if any is near.
 fn nearest(key: &str, known: &[&str]) -> Option<String> {
-    // Further apart than a third of its letters, a key is another word, not a misspelling. One much longer than all
-    // known ones is that without being compared letter by letter.
+    // Further apart than a third of its letters, a key is another word, not a misspelling. One much
+    // longer than all known ones is that without being compared letter by letter.
     let most = |known: &str| known.len().max(3) / 3 + 1;
     let nearest = known
         .iter()

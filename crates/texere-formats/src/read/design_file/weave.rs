@@ -137,8 +137,8 @@ fn common_multiple(a: usize, b: usize) -> usize {
     (a / divisor.max(1)).saturating_mul(b)
 }
 
-/// The table of colours, by red, green and blue. A weave is read here only to know that it is one: no more of them are
-/// kept than a paper has colours.
+/// The table of colours, by red, green and blue. A weave is read here only to know that it is one:
+/// no more of them are kept than a paper has colours.
 fn weaves<'a>(
     source: &Source<'_>,
     colors: &'a BTreeMap<Spanned<String>, Spanned<String>>,
@@ -167,7 +167,8 @@ impl Notated<'_> {
     }
 }
 
-/// The weave of each colour of the paper, or the refusal of a colour that has none; a warning of those in the table alone.
+/// The weave of each colour of the paper, or the refusal of a colour that has none; a warning of
+/// those in the table alone.
 fn of_colors(
     source: &Source<'_>,
     paper: &PointPaper,

@@ -17,7 +17,8 @@ const GAUGE: f64 = 15.0;
 /// How many times a yarn's diameter a wale is where a file says nothing: that of plain jersey.
 const WALE_OF_DIAMETER: f64 = 5.0;
 
-/// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too dark to show its shape.
+/// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too
+/// dark to show its shape.
 const COLORS: [[u8; 3]; 8] = [
     [0xd9, 0xcf, 0xb8],
     [0x9c, 0x3b, 0x2e],

@@ -102,8 +102,9 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    /// The fractions of a rack at which the machine's back needles lie between its front needles, so that both beds can knit at
-    /// once: 0.25 on Shima Seiki's SWG machines, also below 0 (-0.75), and 0.5 elsewhere. Either where no machine is named.
+    /// The fractions of a rack at which the machine's back needles lie between its front needles,
+    /// so that both beds can knit at once: 0.25 on Shima Seiki's SWG machines, also below 0
+    /// (-0.75), and 0.5 elsewhere. Either where no machine is named.
     pub(super) fn all_needle_racks(&self) -> &'static [f64] {
         match self.machine {
             Some(machine) if machine.starts_with("SWG") => &[0.25],

@@ -111,7 +111,8 @@ impl<'a> Words<'a> {
         number.map(|number| (number, word)).ok_or_else(|| self.line.refused(word, expected))
     }
 
-    /// Passes by `D N` that older writers put before the carriers of `in` and its like. Gives back whether they were there.
+    /// Passes by `D N` that older writers put before the carriers of `in` and its like. Gives back
+    /// whether they were there.
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
         let is_direction = |word: &str| {

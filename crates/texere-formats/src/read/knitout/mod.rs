@@ -1,11 +1,14 @@
-//! Knitout 2, the operations of a knitting machine (J. McCann, "The Knitout (.k) File Format", v0.6).
+//! Knitout 2, the operations of a knitting machine (J. McCann, "The Knitout (.k) File Format",
+//! v0.6).
 //!
-//! Strict about what is knitted, lenient about how a file is written. Refused, with line and column: an operation that is none,
-//! a word that does not belong there, a carrier that the header does not list. Warned of, each kind once: a first line without
-//! `;!knitout-2` or with a later version, no list of carriers (then they are those that occur), headers and extensions that
-//! are not known, stitch sizes without a length, carriage returns, text that is not UTF-8.
+//! Strict about what is knitted, lenient about how a file is written. Refused, with line and
+//! column: an operation that is none, a word that does not belong there, a carrier that the header
+//! does not list. Warned of, each kind once: a first line without `;!knitout-2` or with a later
+//! version, no list of carriers (then they are those that occur), headers and extensions that are
+//! not known, stitch sizes without a length, carriage returns, text that is not UTF-8.
 //!
-//! With an empty carrier set `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` are nothing. `pause` is nothing.
+//! With an empty carrier set `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` are
+//! nothing. `pause` is nothing.
 
 mod carriers;
 mod design;
@@ -47,7 +50,8 @@ const NEEDLE_MAX: i32 = 1 << 16;
 /// How long a loop is, mm, for each stitch size of a file, as [`size`] writes it.
 pub(super) type LoopLengths = BTreeMap<String, f64>;
 
-/// A stitch size, however its numbers are written: the one behind `x-stitch-number`, or both behind `stitch`.
+/// A stitch size, however its numbers are written: the one behind `x-stitch-number`, or both behind
+/// `stitch`.
 pub(super) fn size(text: &str) -> Option<String> {
     let numbers =
         text.split_whitespace().map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()));
@@ -138,7 +142,8 @@ fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, Re
     Ok(Knitout { program, gauge, yarns, warnings: warnings.list(), unused_sizes, keys })
 }
 
-/// What errors of the cloth name: the gauge, where each carrier comes first, and the last loop; where there is none, the first operation.
+/// What errors of the cloth name: the gauge, where each carrier comes first, and the last loop;
+/// where there is none, the first operation.
 fn keys(path: &Path, gauge: Option<usize>, program: &Program) -> Keys {
     let (mut carriers, mut last, mut seen) = (Vec::new(), None, vec![false; program.carriers.len()]);
     let written = |(operation, carrier): (&Operation, u32)| {

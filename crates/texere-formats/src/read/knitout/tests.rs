@@ -219,7 +219,8 @@ fn what_is_not_standard_is_warned_of_once() {
     assert!(many.len() == 21 && many[20].contains("more warnings are left out"), "{many:?}");
 }
 
-/// Errors of a cloth, whose structure and settling know carriers and sizes, name the lines of its file.
+/// Errors of a cloth, whose structure and settling know carriers and sizes, name the lines of its
+/// file.
 #[test]
 fn errors_of_the_cloth_have_their_lines() {
     let text = ";!knitout-2\n;;Machine: SWG\n;;Carriers: 1 2 3\n;;Gauge: 7\nin 3\nknit + f1 3\nin 2\ntuck - f1 2\nsplit + f1 b1 2 3\nout 2\nrack 1\n";

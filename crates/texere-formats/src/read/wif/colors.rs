@@ -56,8 +56,8 @@ impl Palette {
         Ok(palette)
     }
 
-    /// The material of the colour that `entry` names: a number of the table, or a number with red, green and blue.
-    /// `None` where it says none.
+    /// The material of the colour that `entry` names: a number of the table, or a number with red,
+    /// green and blue. `None` where it says none.
     pub(super) fn material(
         &mut self,
         ini: &Ini<'_>,
@@ -104,8 +104,8 @@ fn few(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Result<Vec
     numbers.collect()
 }
 
-/// The range of the table's values. Where the file does not say, 0 to 255, or 0 to 999 (Fiberworks) or 0 to 65,535 where
-/// values go beyond.
+/// The range of the table's values. Where the file does not say, 0 to 255, or 0 to 999 (Fiberworks)
+/// or 0 to 65,535 where values go beyond.
 fn range(
     ini: &Ini<'_>,
     table: &BTreeMap<u32, [u32; 3]>,

@@ -1,7 +1,7 @@
 //! The INI dialect of WIF files, as weaving programs really write it.
 //!
-//! No INI crate fits: real drafts have text before the first section, lines without `=`, doubled sections and keys,
-//! mixed line ends and Latin-1 letters, and an error has to name the line.
+//! No INI crate fits: real drafts have text before the first section, lines without `=`, doubled
+//! sections and keys, mixed line ends and Latin-1 letters, and an error has to name the line.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -28,7 +28,8 @@ pub(super) struct Ini<'a> {
     sections: HashMap<Cow<'a, str>, Section<'a>>,
 }
 
-/// The sections that a cloth is made of, and who wrote them. Others may be as large as they like: nothing of them is kept.
+/// The sections that a cloth is made of, and who wrote them. Others may be as large as they like:
+/// nothing of them is kept.
 const READ: [&str; 17] = [
     "wif",
     TEXT,
@@ -53,7 +54,8 @@ const READ: [&str; 17] = [
 const TEXT: &str = "text";
 
 impl<'a> Ini<'a> {
-    /// Reads all sections. Where a section or a key comes twice, the later value of each key stands.
+    /// Reads all sections. Where a section or a key comes twice, the later value of each key
+    /// stands.
     pub(super) fn parse(file: &'a Path, text: &'a str) -> Self {
         let mut sections: HashMap<Cow<'a, str>, Section<'a>> = HashMap::new();
         let (mut section, mut is_text) = (None, false);
@@ -119,8 +121,8 @@ impl<'a> Ini<'a> {
     }
 }
 
-/// A key as it is looked up: a number without a sign and zeros before it, so that 01 and 1 are one key; any other in lower case. Most keys are
-/// numbers, which stay where they are.
+/// A key as it is looked up: a number without a sign and zeros before it, so that 01 and 1 are one
+/// key; any other in lower case. Most keys are numbers, which stay where they are.
 fn plain_key(key: &str) -> Cow<'_, str> {
     match key.parse::<u32>() {
         Ok(number) if key.starts_with(['0', '+']) => Cow::Owned(number.to_string()),
@@ -136,9 +138,11 @@ fn lower_case(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// The text of a file: UTF-16 where it begins as that, UTF-8 where it is that, Latin-1 where it is neither.
+/// The text of a file: UTF-16 where it begins as that, UTF-8 where it is that, Latin-1 where it is
+/// neither.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
-    // Without a byte order mark UTF-16 shows in the zeros of its first two letters: a WIF file begins with "[W".
+    // Without a byte order mark UTF-16 shows in the zeros of its first two letters: a WIF file
+    // begins with "[W".
     match *bytes {
         [0xff, 0xfe, ..] => return utf16(&bytes[2..], u16::from_le_bytes),
         [0xfe, 0xff, ..] => return utf16(&bytes[2..], u16::from_be_bytes),

@@ -1,15 +1,18 @@
-//! WIF 1.1, the Weaving Information File: lenient about how a file is written, strict about what it says.
+//! WIF 1.1, the Weaving Information File: lenient about how a file is written, strict about what it
+//! says.
 //!
-//! Sections and keys come in any order and case; sparse lists take defaults; 0 or nothing stands for none; what CONTENTS
-//! claims is not trusted. Refused, with section and key: a treadle or shaft that the loom does not have, a colour that no
-//! table holds, a tie-up, treadling or lift plan that the others need.
+//! Sections and keys come in any order and case; sparse lists take defaults; 0 or nothing stands
+//! for none; what CONTENTS claims is not trusted. Refused, with section and key: a treadle or shaft
+//! that the loom does not have, a colour that no table holds, a tie-up, treadling or lift plan that
+//! the others need.
 //!
-//! A loom has the shafts and treadles that WEAVING declares. Where ends are threaded on more shafts, or the tie-up has rows
-//! for more treadles, it has those too, with a warning; what then lifts a shaft or presses a treadle beyond them is
-//! refused. Without a declaration the loom has as many as the file uses.
+//! A loom has the shafts and treadles that WEAVING declares. Where ends are threaded on more
+//! shafts, or the tie-up has rows for more treadles, it has those too, with a warning; what then
+//! lifts a shaft or presses a treadle beyond them is refused. Without a declaration the loom has as
+//! many as the file uses.
 //!
-//! A thickness that leaves threads no room to cross is taken for how wide they are drawn, unless we have written it: see
-//! [`threads::roomy`].
+//! A thickness that leaves threads no room to cross is taken for how wide they are drawn, unless we
+//! have written it: see [`threads::roomy`].
 
 mod colors;
 mod ini;
@@ -34,10 +37,12 @@ pub(crate) use threads::{LENGTH_MM, UNITS_MM};
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: u32 = 1_000_000;
 
-/// The largest WIF file that is read: a lift plan of 10,000 picks by 5,000 hooks takes half as much.
+/// The largest WIF file that is read: a lift plan of 10,000 picks by 5,000 hooks takes half as
+/// much.
 pub(crate) const FILE_LIMIT: u64 = 1 << 28;
 
-/// The program that drafts of our own name as their source: in these a thickness is the yarn's, however close threads lie.
+/// The program that drafts of our own name as their source: in these a thickness is the yarn's,
+/// however close threads lie.
 pub(crate) const PROGRAM: &str = "texere";
 
 /// A WIF file, read.
@@ -101,8 +106,8 @@ fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> Re
     ReadError::MissingSection { file: ini.file.into(), section, needed_for }
 }
 
-/// The draft, of threading and tie-up with treadling or lift plan, and its drawdown. Where a file has both and they
-/// differ, the tie-up stands, and a warning says so.
+/// The draft, of threading and tie-up with treadling or lift plan, and its drawdown. Where a file
+/// has both and they differ, the tie-up stands, and a warning says so.
 fn draft(
     ini: &Ini<'_>,
     ends: u32,
@@ -151,8 +156,9 @@ fn draft(
     Ok((draft, drawdown))
 }
 
-/// Refuses a draft that counts shafts from 0: some ends are on shaft 0, others on every further one but the last; some lifts
-/// name shaft 0, and none the last. Where both name shaft 0, but not all of that is so, there is a warning. A draft of ours counts from 1.
+/// Refuses a draft that counts shafts from 0: some ends are on shaft 0, others on every further one
+/// but the last; some lifts name shaft 0, and none the last. Where both name shaft 0, but not all
+/// of that is so, there is a warning. A draft of ours counts from 1.
 fn counted_from_1(
     ini: &Ini<'_>,
     threading: &[Vec<u32>],
@@ -185,7 +191,8 @@ fn counted_from_1(
     Ok(())
 }
 
-/// Whether the file says that the loom has no treadles. What it says of treadles then counts for nothing.
+/// Whether the file says that the loom has no treadles. What it says of treadles then counts for
+/// nothing.
 fn has_no_treadles(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<bool, ReadError> {
     let none = integer(ini, "weaving", "treadles", 0, LOOM_LIMIT)? == Some(0);
     if none && (ini.has("tieup") || ini.has("treadling")) {
@@ -212,8 +219,8 @@ fn treadled(
     Ok(Some(Shedding::TieUp { tie_up, treadling }))
 }
 
-/// How many shafts or treadles the loom has: as many as `[WEAVING]` says under `key`, or `highest`, the number that
-/// `section` goes up to, where that is more. None where nothing is declared.
+/// How many shafts or treadles the loom has: as many as `[WEAVING]` says under `key`, or `highest`,
+/// the number that `section` goes up to, where that is more. None where nothing is declared.
 fn on_loom(
     ini: &Ini<'_>,
     key: &str,

@@ -53,8 +53,9 @@ pub(super) fn list(
     })
 }
 
-/// A section of `number=list` lines as one list for each of 1 to `count`, each number in it once; 0 stands for none,
-/// numbers above `limit`, which is [`LOOM_LIMIT`] at most, are refused. Lines beyond `count` are left out with a warning.
+/// A section of `number=list` lines as one list for each of 1 to `count`, each number in it once; 0
+/// stands for none, numbers above `limit`, which is [`LOOM_LIMIT`] at most, are refused. Lines
+/// beyond `count` are left out with a warning.
 pub(super) fn lists(
     ini: &Ini<'_>,
     section: &str,
@@ -82,8 +83,9 @@ pub(super) fn lists(
     Ok(lists)
 }
 
-/// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the others. A section that
-/// begins at 0 and has no line `count` is refused: all of its lines would stand for the wrong thread.
+/// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the
+/// others. A section that begins at 0 and has no line `count` is refused: all of its lines would
+/// stand for the wrong thread.
 pub(super) fn numbered<'a>(
     ini: &Ini<'a>,
     section: &str,

@@ -20,8 +20,9 @@ pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
 pub(crate) const UNITS_MM: [(&str, f64); 3] =
     [("Centimeters", 10.0), ("Inches", 25.4), ("Decipoints", 25.4 / 720.0)];
 
-/// How much room threads get to cross where the file leaves it to us, in least pitches: what half the spacing is in a cloth
-/// of threads alike, and what keeps them clear beside gaps of up to twelve times their pitch and beside threads of a twelfth of their diameter, tested.
+/// How much room threads get to cross where the file leaves it to us, in least pitches: what half
+/// the spacing is in a cloth of threads alike, and what keeps them clear beside gaps of up to
+/// twelve times their pitch and beside threads of a twelfth of their diameter, tested.
 const ROOM: f64 = 1.154_700_538_379_251_5;
 const ROOM_UNEVEN: f64 = 1.85;
 
@@ -41,7 +42,8 @@ struct Set {
     material: Vec<Option<u32>>,
 }
 
-/// The warp's and the weft's threads, `counts` of them, and whether the file says how thick they are.
+/// The warp's and the weft's threads, `counts` of them, and whether the file says how thick they
+/// are.
 pub(super) fn read(
     ini: &Ini<'_>,
     counts: [u32; 2],
@@ -73,14 +75,16 @@ pub(super) fn is_ours(ini: &Ini<'_>) -> bool {
     ini.get("wif", "source program").is_some_and(|program| program.value == PROGRAM)
 }
 
-/// A cloth of `threads`, all of them thinned by one factor where some need it to cross: for a file that does not say
-/// how thick they are.
+/// A cloth of `threads`, all of them thinned by one factor where some need it to cross: for a file
+/// that does not say how thick they are.
 ///
-/// Many programs write as a thread's thickness what they draw it with, the whole of its spacing. Nothing can be woven of
-/// such threads, as those that cross have to pass between them. So a `Thickness` that is the set's `Spacing`, or threads
-/// that together are as wide as the set, say only how thick threads are beside one another: their mean is taken as where a
-/// file states no thickness, half the mean spacing, of the set that lies closer. That is 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`])
-/// where threads are alike and evenly spaced; where they are not, some may have less.
+/// Many programs write as a thread's thickness what they draw it with, the whole of its spacing.
+/// Nothing can be woven of such threads, as those that cross have to pass between them. So a
+/// `Thickness` that is the set's `Spacing`, or threads that together are as wide as the set, say
+/// only how thick threads are beside one another: their mean is taken as where a file states no
+/// thickness, half the mean spacing, of the set that lies closer. That is 2/√3 of the least pitch
+/// (Peirce's, [`texere_fabric::Pitch`]) where threads are alike and evenly spaced; where they are
+/// not, some may have less.
 pub(super) fn roomy(
     drawdown: Drawdown,
     [warp, weft]: [Vec<Thread>; 2],
@@ -165,7 +169,8 @@ impl Set {
         Ok(Self { common: [spacing, thickness], spacing_mm, thickness_mm, material })
     }
 
-    /// Whether threads are as thick as they are spaced: in what the set says of all of them, or in sum.
+    /// Whether threads are as thick as they are spaced: in what the set says of all of them, or in
+    /// sum.
     fn is_drawn(&self) -> bool {
         let alike = |[spacing, thickness]: [Option<f64>; 2]| {
             spacing.zip(thickness).map(|(spacing, thickness)| thickness / spacing)
@@ -175,8 +180,8 @@ impl Set {
                 .is_some_and(|ratio| ratio >= 1.0 - ALIKE)
     }
 
-    /// The threads, with `spacing` and `diameter` where the file gives none. Where thicknesses are `drawn`, their mean
-    /// is `diameter`.
+    /// The threads, with `spacing` and `diameter` where the file gives none. Where thicknesses are
+    /// `drawn`, their mean is `diameter`.
     fn threads(
         self,
         name: &str,

@@ -6,8 +6,8 @@ use texere_fabric::{Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
 
 use crate::Design;
 
-/// What of a design's finish is not as it is where nothing is said, as keys of a design file and their values. Those of knits, and
-/// what only a program can ask for, have none.
+/// What of a design's finish is not as it is where nothing is said, as keys of a design file and
+/// their values. Those of knits, and what only a program can ask for, have none.
 pub(super) struct Finished {
     /// Keys of woven cloth, each with what stands behind it.
     pub(super) keys: Vec<(&'static str, f64)>,

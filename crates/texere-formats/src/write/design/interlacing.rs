@@ -62,7 +62,8 @@ impl<'a> Interlacing<'a> {
         [&self.ends, &self.picks].map(|kinds| period(&kinds.of))
     }
 
-    /// A draft with a shaft for each kind of end, and a treadle for each kind of pick where there are few of both.
+    /// A draft with a shaft for each kind of end, and a treadle for each kind of pick where there
+    /// are few of both.
     ///
     /// **Errors**: [`WriteError::TextTooLarge`] where its lift plan alone is larger than `limit`.
     pub(super) fn draft(&self, format: &'static str, limit: u64) -> Result<Draft, WriteError> {
@@ -99,7 +100,8 @@ fn packed(count: usize, bit: impl Fn(usize) -> bool) -> Vec<u64> {
 
 /// After how many items they begin again, the last time perhaps not to the end.
 ///
-/// **Source**: Knuth, Morris and Pratt, "Fast pattern matching in strings", SIAM Journal on Computing 6, 1977.
+/// **Source**: Knuth, Morris and Pratt, "Fast pattern matching in strings", SIAM Journal on
+/// Computing 6, 1977.
 pub(super) fn period<T: PartialEq>(items: &[T]) -> usize {
     // The longest proper beginning of each beginning that is also its end.
     let mut borders = vec![0; items.len()];

@@ -19,16 +19,18 @@ use super::{Output, WriteError};
 use crate::Design;
 use wif::WifFile;
 
-/// Writes a woven design as a WIF 1.1 draft. Gives what the file leaves out, each by its key in a design file.
+/// Writes a woven design as a WIF 1.1 draft. Gives what the file leaves out, each by its key in a
+/// design file.
 ///
-/// The draft is the design's own; where it has none, one shaft for each kind of end, with a tie-up where no more than a hundred
-/// treadles are needed, else with a lift plan. Spacing and thickness are each thread's, in the unit that holds them with the fewest
-/// digits, and are read again to the last of sixteen digits; so are colours. Jammed threads that were relieved are written as they
+/// The draft is the design's own; where it has none, one shaft for each kind of end, with a tie-up
+/// where no more than a hundred treadles are needed, else with a lift plan. Spacing and thickness
+/// are each thread's, in the unit that holds them with the fewest digits, and are read again to the
+/// last of sixteen digits; so are colours. Jammed threads that were relieved are written as they
 /// then are.
 ///
-/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.wif`, [`WriteError::Unheld`] for a knit,
-/// [`WriteError::OutOfRange`] for threads and shafts beyond what a reader takes, [`WriteError::TextTooLarge`],
-/// [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.wif`,
+/// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for threads and shafts beyond what
+/// a reader takes, [`WriteError::TextTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_formats::{read, write};
@@ -51,7 +53,8 @@ pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, Wr
     Ok(file.left_out)
 }
 
-/// Writes a woven design to `out` as a WIF 1.1 draft: the bytes that [`wif`](fn@wif) writes to a file.
+/// Writes a woven design to `out` as a WIF 1.1 draft: the bytes that [`wif`](fn@wif) writes to a
+/// file.
 ///
 /// **Errors**: those of [`wif`](fn@wif), with [`WriteError::Writer`] where `out` refuses.
 pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
@@ -60,15 +63,17 @@ pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErro
     Ok(file.left_out)
 }
 
-/// Writes a woven design as texere's own design file, which needs no other file beside it. Gives what the file leaves out, each by its
-/// key or its name.
+/// Writes a woven design as texere's own design file, which needs no other file beside it. Gives
+/// what the file leaves out, each by its key or its name.
 ///
-/// Reading it gives an equal design: its drawdown, its threads with sizes, spacings, colours, sections and twist, how they lie and how
-/// they come to rest. The weaver's draft is left out, which WIF holds. Yarns that share a name get numbers behind it.
+/// Reading it gives an equal design: its drawdown, its threads with sizes, spacings, colours,
+/// sections and twist, how they lie and how they come to rest. The weaver's draft is left out,
+/// which WIF holds. Yarns that share a name get numbers behind it.
 ///
-/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.toml`, [`WriteError::Unheld`] for a knit,
-/// [`WriteError::OutOfRange`] for a value that no design file may have, [`WriteError::TextTooLarge`] for a drawdown whose repeat has
-/// more than some sixteen million crossings, [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.toml`,
+/// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for a value that no design file
+/// may have, [`WriteError::TextTooLarge`] for a drawdown whose repeat has more than some sixteen
+/// million crossings, [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -92,7 +97,8 @@ pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, W
     Ok(file.left_out)
 }
 
-/// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml) writes to a file.
+/// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml)
+/// writes to a file.
 ///
 /// **Errors**: those of [`toml`](fn@toml), with [`WriteError::Writer`] where `out` refuses.
 #[cfg(feature = "toml")]

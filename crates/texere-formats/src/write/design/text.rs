@@ -59,7 +59,8 @@ pub(super) fn shortest(value: f64, digits: usize, reads: impl Fn(f64) -> bool) -
     })
 }
 
-/// The number of fewest digits near `value` that `reads` as what is meant, or else `value`, and whether it does.
+/// The number of fewest digits near `value` that `reads` as what is meant, or else `value`, and
+/// whether it does.
 pub(super) fn nearest(value: f64, reads: impl Fn(f64) -> bool) -> (f64, bool) {
     shortest(value, DIGITS, reads).map_or((value, false), |near| (near, true))
 }

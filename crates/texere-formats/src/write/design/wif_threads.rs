@@ -139,8 +139,9 @@ pub(super) struct Set {
 
 impl Set {
     pub(super) fn new(name: &'static str, threads: &[Thread], colors: &Colors) -> Result<Self, WriteError> {
-        // Some spacings can be told to the bit in no unit. What a reader has of them may take fewer digits in another unit, so that is
-        // chosen for what will be read: written again, it has the same text.
+        // Some spacings can be told to the bit in no unit. What a reader has of them may take fewer
+        // digits in another unit, so that is chosen for what will be read: written again, it has
+        // the same text.
         let threads = &held(threads, unit(threads).1);
         let (unit, mm) = unit(threads);
         let limits = WIF_LENGTH_MM.map(|limit| limit / mm);
@@ -210,7 +211,8 @@ fn sizes(threads: &[Thread]) -> Kinds {
     Kinds::new(threads.len(), |thread| size(&threads[thread]))
 }
 
-/// The unit that holds most sizes of threads to the bit, and these with the fewest digits, and its mm.
+/// The unit that holds most sizes of threads to the bit, and these with the fewest digits, and its
+/// mm.
 fn unit(threads: &[Thread]) -> (&'static str, f64) {
     let firsts = sizes(threads).firsts;
     let cost = |(_, mm): &&(&str, f64)| {

@@ -80,7 +80,8 @@ impl Yarns {
         Ok(format!("\n[{name}]\nyarns = [{}]\n{spacing}\n", items.join(", ")))
     }
 
-    /// So many threads of one yarn: an item with a number, or one for each where that would be another yarn's name.
+    /// So many threads of one yarn: an item with a number, or one for each where that would be
+    /// another yarn's name.
     fn items(&self, yarn: u32, times: usize) -> Vec<String> {
         let name = &self.names[yarn as usize];
         let counted = format!("{times} {name}");

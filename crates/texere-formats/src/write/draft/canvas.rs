@@ -5,7 +5,8 @@ use super::sheet::{PAPER, Rgb};
 /// Half the width of a line, pixels.
 const STROKE: f64 = 1.0;
 
-/// Yarns brighter than that, as a sum of their channels, are drawn darker, so that they show on paper.
+/// Yarns brighter than that, as a sum of their channels, are drawn darker, so that they show on
+/// paper.
 const BRIGHT: u32 = 480;
 
 /// What yarns darker than paper come to.

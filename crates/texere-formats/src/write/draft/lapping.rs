@@ -6,8 +6,9 @@
 //!  front bar      all bars
 //! ```
 //!
-//! A diagram for each bar has one of its guides, or all where the bar is a Jacquard bar; the one on the right has all guides of all bars. A
-//! guide passes behind the needles between two dots, goes round a dot above it, and moves on to the next course.
+//! A diagram for each bar has one of its guides, or all where the bar is a Jacquard bar; the one on
+//! the right has all guides of all bars. A guide passes behind the needles between two dots, goes
+//! round a dot above it, and moves on to the next course.
 
 use std::io::Write;
 
@@ -37,11 +38,13 @@ const DIAGRAMS_MAX: usize = 9;
 /// Parts of half a turn that is drawn round a needle.
 const PARTS: u32 = 12;
 
-/// Draws a warp knit's lapping diagram to a PNG file: its first wales and courses, at most 12 by 48, and below it the chain of each bar. From the
-/// face, needles are counted from the left, from the back from the right. Gives the picture's width and height in pixels.
+/// Draws a warp knit's lapping diagram to a PNG file: its first wales and courses, at most 12 by
+/// 48, and below it the chain of each bar. From the face, needles are counted from the left, from
+/// the back from the right. Gives the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::ChartTooLarge`] for chains too long to be
-/// written below, [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// [`WriteError::ChartTooLarge`] for chains too long to be written below, [`WriteError::Spared`],
+/// [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -65,7 +68,8 @@ pub fn warp_draft(
     drawn(cloth, side, |sheet| sheet.save(output))
 }
 
-/// Draws a warp knit's lapping diagram to `out`: the bytes that [`warp_draft`] writes to a file. Gives the picture's width and height in pixels.
+/// Draws a warp knit's lapping diagram to `out`: the bytes that [`warp_draft`] writes to a file.
+/// Gives the picture's width and height in pixels.
 ///
 /// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] where `out` refuses.
 pub fn warp_draft_to(cloth: &WarpKnitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
@@ -118,7 +122,8 @@ impl<'a> Drawing<'a> {
         drawing
     }
 
-    /// The guides of a bar's own diagram: the threaded one whose laps lie in the middle, or all of a Jacquard bar.
+    /// The guides of a bar's own diagram: the threaded one whose laps lie in the middle, or all of
+    /// a Jacquard bar.
     fn shown(&self, number: usize) -> Vec<u32> {
         let bar = &self.cloth.bars()[number];
         if bar.jacquard.is_some() {

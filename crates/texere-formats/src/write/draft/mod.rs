@@ -1,4 +1,5 @@
-//! Drafts, point paper and stitch charts as PNG pictures, as weavers and knitters draw them on squared paper.
+//! Drafts, point paper and stitch charts as PNG pictures, as weavers and knitters draw them on
+//! squared paper.
 //!
 //! ```text
 //! warp yarns
@@ -6,10 +7,11 @@
 //! drawdown      treadling or lift plan      weft yarns
 //! ```
 //!
-//! As in a mill, pick 1 is the bottom row, end 1 the left column, and the threading stands above the cloth. Shaft 1 is the
-//! row next to the cloth, treadle 1 the column next to it. A black square of the drawdown is warp on top. A cloth without
-//! a shaft draft, or with more shafts or treadles than [`SHAFTS_MAX`], is drawn as point paper: drawdown and yarns alone.
-//! So is the back of any cloth, turned over sideways so that end 1 is on the right: a draft is written for the face.
+//! As in a mill, pick 1 is the bottom row, end 1 the left column, and the threading stands above
+//! the cloth. Shaft 1 is the row next to the cloth, treadle 1 the column next to it. A black square
+//! of the drawdown is warp on top. A cloth without a shaft draft, or with more shafts or treadles
+//! than [`SHAFTS_MAX`], is drawn as point paper: drawdown and yarns alone. So is the back of any
+//! cloth, turned over sideways so that end 1 is on the right: a draft is written for the face.
 
 mod canvas;
 mod font;
@@ -27,7 +29,8 @@ pub use knit::{NEEDLES_MAX, knit_draft, knit_draft_to, knit_rows};
 pub use lapping::{warp_draft, warp_draft_to, warp_rows};
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
 
-/// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a dobby has.
+/// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a
+/// dobby has.
 pub const SHAFTS_MAX: usize = 100;
 
 /// A picture's longer side, pixels, as long as its squares allow.
@@ -52,10 +55,12 @@ pub enum Side {
     Back,
 }
 
-/// Draws a cloth, and where it has one its shaft `draft`, to a PNG file. Gives the picture's width and height in pixels.
+/// Draws a cloth, and where it has one its shaft `draft`, to a PNG file. Gives the picture's width
+/// and height in pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::DraftTooLarge`] for cloth that
-/// needs more pixels than pictures have, [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// [`WriteError::DraftTooLarge`] for cloth that needs more pixels than pictures have,
+/// [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -80,7 +85,8 @@ pub fn draft(
     drawn(cloth, draft, side, |sheet| sheet.save(output))
 }
 
-/// Draws a cloth to `out`: the bytes that [`draft`](fn@draft) writes to a file. Gives the picture's width and height in pixels.
+/// Draws a cloth to `out`: the bytes that [`draft`](fn@draft) writes to a file. Gives the picture's
+/// width and height in pixels.
 ///
 /// **Errors**: [`WriteError::DraftTooLarge`], [`WriteError::Writer`] where `out` refuses.
 pub fn draft_to(

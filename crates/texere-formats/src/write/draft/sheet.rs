@@ -42,7 +42,8 @@ pub(super) struct Block<'a> {
     pub(super) squares: [usize; 2],
     /// Width and height of a square, pixels.
     pub(super) square: [usize; 2],
-    /// The colour of a pixel, by the column of its square, the square's row from the top, and the pixel's place in the square.
+    /// The colour of a pixel, by the column of its square, the square's row from the top, and the
+    /// pixel's place in the square.
     pub(super) color: Box<dyn Fn(usize, usize, [usize; 2]) -> Rgb + 'a>,
 }
 
@@ -169,7 +170,8 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Whether a line runs through pixel `at` of a block along an axis, and whether it is one between groups.
+    /// Whether a line runs through pixel `at` of a block along an axis, and whether it is one
+    /// between groups.
     fn line(&self, block: &Block<'_>, axis: usize, at: usize) -> Option<bool> {
         let (squares, square) = (block.squares[axis], block.square[axis]);
         if !block.lined() || !at.is_multiple_of(square) {

@@ -28,13 +28,15 @@ const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
 
-/// Spun yarn is almost as rough as chalk; the rest to 1 is the faint sheen of fibres lying side by side.
+/// Spun yarn is almost as rough as chalk; the rest to 1 is the faint sheen of fibres lying side by
+/// side.
 const ROUGHNESS: f32 = 0.9;
 
 /// A document whose bounds are filled in as vertices pass.
 ///
-/// A tube is one primitive from its yarn's first ring to its last, and a cap is one. Each has two accessors of its own, for positions
-/// and for normals; that of its indices it shares with all of the same length.
+/// A tube is one primitive from its yarn's first ring to its last, and a cap is one. Each has two
+/// accessors of its own, for positions and for normals; that of its indices it shares with all of
+/// the same length.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
@@ -54,7 +56,8 @@ struct Shape {
     indices: Range<u64>,
 }
 
-/// The tubes of `chunks`, each from its first ring to its last, though it lie in several, then their caps; and the gaps of the longest tube.
+/// The tubes of `chunks`, each from its first ring to its last, though it lie in several, then
+/// their caps; and the gaps of the longest tube.
 fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec<Shape>, u64) {
     let sides = u64::from(plan.settings().sides);
     let (mut tubes, mut caps) = (Vec::<Shape>::new(), Vec::new());
@@ -143,8 +146,9 @@ impl Document {
         Self { gltf, shapes, gaps }
     }
 
-    /// Writes the pattern: the quads of the longest tube, gap after gap, then, with caps, for each section the triangles of its start cap and
-    /// of its finish cap. All count from the first vertex of what they draw.
+    /// Writes the pattern: the quads of the longest tube, gap after gap, then, with caps, for each
+    /// section the triangles of its start cap and of its finish cap. All count from the first
+    /// vertex of what they draw.
     pub(super) fn write_pattern<W: Write>(
         &self,
         plan: &Plan,
@@ -191,7 +195,8 @@ impl Document {
         }
     }
 
-    /// The document as text, of a length that is a multiple of four and does not depend on the bounds.
+    /// The document as text, of a length that is a multiple of four and does not depend on the
+    /// bounds.
     pub(super) fn to_json(&self) -> String {
         let mut text = String::new();
         self.gltf.write(&mut text);
@@ -201,7 +206,8 @@ impl Document {
     }
 }
 
-/// A yarn's name, which is not always unique: a yarn of no known origin is called by its number, from 1.
+/// A yarn's name, which is not always unique: a yarn of no known origin is called by its number,
+/// from 1.
 fn name(number: usize, origin: Origin) -> String {
     match origin {
         Origin::Unknown => format!("yarn {}", number + 1),

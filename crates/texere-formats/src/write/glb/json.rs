@@ -67,7 +67,8 @@ macro_rules! whole_numbers {
 whole_numbers!(u32, u64, usize);
 
 impl Json for f32 {
-    /// All floats take fifteen bytes: a sign, nine digits and a point, an exponent of four. JSON allows the spaces before them.
+    /// All floats take fifteen bytes: a sign, nine digits and a point, an exponent of four. JSON
+    /// allows the spaces before them.
     fn write(&self, text: &mut String) {
         // A string takes all that is written.
         let _ = write!(text, "{self:15e}");

@@ -29,8 +29,9 @@ const CHUNK_HEADER_BYTES: u64 = 8;
 
 /// A GLB file under way.
 ///
-/// The document comes first in the file, yet states the bounds of every yarn, which are known last. Its length does not
-/// depend on the bounds, so it is written twice: first to reserve its place, at the end with the bounds.
+/// The document comes first in the file, yet states the bounds of every yarn, which are known last.
+/// Its length does not depend on the bounds, so it is written twice: first to reserve its place, at
+/// the end with the bounds.
 #[derive(Debug)]
 pub(super) struct GlbWriter<W: Write + Seek> {
     target: Target<W>,

@@ -91,7 +91,8 @@ impl Run<'_> {
 
     /// Puts new loops on top of what hangs on a needle.
     fn place(&mut self, mut held: Vec<Held>, first: u32, count: usize, slot: Slot) {
-        // The needle lies in this repeat of the program: its own needle in repeat 0 holds the loop of one further back.
+        // The needle lies in this repeat of the program: its own needle in repeat 0 holds the loop
+        // of one further back.
         let new = Held { number: 0, round: self.round, repeat: -slot.repeat, moved: 0, split: None };
         held.extend((first..).take(count).map(|number| Held { number, ..new }));
         *self.beds.stack(slot) = held;

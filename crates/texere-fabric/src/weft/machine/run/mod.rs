@@ -38,7 +38,8 @@ pub(super) struct Run<'a> {
     pub(super) ends: Vec<Option<End>>,
     /// The pass of each loop.
     passes: Vec<u32>,
-    /// Which passes lie above which loops: of the passes of earlier rounds, the numbers may have been others.
+    /// Which passes lie above which loops: of the passes of earlier rounds, the numbers may have
+    /// been others.
     aboves: Vec<Above>,
     pub(super) faults: Vec<Fault>,
     pub(super) unlisted: u64,
@@ -86,7 +87,8 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Does all operations once. What the round before made is forgotten but for what hangs on needles.
+    /// Does all operations once. What the round before made is forgotten but for what hangs on
+    /// needles.
     pub(super) fn all(&mut self) -> Result<(), FabricError> {
         let loops = self.passes.len();
         self.carriers = Carriers::new(self.program.carriers.len(), self.program.repeat.is_some());
@@ -252,9 +254,10 @@ impl<'a> Run<'a> {
 
     /// Moves all loops of a needle.
     ///
-    /// They keep their order from the front of the machine to its back. Needles of both beds point at each other, so the loop
-    /// that lay nearest to the tip of one needle lies nearest to the stem of the other: their order on the needle turns over. All
-    /// lie nearer to its tip than those that hang there.
+    /// They keep their order from the front of the machine to its back. Needles of both beds point
+    /// at each other, so the loop that lay nearest to the tip of one needle lies nearest to the
+    /// stem of the other: their order on the needle turns over. All lie nearer to its tip than
+    /// those that hang there.
     fn transfer(&mut self, from: Needle, to: Needle) -> Result<(), FabricError> {
         let (start, end) = (self.slot(from)?, self.slot(to)?);
         self.aim(from, to);

@@ -19,8 +19,9 @@ pub(crate) enum Symbol {
     BackTuck,
     /// The yarn floats past: `m`.
     Miss,
-    /// Knitted, and its head goes to another wale: `>` and `<`. Where it crosses others: `R` to the right in front, and `r` to the
-    /// left behind; `L` to the left in front, and `l` to the right behind.
+    /// Knitted, and its head goes to another wale: `>` and `<`. Where it crosses others: `R` to the
+    /// right in front, and `r` to the left behind; `L` to the left in front, and `l` to the right
+    /// behind.
     Moved {
         /// To the right, not to the left.
         right: bool,

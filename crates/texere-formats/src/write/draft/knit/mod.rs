@@ -1,7 +1,8 @@
 //! Knits as pictures: a stitch chart, and below it the needle diagram.
 //!
-//! The chart has a square for each wale of each course, the first course at the bottom, coloured as the yarn that shows on the face.
-//! An empty square is a knit stitch, a dot a purl, as in knitters' charts.
+//! The chart has a square for each wale of each course, the first course at the bottom, coloured as
+//! the yarn that shows on the face. An empty square is a knit stitch, a dot a purl, as in knitters'
+//! charts.
 
 mod grid;
 mod needles;
@@ -33,11 +34,12 @@ const NONE: Rgb = [205, 205, 205];
 /// Colours that are darker than that, as a sum of their channels, have symbols in white.
 const DARK: u32 = 300;
 
-/// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece where none repeats. From the face, and with at most
-/// [`NEEDLES_MAX`] wales and passes, the needle diagram stands below it. Gives the picture's width and height in pixels.
+/// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece where none repeats.
+/// From the face, and with at most [`NEEDLES_MAX`] wales and passes, the needle diagram stands
+/// below it. Gives the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::ChartTooLarge`],
-/// [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// [`WriteError::ChartTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -57,7 +59,8 @@ pub fn knit_draft(cloth: &Knitted, side: Side, output: impl Into<Output>) -> Res
     drawn(cloth, side, |sheet| sheet.save(output))
 }
 
-/// Draws a knit's stitch chart to `out`: the bytes that [`knit_draft`] writes to a file. Gives the picture's width and height in pixels.
+/// Draws a knit's stitch chart to `out`: the bytes that [`knit_draft`] writes to a file. Gives the
+/// picture's width and height in pixels.
 ///
 /// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] where `out` refuses.
 pub fn knit_draft_to(cloth: &Knitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
@@ -82,8 +85,8 @@ fn drawn(
     save(&sheet)
 }
 
-/// A row of letters for each course of a knit's stitch chart, the last course first, with those of charts in design files: `.` where
-/// no yarn comes.
+/// A row of letters for each course of a knit's stitch chart, the last course first, with those of
+/// charts in design files: `.` where no yarn comes.
 ///
 /// **Errors**: [`WriteError::ChartTooLarge`].
 pub fn knit_rows(cloth: &Knitted, side: Side) -> Result<impl Iterator<Item = String>, WriteError> {

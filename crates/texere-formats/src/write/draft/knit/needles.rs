@@ -1,4 +1,5 @@
-//! The needle diagram: for each pass of a carrier both rows of needles as dots, and how the yarn goes round them.
+//! The needle diagram: for each pass of a carrier both rows of needles as dots, and how the yarn
+//! goes round them.
 
 use texere_fabric::weft::{Bed, Direction, Knitted, LoopKind, Step, Stitches, Strand};
 
@@ -60,7 +61,8 @@ fn passes(stitches: &Stitches) -> Vec<Pass<'_>> {
 }
 
 impl Needles {
-    /// The diagram of a cloth whose chart has so many wales from `left` on. None where it has more passes than are drawn.
+    /// The diagram of a cloth whose chart has so many wales from `left` on. None where it has more
+    /// passes than are drawn.
     pub(super) fn new(cloth: &Knitted, wales: usize, left: i64, passes_max: usize) -> Option<Self> {
         let stitches = cloth.stitches();
         let passes = passes(stitches);
@@ -84,7 +86,8 @@ impl Needles {
         Some(needles)
     }
 
-    /// The middle of a pass is the `middle`th row of pixels; front needles lie below it, as in a machine seen from above.
+    /// The middle of a pass is the `middle`th row of pixels; front needles lie below it, as in a
+    /// machine seen from above.
     fn pass(&mut self, cloth: &Knitted, pass: &Pass<'_>, [left, middle]: [i64; 2], wrap: Option<f32>) {
         let stitches = cloth.stitches();
         let x = |at: f32| {
@@ -99,7 +102,8 @@ impl Needles {
             let visit = stitches.visit(step);
             let here = x(visit.at);
             let way = if visit.direction == Direction::Right { 1.0 } else { -1.0 };
-            // Where the needle lies in the repeat beside, the yarn leaves on one side and comes in on the other.
+            // Where the needle lies in the repeat beside, the yarn leaves on one side and comes in
+            // on the other.
             let from =
                 before.filter(|from| (here - from) * way >= 0.0).unwrap_or(here - way * PITCH as f64 / 2.0);
             self.canvas.line([from, middle], [here + way * PITCH as f64 / 4.0, middle], yarn);

@@ -15,7 +15,7 @@ typedef struct {
     float2 at;
     float3 way;
     float distance;
-} Approach;
+} Contact;
 
 // What a contact asks of the first interval's points: the step of its place, mm, the direction to
 // the other yarn, and what each of the four counts. The weights are all 0 where it asks for
@@ -48,8 +48,8 @@ float4 point_weights(float u, float s) {
     return (float4)(before, 1.0f - before - end - after, end, after);
 }
 
-Approach contact_at(const Interval *one, const Interval *other, float3 way, float2 at) {
-    Approach contact;
+Contact contact_at(const Interval *one, const Interval *other, float3 way, float2 at) {
+    Contact contact;
     contact.at = at;
     contact.way = way + interval_offset(other, at.y) - interval_offset(one, at.x);
     contact.distance = length3(contact.way);
@@ -58,8 +58,8 @@ Approach contact_at(const Interval *one, const Interval *other, float3 way, floa
 
 // The exact places near `at`: one step of Newton's method of at most `stride`, where that comes
 // nearer.
-Approach refined(const Interval *one, const Interval *other, float3 way, float2 at, float2 stride) {
-    Approach start = contact_at(one, other, way, at);
+Contact refined(const Interval *one, const Interval *other, float3 way, float2 at, float2 stride) {
+    Contact start = contact_at(one, other, way, at);
     float3 velocity = interval_velocity(one, at.x);
     float3 other_velocity = interval_velocity(other, at.y);
     float2 squares = (float2)(dot3(velocity, velocity), dot3(other_velocity, other_velocity));
@@ -72,7 +72,7 @@ Approach refined(const Interval *one, const Interval *other, float3 way, float2 
     float2 step = (float2)((mixed * slopes.y - h.y * slopes.x) / determinant,
                            (mixed * slopes.x - h.x * slopes.y) / determinant);
     float2 next = at + fmin(fmax(step, -stride), stride);
-    Approach found = contact_at(one, other, way, (float2)(share(next.x), share(next.y)));
+    Contact found = contact_at(one, other, way, (float2)(share(next.x), share(next.y)));
     if (found.distance < start.distance) {
         return found;
     }
@@ -80,7 +80,7 @@ Approach refined(const Interval *one, const Interval *other, float3 way, float2 
 }
 
 // The direction from the first place to the second. Where both are one, it is square to both yarns.
-float3 contact_direction(const Approach *contact, float3 velocity, float3 other_velocity) {
+float3 contact_direction(const Contact *contact, float3 velocity, float3 other_velocity) {
     float3 way = contact->way;
     if (!(contact->distance > ONE_PLACE)) {
         way = (float3)(velocity.y * other_velocity.z - velocity.z * other_velocity.y,
@@ -178,7 +178,7 @@ Push meet(const SettlingParams *params, const Meeting *one, const ListedChord *h
     float2 piece = (float2)((float)(here->number - one->first), (float)(uint)(number - first));
     float2 place = (piece + approach.shares) * step;
     float3 apart = to_mm(params, to_image(params, other.start - one->interval.start, approach.image));
-    Approach contact = refined(&one->interval, &other, apart, place, step * STRIDE);
+    Contact contact = refined(&one->interval, &other, apart, place, step * STRIDE);
     float3 direction = contact_direction(&contact, interval_velocity(&one->interval, contact.at.x),
                                          interval_velocity(&other, contact.at.y));
     float reach = interval_reach(&one->interval, contact.at.x, direction) +

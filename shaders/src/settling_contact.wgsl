@@ -13,7 +13,7 @@ struct Sight {
 }
 
 // Places on both intervals, and the way from the first to the second.
-struct Approach {
+struct Contact {
     at: vec2<f32>,
     way: vec3<f32>,
     distance: f32,
@@ -52,14 +52,14 @@ fn point_weights(u: f32) -> vec4<f32> {
     return vec4(before, 1.0 - before - end - behind, end, behind);
 }
 
-fn contact_at(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>) -> Approach {
+fn contact_at(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>) -> Contact {
     let between = way + interval_offset(other, at.y) - interval_offset(one, at.x);
-    return Approach(at, between, length3(between));
+    return Contact(at, between, length3(between));
 }
 
 // The exact places near `at`: one step of Newton's method of at most `stride`, where that comes
 // nearer.
-fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride: vec2<f32>) -> Approach {
+fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride: vec2<f32>) -> Contact {
     let start = contact_at(one, other, way, at);
     let velocity = interval_velocity(one, at.x);
     let other_velocity = interval_velocity(other, at.y);
@@ -82,7 +82,7 @@ fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride
 }
 
 // The direction from the first place to the second. Where both are one, it is square to both yarns.
-fn contact_direction(contact: Approach, velocity: vec3<f32>, other_velocity: vec3<f32>) -> vec3<f32> {
+fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3<f32>) -> vec3<f32> {
     var way = contact.way;
     if contact.distance <= ONE_PLACE {
         way = vec3(

@@ -4,6 +4,7 @@
 mod bench_tables;
 mod bundle;
 mod demo;
+mod install;
 mod instructions;
 mod mutants;
 mod mutate;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         }
         Some("sources") => sources::run(&mut steps),
         Some("bundle") => bundle::run(&mut steps),
+        Some("install") => install::run(&mut steps, &std::env::args().skip(2).collect::<Vec<_>>()),
         Some("mutate") => {
             install(&mut steps, "software devices", &SOFTWARE_DEVICES);
             return mutate::run(std::env::args().nth(2).as_deref());
@@ -59,7 +61,7 @@ fn main() -> ExitCode {
         }
         _ => {
             eprintln!(
-                "usage: cargo xtask <demo | gallery | test | check | sources | mutate | instructions | bench-tables | bundle>"
+                "usage: cargo xtask <demo | gallery | test | check | sources | mutate | instructions | bench-tables | bundle | install>"
             );
             eprintln!("  demo   a picture of denim at rest; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
@@ -78,6 +80,7 @@ fn main() -> ExitCode {
                 "  bench-tables [--device NAME]…  the paper's tables and figures on this machine's devices"
             );
             eprintln!("  bundle  packs what tests and measures a machine that has a GPU and nothing else");
+            eprintln!("  install --prefix DIR  lays the C library where compilers look for it");
             return ExitCode::from(2);
         }
     }

@@ -1,0 +1,176 @@
+//! Cloth: what becomes of a design.
+
+use std::ffi::{CString, c_char};
+
+use texere::Yarns;
+use texere::rest::RestReport;
+
+use crate::argument::check_sized;
+use crate::design::texere_design;
+use crate::device::texere_device;
+use crate::error::{Failure, guard};
+use crate::handle::{Handle, clear, free, get, get_any, give};
+use crate::run::{reporter, texere_run};
+use crate::status::texere_status;
+use crate::yarns::texere_yarns;
+
+/// The cloth of a design: its yarns, and how they came to rest.
+#[derive(Debug)]
+pub struct texere_cloth;
+
+#[derive(Debug)]
+pub(crate) struct Cloth {
+    yarns: Yarns,
+    outcome: u32,
+    words: CString,
+    warnings: Vec<CString>,
+}
+
+impl Handle for texere_cloth {
+    type Value = Cloth;
+    const NAME: &str = "cloth";
+}
+
+/// The yarns are where the structure places them: the design does not ask for more.
+pub const TEXERE_PLACED: u32 = 0;
+/// The yarns came to rest.
+pub const TEXERE_AT_REST: u32 = 1;
+/// The yarns settled and are not at rest; `words` of the report says what is left.
+pub const TEXERE_NOT_AT_REST: u32 = 2;
+/// The yarns are where the structure places them, for they can't come to rest; `words` says why.
+pub const TEXERE_REFUSED: u32 = 3;
+
+/// How the yarns of a cloth came to rest.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_report {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// TEXERE_PLACED, TEXERE_AT_REST, TEXERE_NOT_AT_REST or TEXERE_REFUSED.
+    pub outcome: u32,
+    /// The outcome in words, UTF-8 that ends with a zero byte, valid until the cloth is freed.
+    pub words: *const c_char,
+    /// How many warnings `texere_cloth_warning` gives.
+    pub warnings: u64,
+}
+
+impl Cloth {
+    fn new(cloth: texere::Cloth) -> Self {
+        let c = |text: String| CString::new(text.replace('\0', "\u{fffd}")).unwrap_or_default();
+        let outcome = match cloth.report() {
+            RestReport::Placed(_) => TEXERE_PLACED,
+            RestReport::Finished(finished) if finished.is_at_rest() => TEXERE_AT_REST,
+            RestReport::Finished(_) => TEXERE_NOT_AT_REST,
+            _ => TEXERE_REFUSED,
+        };
+        let words = c(cloth.report().to_string());
+        let warnings = cloth.warnings().into_iter().map(c).collect();
+        Self { yarns: cloth.into_parts().1, outcome, words, warnings }
+    }
+}
+
+/// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
+/// design asks for it. `run` may be null.
+///
+/// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are placed:
+/// `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be made, and
+/// with TEXERE_CANCELLED where `run` was cancelled.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_rest(
+    design: *const texere_design,
+    device: *const texere_device,
+    run: *const texere_run,
+    out: *mut *mut texere_cloth,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out`.
+        unsafe { clear(out) }?;
+        let (design, device, run) = (get(design)?, get(device)?, get_any(run)?);
+        let cloth = (*design).clone().rest(&*device.backend).progress(reporter(run)).run()?;
+        // SAFETY: as above.
+        unsafe { give(out, Cloth::new(cloth)) }
+    })
+}
+
+/// Makes the cloth of a design with its yarns as the structure places them, whatever it asks for.
+///
+/// Fails with TEXERE_DESIGN where the cloth can't be made.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_placed(
+    design: *const texere_design,
+    out: *mut *mut texere_cloth,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out`.
+        unsafe { clear(out) }?;
+        let cloth = (*get(design)?).clone().placed()?;
+        // SAFETY: as above.
+        unsafe { give(out, Cloth::new(cloth)) }
+    })
+}
+
+/// Writes how the yarns of a cloth came to rest. The caller has set `report->struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_report(
+    cloth: *const texere_cloth,
+    report: *mut texere_report,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `report`.
+        unsafe { check_sized("report", report) }?;
+        let cloth = get(cloth)?;
+        let found = texere_report {
+            struct_size: size_of::<texere_report>() as u32,
+            outcome: cloth.outcome,
+            words: cloth.words.as_ptr(),
+            warnings: cloth.warnings.len() as u64,
+        };
+        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        unsafe { report.write(found) };
+        Ok(())
+    })
+}
+
+/// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid until
+/// the cloth is freed.
+///
+/// Fails with TEXERE_ARGUMENT where there are fewer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_warning(
+    cloth: *const texere_cloth,
+    number: u64,
+    words: *mut *const c_char,
+) -> texere_status {
+    guard(|| {
+        crate::argument::check("words", words)?;
+        let cloth = get(cloth)?;
+        let warning = usize::try_from(number).ok().and_then(|number| cloth.warnings.get(number));
+        let warning = warning.ok_or_else(|| {
+            Failure::argument(format!("warning {number}, but there are {}, from 0", cloth.warnings.len()))
+        })?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        unsafe { words.write(warning.as_ptr()) };
+        Ok(())
+    })
+}
+
+/// Gives the yarns of a cloth, as a handle of their own. They stay valid when the cloth is freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_yarns(
+    cloth: *const texere_cloth,
+    out: *mut *mut texere_yarns,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out`.
+        unsafe {
+            clear(out)?;
+            give(out, get(cloth)?.yarns.clone())
+        }
+    })
+}
+
+/// Frees a cloth, or nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_free(cloth: *mut texere_cloth) {
+    free(cloth);
+}

@@ -1,0 +1,99 @@
+//! Designs: from a file, or from memory.
+
+use std::ffi::{c_char, c_void};
+use std::io;
+use std::path::Path;
+
+use texere::Design;
+
+use crate::argument::{slice, text};
+use crate::error::guard;
+use crate::handle::{Handle, clear, free, give};
+use crate::status::texere_status;
+
+/// A design that was read: a WIF draft, a design file, or a program of a knitting machine.
+#[derive(Debug)]
+pub struct texere_design;
+
+impl Handle for texere_design {
+    type Value = Design;
+    const NAME: &str = "design";
+}
+
+/// Gives the bytes of a file that a design names, such as a picture: sets `*data` and `*size`, and
+/// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid until
+/// the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
+pub type texere_file_callback = Option<
+    unsafe extern "C" fn(
+        user: *mut c_void,
+        path: *const c_char,
+        path_length: usize,
+        data: *mut *const u8,
+        size: *mut usize,
+    ) -> i32,
+>;
+
+/// Reads the design in a file: `.wif`, `.toml`, `.k`.
+///
+/// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it is no design;
+/// `texere_error_place` says where.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_read(
+    path: *const c_char,
+    path_length: usize,
+    out: *mut *mut texere_design,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out` and `path`.
+        unsafe {
+            clear(out)?;
+            give(out, texere::read(text("path", path, path_length)?)?)
+        }
+    })
+}
+
+/// Reads a design that the caller has in memory. `name` says by its ending what kind of design it
+/// is; errors call it so. `files` gives the files that the design names; it may be null, and then
+/// there are none. `user` is handed to it.
+///
+/// Fails as `texere_design_read` does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_read_memory(
+    name: *const c_char,
+    name_length: usize,
+    data: *const u8,
+    size: usize,
+    files: texere_file_callback,
+    user: *mut c_void,
+    out: *mut *mut texere_design,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for all of them.
+        let (name, bytes) = unsafe {
+            clear(out)?;
+            (text("name", name, name_length)?, slice("data", data, size)?)
+        };
+        let file = |path: &Path| {
+            let missing = || io::Error::from(io::ErrorKind::NotFound);
+            let files = files.ok_or_else(missing)?;
+            let path = path.to_string_lossy();
+            let (mut data, mut size) = (std::ptr::null(), 0);
+            // SAFETY: the caller vouches for the callback.
+            let answer = unsafe { files(user, path.as_ptr().cast(), path.len(), &mut data, &mut size) };
+            if answer != 0 {
+                return Err(missing());
+            }
+            // SAFETY: the callback vouches for the bytes.
+            let bytes = unsafe { slice("the callback's data", data, size) };
+            bytes.map(<[u8]>::to_vec).map_err(|failure| io::Error::other(failure.into_message()))
+        };
+        // SAFETY: as above.
+        unsafe { give(out, texere::read_from(name, bytes, file)?) }
+    })
+}
+
+/// Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_free(design: *mut texere_design) {
+    free(design);
+}

@@ -1,0 +1,102 @@
+//! Devices.
+
+use std::ffi::{CString, c_char};
+
+use texere::Backend;
+
+use crate::argument::{check_sized, text};
+use crate::error::guard;
+use crate::handle::{Handle, clear, free, get, give};
+use crate::status::texere_status;
+
+/// An open device: a GPU, or the CPU.
+#[derive(Debug)]
+pub struct texere_device;
+
+#[derive(Debug)]
+pub(crate) struct Device {
+    pub(crate) backend: Box<dyn Backend>,
+    /// Its name, its maker's name of it and its driver, as C reads them.
+    names: [CString; 3],
+}
+
+impl Handle for texere_device {
+    type Value = Device;
+    const NAME: &str = "device";
+}
+
+/// What a device is. Strings end with a zero byte and are valid until the device is freed.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_device_info {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// 1 if yarns can come to rest on it, else 0.
+    pub settles: u32,
+    /// The name that opens it, such as "cpu" or "opencl:0".
+    pub name: *const c_char,
+    /// The device as its maker calls it.
+    pub device: *const c_char,
+    /// Its driver, with the version.
+    pub driver: *const c_char,
+    /// Bytes of memory that it has; 0 where it does not say so.
+    pub memory_bytes: u64,
+}
+
+/// Opens the device of a name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
+/// "wgpu" and so on. A `name_length` of 0 is "auto".
+///
+/// Fails with TEXERE_DEVICE where there is none of that name, and with TEXERE_UNSUPPORTED where the
+/// library was built without it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_device_open(
+    name: *const c_char,
+    name_length: usize,
+    out: *mut *mut texere_device,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out` and `name`.
+        let name = unsafe {
+            clear(out)?;
+            text("name", name, name_length)?
+        };
+        let backend = texere::open(if name.is_empty() { "auto" } else { name })?;
+        let info = backend.info();
+        let names = [&info.name, &info.device, &info.driver]
+            .map(|name| CString::new(name.replace('\0', "\u{fffd}")).unwrap_or_default());
+        // SAFETY: as above.
+        unsafe { give(out, Device { backend, names }) }
+    })
+}
+
+/// Writes what a device is. The caller has set `info->struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_device_describe(
+    device: *const texere_device,
+    info: *mut texere_device_info,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `info`.
+        unsafe { check_sized("info", info) }?;
+        let device = get(device)?;
+        let is = device.backend.info();
+        let [name, maker, driver] = device.names.each_ref().map(|name| name.as_ptr());
+        let found = texere_device_info {
+            struct_size: size_of::<texere_device_info>() as u32,
+            settles: u32::from(is.can.settle && is.can.settle_crossings),
+            name,
+            device: maker,
+            driver,
+            memory_bytes: is.memory_bytes.unwrap_or(0),
+        };
+        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        unsafe { info.write(found) };
+        Ok(())
+    })
+}
+
+/// Frees a device, or nothing where it is null. What was made with it stays valid.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_device_free(device: *mut texere_device) {
+    free(device);
+}

@@ -1,0 +1,72 @@
+//! texere for C, and for every language that calls C.
+//!
+//! ```text
+//! texere_device_open ─┐
+//! texere_design_read ─┴> texere_cloth_rest ─> texere_plan_new ─> texere_plan_mesh
+//! ```
+//!
+//! `include/texere.h` is made from this crate by cbindgen; a test holds the two equal. docs/C.md
+//! goes from the install to the first mesh.
+//!
+//! # How calls work
+//!
+//! - A function that can fail gives a [`texere_status`]. [`texere_error_message`] says in words what
+//!   went wrong, and [`texere_error_place`] where in a design's file.
+//! - Handles are numbers in the shape of pointers. The library looks each of them up, so a handle
+//!   that was freed, or that is of another kind, is refused and never followed.
+//! - A `_free` function takes a null handle, and one that was freed already.
+//! - Handles may be used by several threads at once. A handle that is freed while another thread's
+//!   call uses it lives until that call ends.
+//! - Strings are UTF-8 with a length in bytes. Strings that the library lends end with a zero byte.
+//! - Lengths are in mm, angles in radians.
+//!
+//! # Safety
+//!
+//! Pointers that a program passes have to be valid for what the function's description says that
+//! the library reads or writes there. Null and misaligned pointers are refused.
+#![allow(non_camel_case_types, reason = "the names are those of the header")]
+#![allow(clippy::missing_safety_doc, reason = "the head of the crate says it for all functions")]
+
+mod argument;
+mod cloth;
+mod design;
+mod device;
+mod error;
+mod handle;
+mod plan;
+mod run;
+mod settings;
+mod status;
+mod yarns;
+
+pub use cloth::*;
+pub use design::*;
+pub use device::*;
+pub use error::*;
+pub use plan::*;
+pub use run::*;
+pub use settings::*;
+pub use status::*;
+pub use yarns::*;
+
+/// The number of the binary interface. A program compares it with `texere_abi` of the library
+/// that it has loaded: they are equal, or the program can't use that library.
+pub const TEXERE_ABI: u32 = 1;
+
+/// The number of the binary interface of this library: `TEXERE_ABI` of its header.
+#[unsafe(no_mangle)]
+pub extern "C" fn texere_abi() -> u32 {
+    TEXERE_ABI
+}
+
+/// The version of this library, such as "0.1.0". The string ends with a zero byte and is valid as
+/// long as the library is loaded.
+#[unsafe(no_mangle)]
+pub extern "C" fn texere_version() -> *const std::ffi::c_char {
+    const VERSION: &std::ffi::CStr =
+        match std::ffi::CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
+            Ok(version) => version,
+            Err(_) => c"",
+        };
+    VERSION.as_ptr()
+}

@@ -1,0 +1,80 @@
+//! Progress of a call that takes long, and its end before it is done.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use crate::argument::check;
+use crate::error::guard;
+use crate::handle::{Handle, clear, free, get, give};
+use crate::status::texere_status;
+
+/// A call that takes long, as other threads see it: how far it has come, and whether it is to end.
+/// One run may be given to one call after another; each starts it at 0.
+#[derive(Debug)]
+pub struct texere_run;
+
+#[derive(Debug, Default)]
+pub(crate) struct Run {
+    cancelled: AtomicBool,
+    /// The bits of an `f64` from 0 to 1.
+    share: AtomicU64,
+}
+
+impl Handle for texere_run {
+    type Value = Run;
+    const NAME: &str = "run";
+}
+
+/// A closure that keeps `run` up to date and asks to end where it was cancelled.
+pub(crate) fn reporter(run: Option<Arc<Run>>) -> impl FnMut(f64) -> ControlFlow<()> + Send {
+    move |share| {
+        let Some(run) = &run else { return ControlFlow::Continue(()) };
+        run.share.store(share.to_bits(), Ordering::Relaxed);
+        if run.cancelled.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Makes a run.
+///
+/// Fails with TEXERE_ARGUMENT for a null `out`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_run_new(out: *mut *mut texere_run) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out`.
+        unsafe {
+            clear(out)?;
+            give(out, Run::default())
+        }
+    })
+}
+
+/// Asks the call that `run` was given to, and every later one, to end with TEXERE_CANCELLED. Any
+/// thread may ask.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_run_cancel(run: *const texere_run) -> texere_status {
+    guard(|| {
+        get(run)?.cancelled.store(true, Ordering::Relaxed);
+        Ok(())
+    })
+}
+
+/// Writes how much of the call is done, from 0 to 1. Any thread may ask.
+///
+/// Fails with TEXERE_ARGUMENT for a null `share`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_run_progress(run: *const texere_run, share: *mut f64) -> texere_status {
+    guard(|| {
+        check("share", share)?;
+        let done = f64::from_bits(get(run)?.share.load(Ordering::Relaxed));
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        unsafe { share.write(done) };
+        Ok(())
+    })
+}
+
+/// Frees a run, or nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_run_free(run: *mut texere_run) {
+    free(run);
+}

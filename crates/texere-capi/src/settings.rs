@@ -1,0 +1,107 @@
+//! What can be chosen about a mesh.
+
+use texere::Settings;
+use texere::mesh::{Frame, Topology};
+
+use crate::argument::{check_sized, sized};
+use crate::error::{Failure, guard};
+use crate::handle::get;
+use crate::status::texere_status;
+use crate::yarns::texere_yarns;
+
+/// Sections stand with their side level. Yarns that are too steep for that are carried along.
+pub const TEXERE_FRAME_UPRIGHT: u32 = 0;
+/// Sections are carried along the yarn without turning.
+pub const TEXERE_FRAME_ROTATION_MINIMIZING: u32 = 1;
+
+/// Three indices a triangle, counted from the base vertex of their draw.
+pub const TEXERE_TOPOLOGY_INDEXED: u32 = 0;
+/// One pattern of indices for all draws.
+pub const TEXERE_TOPOLOGY_SHARED: u32 = 1;
+/// No indices.
+pub const TEXERE_TOPOLOGY_NONE: u32 = 2;
+
+/// What can be chosen about a mesh. `texere_settings_default` fills it in.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_settings {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// Points that are inserted between two control points, from 0.
+    pub subdivisions: u32,
+    /// Sides of the tubes, from 3.
+    pub sides: u32,
+    /// A number that begins with TEXERE_FRAME.
+    pub frame: u32,
+    /// A number that begins with TEXERE_TOPOLOGY.
+    pub topology: u32,
+    /// 1 if the ends of yarns are closed, else 0.
+    pub caps: u32,
+}
+
+/// The settings that `pointer` names, or those that suit `yarns` where it is null.
+///
+/// # Safety
+///
+/// A `pointer` that is not null is valid for reads of a `u32`, and of as many bytes as that says.
+pub(crate) unsafe fn chosen(
+    pointer: *const texere_settings,
+    yarns: &texere::Yarns,
+) -> Result<Settings, Failure> {
+    let usual = Settings::of(yarns);
+    if pointer.is_null() {
+        return Ok(usual);
+    }
+    // SAFETY: the caller vouches for it.
+    let given = unsafe { sized("settings", pointer) }?;
+    let frame = match given.frame {
+        TEXERE_FRAME_UPRIGHT => Frame::Upright,
+        TEXERE_FRAME_ROTATION_MINIMIZING => Frame::RotationMinimizing,
+        other => return Err(Failure::argument(format!("settings.frame is {other}, expected 0 or 1"))),
+    };
+    let topology = match given.topology {
+        TEXERE_TOPOLOGY_INDEXED => Topology::Indexed,
+        TEXERE_TOPOLOGY_SHARED => Topology::Shared,
+        TEXERE_TOPOLOGY_NONE => Topology::None,
+        other => return Err(Failure::argument(format!("settings.topology is {other}, expected 0 to 2"))),
+    };
+    let caps = match given.caps {
+        0 => false,
+        1 => true,
+        other => return Err(Failure::argument(format!("settings.caps is {other}, expected 0 or 1"))),
+    };
+    let (subdivisions, sides) = (given.subdivisions, given.sides);
+    Ok(Settings { subdivisions, sides, frame, topology, caps, ..usual })
+}
+
+/// Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
+/// their polygons have. The caller has set `settings->struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_settings_default(
+    yarns: *const texere_yarns,
+    settings: *mut texere_settings,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `settings`.
+        unsafe { check_sized("settings", settings) }?;
+        let usual = Settings::of(&*get(yarns)?);
+        let found = texere_settings {
+            struct_size: size_of::<texere_settings>() as u32,
+            subdivisions: usual.subdivisions,
+            sides: usual.sides,
+            frame: match usual.frame {
+                Frame::Upright => TEXERE_FRAME_UPRIGHT,
+                Frame::RotationMinimizing => TEXERE_FRAME_ROTATION_MINIMIZING,
+            },
+            topology: match usual.topology {
+                Topology::Indexed => TEXERE_TOPOLOGY_INDEXED,
+                Topology::Shared => TEXERE_TOPOLOGY_SHARED,
+                Topology::None => TEXERE_TOPOLOGY_NONE,
+            },
+            caps: u32::from(usual.caps),
+        };
+        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        unsafe { settings.write(found) };
+        Ok(())
+    })
+}

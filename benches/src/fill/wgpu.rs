@@ -27,7 +27,7 @@ fn fill(
 
 /// Buffers on a wgpu device, and the pipeline that fills them.
 #[derive(Debug)]
-pub struct WgpuFill {
+pub(super) struct WgpuFill {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipeline: wgpu::ComputePipeline,

@@ -14,8 +14,8 @@ use texere::picture::{DevicePicture, Picture, PictureTimings, Quality, RenderErr
 use texere::read::NamedPlace;
 use texere::yarn::YarnPlace;
 
+use crate::messages::Cloth;
 use crate::orbit::{Orbit, Side};
-use crate::workshop::Cloth;
 
 /// How long the view has to rest before it is drawn as well as it can be.
 const REST: Duration = Duration::from_millis(200);

@@ -5,9 +5,9 @@ use texere::Settings;
 use texere::mesh::TWIST_SUBDIVISIONS_MAX;
 
 use crate::Event;
+use crate::messages::{Cloth, Order};
 use crate::orbit::Side;
 use crate::window::Window;
-use crate::workshop::{Cloth, Order};
 
 impl<T: FnMut(&Event)> Window<T> {
     /// Shows the panel at the left.

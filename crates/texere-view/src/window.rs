@@ -15,9 +15,10 @@ use texere::picture::Renderer;
 use texere::read::NamedPlace;
 
 use crate::canvas::{Canvas, Pointed};
+use crate::messages::{Cloth, News, Order};
 use crate::orbit::Side;
 use crate::watch::Watch;
-use crate::workshop::{Cloth, News, Order, Workshop};
+use crate::workshop::Workshop;
 use crate::{Event, View, ViewError, device};
 
 /// How long a picture that the device refused is not tried again.
@@ -27,70 +28,82 @@ const AGAIN: Duration = Duration::from_millis(50);
 /// device from going.
 const LEAVING: Duration = Duration::from_millis(500);
 
-/// Opens the window and waits until it is closed.
-pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
-    let mut watch = Watch::new([view.design.clone()]);
-    let design = view.read()?;
-    watch.follow(design.files().iter().cloned());
-    // What opens the window says of a wrong name only that it failed.
-    texere::picture::picture_device(&view.device, &WgpuBackend::devices()?)?;
-    let options = eframe::NativeOptions {
-        viewport: ViewportBuilder::default()
-            .with_title(format!("{} - texere", design.name))
-            .with_inner_size(view.size.map(|points| points as f32)),
-        renderer: eframe::Renderer::Wgpu,
-        wgpu_options: device::configuration(view.device.clone()),
-        ..Default::default()
-    };
-    let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let render = context.wgpu_render_state.clone().ok_or("no device")?;
-        // A device takes one thing after the other, and a processor takes seconds for a cloth: the
-        // window would wait behind it, and not hear that it is closed. A copy costs next to nothing
-        // there.
-        let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let renderer = if is_apart {
-            texere::picture::open_renderer(&view.device)?
-        } else {
-            let (device, queue) = (render.device.clone(), render.queue.clone());
-            Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
+impl View {
+    /// Opens the window and waits until it is closed. `tell` learns what happens in it.
+    ///
+    /// ```no_run
+    /// texere_view::View::of("designs/herringbone.wif").open(|event| println!("{event}"))?;
+    /// # Ok::<(), texere_view::ViewError>(())
+    /// ```
+    ///
+    /// Call it on the program's main thread: other threads may not open windows on every system.
+    ///
+    /// **Errors**: [`ViewError`].
+    pub fn open(self, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
+        let mut watch = Watch::new([self.design.clone()]);
+        let design = self.read()?;
+        watch.follow(design.files().iter().cloned());
+        // What opens the window says of a wrong name only that it failed.
+        texere::picture::picture_device(&self.device, &WgpuBackend::devices()?)?;
+        let options = eframe::NativeOptions {
+            viewport: ViewportBuilder::default()
+                .with_title(format!("{} - texere", design.name))
+                .with_inner_size(self.size.map(|points| points as f32)),
+            renderer: eframe::Renderer::Wgpu,
+            wgpu_options: device::configuration(self.device.clone()),
+            ..Default::default()
         };
-        // The surface can't take another size while the workshop hands the device work, and what is
-        // drawn for the new size does not go with the old one. Every call of ours is in a scope, so
-        // nothing else comes here. The next picture asks the surface anew.
-        let window = context.egui_ctx.clone();
-        render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
-        let ((orders, taken), (news, told)) = (channel(), channel());
-        let is_closing = Arc::new(AtomicBool::new(false));
-        let workshop = Workshop {
-            orders: taken,
-            is_closing: is_closing.clone(),
-            news,
-            window: context.egui_ctx.clone(),
-            renderer,
-            view,
-            watch,
-            design,
-            colors: BTreeMap::new(),
-            lifts: Vec::new(),
-            settler: None,
-            yarns: None,
+        let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+            let render = context.wgpu_render_state.clone().ok_or("no device")?;
+            // A device takes one thing after the other, and a processor takes seconds for a cloth:
+            // the window would wait behind it, and not hear that it is closed. A copy costs next to
+            // nothing there.
+            let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+            let renderer = if is_apart {
+                texere::picture::open_renderer(&self.device)?
+            } else {
+                let (device, queue) = (render.device.clone(), render.queue.clone());
+                Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
+            };
+            // The surface can't take another size while the workshop hands the device work, and
+            // what is drawn for the new size does not go with the old one. Every call of ours is in
+            // a scope, so nothing else comes here. The next picture asks the surface anew.
+            let window = context.egui_ctx.clone();
+            render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
+            let ((orders, taken), (news, told)) = (channel(), channel());
+            let is_closing = Arc::new(AtomicBool::new(false));
+            let workshop = Workshop {
+                orders: taken,
+                is_closing: is_closing.clone(),
+                news,
+                window: context.egui_ctx.clone(),
+                renderer,
+                view: self,
+                watch,
+                design,
+                colors: BTreeMap::new(),
+                lifts: Vec::new(),
+                settler: None,
+                yarns: None,
+            };
+            let workshop = thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
+            Ok(Box::new(Window {
+                canvas: Canvas::new(render, is_apart),
+                orders,
+                is_closing,
+                workshop,
+                news: told,
+                cloth: None,
+                settling: None,
+                said: None,
+                lifts: false,
+                place: None,
+                tell,
+            }))
         };
-        let workshop = thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
-        Ok(Box::new(Window {
-            canvas: Canvas::new(render, is_apart),
-            orders,
-            is_closing,
-            workshop,
-            news: told,
-            cloth: None,
-            settling: None,
-            said: None,
-            lifts: false,
-            place: None,
-            tell,
-        }))
-    };
-    eframe::run_native("texere", options, Box::new(start)).map_err(|error| ViewError::Window(error.into()))
+        eframe::run_native("texere", options, Box::new(start))
+            .map_err(|error| ViewError::Window(error.into()))
+    }
 }
 
 /// All that the window shows.

@@ -12,13 +12,14 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 use texere::mesh::Undersampled;
-use texere::picture::{Camera, Extent, Quality, RenderError, Renderer, Scene};
+use texere::picture::{Camera, Quality, RenderError, Renderer, Scene};
 use texere::read::Refusal;
 use texere::rest::{FinishError, RestReport};
 use texere::write::Output;
 use texere::{Backend, Design, Settings, Structure, Yarns};
 
 use crate::error::said;
+use crate::messages::{Cloth, News, Order};
 use crate::watch::Watch;
 use crate::{Event, View};
 
@@ -30,55 +31,6 @@ const WRITING: Duration = Duration::from_millis(40);
 
 /// How long a file is waited for that changes without end. Then it is read as it is.
 const PATIENCE: Duration = Duration::from_secs(1);
-
-/// What the window asks for.
-#[derive(Debug)]
-pub(crate) enum Order {
-    /// The warp above or below at a crossing, end and pick from 0.
-    Lift { end: usize, pick: usize, up: bool },
-    /// Takes back the last lift.
-    Undo,
-    /// Another colour, sRGB, for a material, from 0.
-    Color { material: usize, srgb: [u8; 3] },
-    /// Another mesh.
-    Settings(Settings),
-    /// Another tension of the yarns' splines.
-    Tension(f32),
-    /// Whether yarns settle.
-    Settle(bool),
-    /// A copy of the design as it is now.
-    Save,
-}
-
-/// A cloth on the device, and what it is made from.
-#[derive(Debug)]
-pub(crate) struct Cloth {
-    pub(crate) design: Arc<Design>,
-    pub(crate) yarns: Arc<Yarns>,
-    pub(crate) settings: Settings,
-    /// Held while a picture is made.
-    pub(crate) scene: Arc<Mutex<Scene>>,
-    pub(crate) extent: Extent,
-    pub(crate) triangles: u64,
-    /// Whether its yarns have settled.
-    pub(crate) is_settled: bool,
-    /// Whether lifts can be taken back.
-    pub(crate) is_edited: bool,
-    /// That it does not hang together, if so.
-    pub(crate) apart: Vec<String>,
-    /// What the mesh does not show of twist.
-    pub(crate) undersampled: Option<Undersampled>,
-}
-
-/// What the window is told.
-#[derive(Debug)]
-pub(crate) enum News {
-    Cloth(Box<Cloth>),
-    /// Yarns settle: the share of the work that is done, or what has come of it.
-    Settling(f64),
-    Settled(String),
-    Event(Event),
-}
 
 /// What an order makes necessary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | write stitches in symbols, or make them one by one | [`Chart`], [`Cell`] |
 //! | say what a machine does, needle by needle | [`Program`], [`Instruction`] |
-//! | know what the machine makes of a program, and what is wrong with it | [`Machine`], [`Knit`], [`Fault`] |
+//! | run a program on a knitting machine, and know its faults | [`Machine`], [`Knit`], [`Fault`] |
 //! | know which loop is drawn through which | [`Stitches`] |
 //! | have a cloth | [`Knitted`], with a [`Gauge`] and a [`KnitYarn`] for each carrier |
 //!

@@ -10,7 +10,7 @@ use texere::{Design, Yarns};
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnUnder {
-    /// As a designer calls it: `course 3`, `end 12`, `guide bar 1, guide 5`.
+    /// Its name in a designer's words: `course 3`, `end 12`, `guide bar 1, guide 5`.
     yarn: String,
     material: String,
     /// The height of its centreline, mm.

@@ -1,4 +1,4 @@
-//! What is said of cures: the key of a design file, what to write there, and what that comes to.
+//! The report of cures: the key of a design file, its new value, and the effect.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -17,11 +17,11 @@ const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
 pub(crate) struct CureReport {
     /// The key of the design file.
     key: &'static str,
-    /// What to write there.
+    /// Its new value.
     value: String,
-    /// What that comes to.
+    /// The effect of that value.
     effect: String,
-    /// The least clearance and the tightest bend with it, at what were the worst places.
+    /// The least clearance and the tightest bend with it, at the places that were the worst.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance: f64,
     curvature: f64,
@@ -30,8 +30,8 @@ pub(crate) struct CureReport {
 }
 
 impl CureReport {
-    /// None for a cure that no design file can have: yarns far too thick may need spacings beyond
-    /// any cloth's.
+    /// None for a cure beyond the limits of a design file, such as the spacing for yarns far too
+    /// thick.
     pub(crate) fn new(cure: &Cure) -> Option<Self> {
         let (key, value, effect) = change(&cure.remedy)?;
         Some(Self {
@@ -108,7 +108,7 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
     })
 }
 
-/// What relief has changed.
+/// The changes that relief has made.
 fn relieved(report: &JamReport, [before, after]: [f64; 2]) -> String {
     let [share, new_share] = report.warp_share;
     let mut effects = Vec::new();
@@ -138,7 +138,7 @@ impl fmt::Display for CureReport {
     }
 }
 
-/// What a cloth does that it should not, if there is anything: "pierces itself, folds".
+/// The faults of a cloth in one phrase, if it has any: "pierces itself, folds".
 pub(crate) fn phrase(faults: &[ClothFault]) -> Option<String> {
     let kinds: Vec<_> = faults.iter().map(ToString::to_string).collect();
     (!kinds.is_empty()).then(|| kinds.join(", "))

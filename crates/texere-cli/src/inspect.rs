@@ -20,10 +20,10 @@ use crate::setts::{SettReport, setts};
 use crate::terminal::line;
 use crate::{print, progress, reading, settling};
 
-/// How far the yarn of a guide bar may be off what the design asks for.
+/// How far the run-in of a guide bar may differ from the design's, as a share.
 const RUN_IN_MISS: f64 = 0.02;
 
-/// What is said of a design. The keys of the JSON are these fields.
+/// The report of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 struct Report {
     name: String,
@@ -44,7 +44,7 @@ struct Report {
     unsaid: Vec<String>,
 }
 
-/// What a mesh of it takes.
+/// The counts of its mesh.
 #[derive(Debug, Serialize)]
 struct Size {
     yarns: u64,

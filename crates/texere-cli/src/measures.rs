@@ -1,4 +1,4 @@
-//! What is said of a cloth's yarn, weight and thickness.
+//! The report of a cloth's yarn, weight and thickness.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ impl<T> From<[T; 2]> for Sets<T> {
     }
 }
 
-/// [`Measures`], with the names of what they measure.
+/// [`Measures`] with the names of threads and colours.
 #[derive(Debug, Serialize)]
 pub(crate) struct MeasuresReport {
     /// All yarn, mm.
@@ -32,14 +32,14 @@ pub(crate) struct MeasuresReport {
     pub(crate) crimp: Option<Sets<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cover: Option<CoverReport>,
-    /// Of a knit.
+    /// Of a knit only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) knit: Option<LoopsReport>,
     pub(crate) areal_weight_g_per_m2: Option<f64>,
     pub(crate) thickness_mm: f64,
 }
 
-/// [`KnitMeasures`].
+/// [`KnitMeasures`] for JSON.
 #[derive(Debug, Serialize)]
 pub(crate) struct LoopsReport {
     pub(crate) loop_length_mm: f64,
@@ -115,7 +115,7 @@ impl YarnReport {
     }
 }
 
-/// [`JamReport`]: what was found of jammed threads, and what was done.
+/// [`JamReport`] for JSON: jammed threads before and after relief, and the relief.
 #[derive(Debug, Serialize)]
 pub(crate) struct JamsReport {
     before: Sets<TightnessReport>,

@@ -5,9 +5,9 @@
 //!                      └──<── orders: lifts, colours, sides, tension ──<──┘
 //! ```
 //!
-//! Every triangle is drawn for each picture, from control points that lie on the device. The
-//! pointer turns, moves and nears the cloth, and the yarn under it is named as a weaver or a
-//! knitter calls it. Lifts change by a click. When the design's file changes, the cloth does.
+//! Every triangle is drawn for each picture, from control points on the device. The pointer turns,
+//! moves and nears the cloth, and the yarn under it is named as a weaver or a knitter calls it. A
+//! click changes a lift. When the design's file changes, the cloth is made again.
 
 mod canvas;
 mod device;

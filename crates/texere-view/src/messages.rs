@@ -11,19 +11,19 @@ use crate::Event;
 /// What the window asks for.
 #[derive(Debug)]
 pub(crate) enum Order {
-    /// The warp above or below at a crossing, end and pick from 0.
+    /// Sets whether the warp is up at a crossing, end and pick from 0.
     Lift { end: usize, pick: usize, up: bool },
     /// Takes back the last lift.
     Undo,
-    /// Another colour, sRGB, for a material, from 0.
+    /// Gives a material, from 0, another sRGB colour.
     Color { material: usize, srgb: [u8; 3] },
-    /// Another mesh.
+    /// Draws with other settings.
     Settings(Settings),
-    /// Another tension of the yarns' splines.
+    /// Gives the yarns' splines another tension.
     Tension(f32),
     /// Whether yarns settle.
     Settle(bool),
-    /// A copy of the design as it is now.
+    /// Saves a copy of the design as it is now.
     Save,
 }
 
@@ -41,17 +41,17 @@ pub(crate) struct Cloth {
     pub(crate) is_settled: bool,
     /// Whether lifts can be taken back.
     pub(crate) is_edited: bool,
-    /// That it does not hang together, if so.
+    /// Warnings that the cloth does not hang together.
     pub(crate) apart: Vec<String>,
-    /// What the mesh does not show of twist.
+    /// The twist that the mesh does not show, if any.
     pub(crate) undersampled: Option<Undersampled>,
 }
 
-/// What the window is told.
+/// What the workshop reports to the window.
 #[derive(Debug)]
 pub(crate) enum News {
     Cloth(Box<Cloth>),
-    /// Yarns settle: the share of the work that is done, or what has come of it.
+    /// Yarns settle; the share of the work that is done.
     Settling(f64),
     Settled(String),
     Event(Event),

@@ -1,4 +1,4 @@
-//! What stands beside the cloth: its name, what can be chosen, and how long a picture takes.
+//! The panel beside the cloth: its name, choices, and how long a picture takes.
 
 use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, SliderClamping, Ui};
 use texere::Settings;
@@ -59,7 +59,7 @@ impl<T: FnMut(&Event)> Window<T> {
     fn mesh(&self, ui: &mut Ui, cloth: &Cloth) {
         let Settings { mut sides, mut subdivisions, .. } = cloth.settings;
         let mut tension = cloth.yarns.tension();
-        // A polygon has the sides that it has.
+        // The sides of a polygon are fixed.
         let is_round = cloth.yarns.layout().corners().is_none();
         let changed = [
             ui.add_enabled(

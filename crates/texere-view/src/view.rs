@@ -15,25 +15,26 @@ pub struct View {
     /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns
     /// settle.
     pub device: String,
-    /// Frames of the mesh; its sides and subdivisions count only in `sides` and `subdivisions`.
+    /// Settings of the mesh, such as its frame. The fields `sides` and `subdivisions` below take
+    /// the place of its own.
     pub settings: Settings,
     /// Tension of the yarns' splines, from 0 to below 1.
     pub tension: f32,
-    /// Sides of the tubes; if none as many as [`texere::picture::picture_sides`] says.
+    /// Sides of the tubes; if none, those of [`texere::picture::picture_sides`].
     pub sides: Option<u32>,
-    /// Points inserted between two control points; if none as many as
-    /// [`Settings::following_fibres`] says.
+    /// Points inserted between two control points; if none, those of
+    /// [`Settings::following_fibres`].
     pub subdivisions: Option<u32>,
     /// One section for all yarns of the design.
     pub section: Option<Section>,
-    /// Whether yarns settle; if none, what the design says.
+    /// Whether yarns settle; if none, as the design says.
     pub settle: Option<bool>,
-    /// The window's width and height at first, in points: pixels, where the screen's scale is one.
+    /// The window's first width and height, in points: pixels where the screen's scale is 1.
     pub size: [u32; 2],
 }
 
 impl View {
-    /// A window of a design as it comes.
+    /// A view of `design` with everything else at its default.
     pub fn of(design: impl Into<PathBuf>) -> Self {
         Self {
             design: design.into(),

@@ -21,11 +21,11 @@ use crate::watch::Watch;
 use crate::workshop::Workshop;
 use crate::{Event, View, ViewError, device};
 
-/// How long a picture that the device refused is not tried again.
+/// The wait after which a picture that the device refused is tried again.
 const AGAIN: Duration = Duration::from_millis(50);
 
-/// How long a window that closes waits for the workshop: what it does on the device would keep the
-/// device from going.
+/// How long a window that closes waits for the workshop. A device can't be dropped while the
+/// workshop uses it.
 const LEAVING: Duration = Duration::from_millis(500);
 
 impl View {
@@ -43,7 +43,7 @@ impl View {
         let mut watch = Watch::new([self.design.clone()]);
         let design = self.read()?;
         watch.follow(design.files().iter().cloned());
-        // What opens the window says of a wrong name only that it failed.
+        // eframe does not tell why a wrong name fails, so the name is checked first.
         texere::picture::picture_device(&self.device, &WgpuBackend::devices()?)?;
         let options = eframe::NativeOptions {
             viewport: ViewportBuilder::default()
@@ -55,9 +55,9 @@ impl View {
         };
         let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
             let render = context.wgpu_render_state.clone().ok_or("no device")?;
-            // A device takes one thing after the other, and a processor takes seconds for a cloth:
-            // the window would wait behind it, and not hear that it is closed. A copy costs next to
-            // nothing there.
+            // A device does its work in order, and a processor takes seconds for a cloth: the
+            // window would wait behind it, and could not be closed. So the cloth has a device of
+            // its own there, from which a copy costs next to nothing.
             let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
             let renderer = if is_apart {
                 texere::picture::open_renderer(&self.device)?
@@ -65,9 +65,9 @@ impl View {
                 let (device, queue) = (render.device.clone(), render.queue.clone());
                 Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
             };
-            // The surface can't take another size while the workshop hands the device work, and
-            // what is drawn for the new size does not go with the old one. Every call of ours is in
-            // a scope, so nothing else comes here. The next picture asks the surface anew.
+            // The surface can't be resized while the workshop gives the device work, and drawing at
+            // the new size then fails on the old surface. Our own calls are in error scopes, so
+            // only that failure comes here. The next picture tries again.
             let window = context.egui_ctx.clone();
             render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
             let ((orders, taken), (news, told)) = (channel(), channel());
@@ -110,15 +110,15 @@ impl View {
 pub(crate) struct Window<T> {
     pub(crate) canvas: Canvas,
     orders: Sender<Order>,
-    /// What the workshop looks at while it works.
+    /// Read by the workshop while it works.
     is_closing: Arc<AtomicBool>,
     workshop: JoinHandle<()>,
     news: Receiver<News>,
-    /// None until the first one is made.
+    /// None until the first cloth is made.
     pub(crate) cloth: Option<Box<Cloth>>,
-    /// The share that is done while yarns settle.
+    /// The share of the work that is done, while yarns settle.
     pub(crate) settling: Option<f64>,
-    /// What came of settling, or what failed.
+    /// The result of settling, or the last failure.
     pub(crate) said: Option<String>,
     /// Whether a click changes a lift.
     pub(crate) lifts: bool,
@@ -137,7 +137,7 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         if self.is_closing.load(Ordering::Relaxed) {
-            // Nobody would see another picture.
+            // No further picture would be seen.
             return;
         }
         while let Ok(news) = self.news.try_recv() {
@@ -147,8 +147,8 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
         self.panel(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
             let Some(cloth) = &self.cloth else {
-                // Still: what turns would be drawn without end, behind what the workshop has the
-                // device do.
+                // A still label: a spinner would be drawn without end, and each time wait for the
+                // workshop's work on the device.
                 ui.centered_and_justified(|ui| ui.label("The cloth is being made."));
                 return;
             };
@@ -171,7 +171,7 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
 
 impl<T: FnMut(&Event)> Window<T> {
     pub(crate) fn order(&self, order: Order) {
-        // The workshop is there for as long as the window.
+        // The workshop lives as long as the window.
         let _ = self.orders.send(order);
     }
 
@@ -225,14 +225,14 @@ impl<T: FnMut(&Event)> Window<T> {
     }
 
     fn keys(&mut self, ui: &egui::Ui) {
-        // A text field has the keyboard for itself.
+        // A text field takes the keyboard.
         if ui.ctx().egui_wants_keyboard_input() {
             return;
         }
         let pressed = |wanted: Key, with: Modifiers| {
             ui.input(|input| {
                 input.events.iter().any(|event| {
-                    // One that is held down for long counts once.
+                    // A key that is held down counts once.
                     matches!(event, egui::Event::Key { key, pressed: true, repeat: false, modifiers, .. }
                         if *key == wanted && modifiers.matches_exact(with))
                 })

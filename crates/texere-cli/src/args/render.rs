@@ -46,7 +46,7 @@ pub(crate) struct RenderArgs {
     /// The device that draws: auto, wgpu, wgpu:1, wgpu:nvidia
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
-    /// Make everything anew so many times, to see how long it takes on a device that is warm
+    /// Do everything so many times, to see how long it takes on a warm device
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) repeat: u32,
     #[command(flatten)]

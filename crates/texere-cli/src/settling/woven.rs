@@ -1,4 +1,4 @@
-//! What is said of woven cloth that has come to rest by its crossings.
+//! The report of woven cloth that has come to rest by its crossings.
 
 use std::fmt;
 
@@ -16,10 +16,10 @@ pub(crate) struct WovenRestReport {
     #[serde(skip)]
     verdict: Verdict,
     passes: u32,
-    /// Ends and picks of what has settled.
+    /// Ends and picks of the repeat that has settled.
     repeat: Sets<usize>,
-    /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked
-    /// it, and after.
+    /// The least clearance of surfaces as drawn, before and after threads were made thinner where
+    /// they lacked it.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance_before: f64,
     #[serde(serialize_with = "as_near_as_looked")]
@@ -35,7 +35,7 @@ pub(crate) struct WovenRestReport {
 struct AreaReport {
     mean: f64,
     least: f64,
-    /// What was lost for the sake of clearance, in the mean.
+    /// The mean share that was lost to clearance.
     lost: f64,
 }
 

@@ -11,7 +11,7 @@ use super::opencl::OpenClFill;
 use super::wgpu::WgpuFill;
 use super::{Fill, opencl, wgpu};
 
-/// A GPU that is open, with what is needed to measure it.
+/// An open GPU to measure.
 #[derive(Debug)]
 pub enum Gpu {
     /// By its number among OpenCL's.
@@ -54,9 +54,8 @@ impl Gpu {
     }
 }
 
-/// Makes a context of a GPU device's, with nothing in it, and gives back the time that takes by the
-/// host's clock. The first one of a process pays for the driver, too. None for a device that is no
-/// GPU's.
+/// Makes an empty context of a GPU, and returns the time by the host's clock. The first context of
+/// a process also loads the driver. None for a device that is no GPU.
 ///
 /// **Errors**: [`BackendError`] where there is no such device.
 pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {

@@ -28,13 +28,13 @@ struct Report {
     /// The twist that no usual number of rings shows.
     #[serde(skip_serializing_if = "Option::is_none")]
     undersampled: Option<String>,
-    /// Of woven cloth.
+    /// Only for woven cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     setts: Option<Sets<SettReport>>,
-    /// Of a knit: the faults of its program.
+    /// Only for knits: the faults of the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     machine: Option<MachineReport>,
-    /// Of a knit: how many needles never have a loop.
+    /// Only for knits: needles that never have a loop.
     #[serde(skip_serializing_if = "Option::is_none")]
     empty_needles: Option<EmptyNeedles>,
     #[serde(skip_serializing_if = "Option::is_none")]

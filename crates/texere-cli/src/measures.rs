@@ -32,7 +32,7 @@ pub(crate) struct MeasuresReport {
     pub(crate) crimp: Option<Sets<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cover: Option<CoverReport>,
-    /// Of a knit only.
+    /// Only for knits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) knit: Option<LoopsReport>,
     pub(crate) areal_weight_g_per_m2: Option<f64>,

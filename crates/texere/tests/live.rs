@@ -81,7 +81,7 @@ fn yarns_that_outgrow_their_room_take_one_mesh_together() {
     live.set_yarns(finer(&yarns, 7)).unwrap();
     assert_eq!(meshes(), 3, "others");
     assert!(live.update().unwrap().anew);
-    // As long as all yarns have room, the mesh stays.
+    // The mesh stays where all yarns have room.
     live.set_yarns(finer(&yarns, 6)).unwrap();
     assert_eq!(meshes(), 3, "shorter ones");
     assert!(!live.update().unwrap().anew);

@@ -133,7 +133,7 @@ mod unix {
         }
     }
 
-    /// As `nohup` starts it.
+    /// Started as by `nohup`.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_signal_that_was_ignored_stays_ignored() {

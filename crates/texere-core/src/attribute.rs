@@ -66,7 +66,7 @@ impl ArcLength {
     /// A length in mm, rounded down to a step. What is no length, below 0 or not a number, is none.
     #[must_use]
     #[inline]
-    pub fn from_mm(mm: f32) -> Self {
+    pub(crate) fn from_mm(mm: f32) -> Self {
         let mm = mm.max(0.0);
         let whole = mm.floor();
         let part = ((mm - whole) * Self::STEPS) as u32;

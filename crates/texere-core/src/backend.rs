@@ -20,11 +20,13 @@ pub use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
     take_over_host,
 };
+pub use crate::layout::Edits;
 pub use crate::live::LiveMesh;
 pub use crate::memory::{filled, room, room_for, zeroed};
 pub use crate::mesh::{ChunkDraw, Draw, MeshMut};
 pub use crate::null::NullBackend;
 pub use crate::padded::{PaddedPoints, renew_virtual_ends};
-pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Edits, Part, Plan, TablesId, WINDOW_POINTS};
+pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Part, Plan, TablesId, WINDOW_POINTS};
 pub use crate::ring::Trajectory;
-pub use crate::session::{Session, SessionError, Traffic};
+pub use crate::session::{Session, SessionError};
+pub use crate::traffic::Traffic;

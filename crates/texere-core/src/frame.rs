@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use crate::definitions::{NO_LENGTH, Turn, atan2_turns};
+use crate::definitions::{NO_LENGTH, Turn};
+use crate::turn::atan2_turns;
 
 /// How sections are oriented along a yarn. Twist turns them further in either frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -4,8 +4,8 @@
 use glam::{DVec3, Vec3};
 
 use crate::ControlPoint;
-use crate::definitions::{Basis, Sampling, Segment, Turn, atan2_turns};
-use crate::steep::{intervals, window};
+use crate::definitions::{Basis, Segment, Turn};
+use crate::turn::atan2_turns;
 
 /// The up directions that the control points of a yarn stand by, with the points that they belong
 /// to.
@@ -89,24 +89,5 @@ impl IntervalLean {
         let up = up_between(self.ups, self.tangents, tangent.as_dvec3(), f64::from(t)).as_vec3();
         let upright = Basis::upright(tangent);
         Turn::from_turns(atan2_turns(-up.dot(upright.side), up.dot(upright.up)))
-    }
-}
-
-impl Leaning {
-    /// The lean of each ring of the yarn.
-    pub(crate) fn rings(&self, closed: bool, sampling: &Sampling) -> Vec<Turn> {
-        let Self { points, ups, .. } = self;
-        let (intervals, per_interval) = (intervals(points, closed), sampling.subdivisions() + 1);
-        let last = intervals.end - 1;
-        let mut rings = Vec::with_capacity(intervals.len() * per_interval as usize + 1);
-        for interval in intervals {
-            let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
-            let lean = IntervalLean::new(&window(points, closed, interval), ends, sampling.s());
-            rings.extend((0..per_interval).map(|part| lean.at(part as f32 * sampling.step())));
-            if interval == last {
-                rings.push(if closed { rings[0] } else { lean.at(1.0) });
-            }
-        }
-        rings
     }
 }

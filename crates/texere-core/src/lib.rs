@@ -35,6 +35,8 @@ mod device;
 mod engine;
 mod frame;
 mod half;
+mod interval;
+mod layout;
 mod lean;
 mod live;
 mod mapped;
@@ -59,6 +61,7 @@ mod stand;
 mod steep;
 mod subject;
 mod topology;
+mod traffic;
 mod turn;
 mod twist;
 mod vertex;
@@ -71,6 +74,7 @@ pub use counted::counted;
 pub use crossings::error::CrossingsError;
 pub use device::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind};
 pub use frame::Frame;
+pub use layout::{Layout, Origin, TWIST_LIMIT, Yarn, check_tension};
 pub use live::Change;
 pub use material::{HAIRINESS_LIMIT, Material};
 pub use memory::OutOfMemory;
@@ -87,7 +91,4 @@ pub use subject::Subject;
 pub use topology::{End, Topology};
 pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};
 pub use vertex::Vertex;
-pub use yarns::{
-    Layout, Origin, TWIST_LIMIT, Yarn, YarnError, Yarns, YarnsBuilder, check_material, check_points,
-    check_tension,
-};
+pub use yarns::{YarnError, Yarns, YarnsBuilder, check_material, check_points};

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::definitions::{Basis, Segment};
-use crate::steep::window;
+use crate::definitions::Basis;
+use crate::interval::tangent;
 use crate::{ControlPoint, Layout, Yarn, YarnError, Yarns};
 
 /// How far apart places are tried to find how a map stretches, as a share of the yarn's half height
@@ -87,13 +87,6 @@ impl Yarns {
         };
         yarns.flat_map(of_yarn).collect()
     }
-}
-
-/// The tangent at a control point.
-pub(crate) fn tangent(points: &[ControlPoint], closed: bool, point: usize) -> Vec3 {
-    // At control points it is that of any tension.
-    let (interval, t) = if !closed && point + 1 == points.len() { (point - 1, 1.0) } else { (point, 0.0) };
-    Segment::new(&window(points, closed, interval), 0.5).sample(t).tangent
 }
 
 fn carry(

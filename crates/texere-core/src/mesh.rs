@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::backend::{Chunk, Plan};
-use crate::definitions::{SHARED_GAPS, index_pattern};
+use crate::definitions::index_pattern;
+use crate::topology::SHARED_GAPS;
 use crate::{End, Material, Topology, Vertex};
 
 /// A range of indices that draws (part of) one yarn.

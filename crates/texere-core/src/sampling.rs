@@ -26,7 +26,7 @@ pub struct Sampling {
 
 /// The most points that may be inserted between two control points; a thousand already puts rings
 /// of a 0.1 mm yarn less than a micrometre apart.
-pub const SUBDIVISIONS_MAX: u32 = 1023;
+pub(crate) const SUBDIVISIONS_MAX: u32 = 1023;
 
 impl Default for Sampling {
     /// The paper's: Catmull-Rom (tension 0), one inserted point.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use crate::ControlPoint;
-use crate::definitions::{Basis, Turn, UPRIGHT_TURN, VERTICAL};
+use crate::definitions::{Basis, Turn, VERTICAL};
+use crate::interval::{intervals, tangent, window};
 use crate::lean::Leaning;
-use crate::mapped::tangent;
-use crate::steep::{carried_steps, intervals, is_flat, runs_straight, upright_turns_beyond, window, wrings};
+use crate::steep::{UPRIGHT_TURN, carried_steps, is_flat, runs_straight, upright_turns_beyond, wrings};
 
 /// By how much the upright frame of a flattened yarn may turn about it within a control interval,
 /// and by how much its ups are turned from control point to control point where it is handed over,

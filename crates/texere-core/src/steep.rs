@@ -2,11 +2,11 @@
 
 use std::f32::consts::TAU;
 use std::iter::once;
-use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
 use crate::definitions::{Segment, Turn};
+use crate::interval::{intervals, window};
 use crate::lean::IntervalLean;
 use crate::{ControlPoint, Frame};
 
@@ -16,7 +16,7 @@ use crate::{ControlPoint, Frame};
 /// Woven threads that keep to their planes turn by nothing, and those that a settled cloth pushes
 /// aside by up to a degree; the loops of knits turn by 10 degrees and more. Two rings are at most
 /// an interval apart, so the tube between them is never narrower than cos 2° of its radius.
-pub const UPRIGHT_TURN: f32 = 4.0 / 360.0;
+pub(crate) const UPRIGHT_TURN: f32 = 4.0 / 360.0;
 
 /// Places within an interval between which the turn is added up. With 4 a hairpin through the
 /// vertical was taken for half as much.
@@ -48,11 +48,6 @@ pub(crate) fn wrings(points: &[ControlPoint], closed: bool, ups: &[Vec3]) -> boo
         let lean = IntervalLean::new(&window, ends, S);
         if flat { lean.turns_over() } else { turn(&window, |t| lean.at(t).turns()) > UPRIGHT_TURN }
     })
-}
-
-/// The numbers of a yarn's control intervals.
-pub(crate) const fn intervals(points: &[ControlPoint], closed: bool) -> Range<usize> {
-    0..if closed { points.len() } else { points.len() - 1 }
 }
 
 /// Whether a yarn is flattened anywhere.
@@ -87,19 +82,6 @@ pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
         let goes_on = first > 0.0 && last > 0.0 && (middle > 0.0 || middle * middle < first * last);
         goes_on && most * (4.0 / TAU) <= UPRIGHT_TURN * first.min(middle).min(last).max(0.0)
     })
-}
-
-/// The four control points that steer interval number `interval` of a yarn, virtual ends included.
-pub(crate) fn window(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
-    let count = points.len();
-    let mut window = [0, 1, 2, 3].map(|further| points[(interval + count + further - 1) % count]);
-    if !closed && interval == 0 {
-        window[0] = window[1].reflected(&window[2]);
-    }
-    if !closed && interval + 2 == count {
-        window[3] = window[2].reflected(&window[1]);
-    }
-    window
 }
 
 /// No less than the interval's turn, from its velocity's three Bézier points alone: infinite where

@@ -24,7 +24,7 @@ pub enum Topology {
 
 /// The most gaps between rings that the shared pattern covers; longer parts take several draws.
 /// With up to seven sides every index of it fits 16 bits.
-pub const SHARED_GAPS: u64 = 8192;
+pub(crate) const SHARED_GAPS: u64 = 8192;
 
 /// The indices of the quads between a ring and the next, counted from the ring's first vertex: six
 /// for each side.

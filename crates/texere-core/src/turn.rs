@@ -121,13 +121,9 @@ impl std::iter::Sum for Turn {
 
 /// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], within 3e-8
 /// turns; 0 for (0, 0).
-///
-/// ```
-/// assert_eq!(texere_core::definitions::atan2_turns(1.0, 0.0), 0.25);
-/// ```
 #[must_use]
 #[inline]
-pub fn atan2_turns(y: f32, x: f32) -> f32 {
+pub(crate) fn atan2_turns(y: f32, x: f32) -> f32 {
     let (along, across) = (x.abs(), y.abs());
     let (low, high) = if across > along { (along, across) } else { (across, along) };
     let (numerator, denominator, eighth) =

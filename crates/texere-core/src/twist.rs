@@ -7,7 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::backend::renew_virtual_ends;
-use crate::definitions::{SUBDIVISIONS_MAX, tangent_factor};
+use crate::definitions::tangent_factor;
+use crate::sampling::SUBDIVISIONS_MAX;
 use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 
 /// By how much twist turns a section from one ring to the next at most, radians, where it shows: 30

@@ -2,293 +2,18 @@
 
 mod error;
 
-use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::backend::Edits;
-use crate::lean::Leaning;
 use crate::stand::Stand;
-use crate::{COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section};
+use crate::{
+    COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Layout, Material, RADIUS_MAX, RADIUS_MIN, Section, Yarn,
+};
 
 pub use self::error::YarnError;
-
-/// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[non_exhaustive]
-pub enum Origin {
-    /// Not said.
-    #[default]
-    Unknown,
-    /// A warp yarn: the end's number from the left.
-    End(u32),
-    /// A weft yarn: the pick's number from the first one woven.
-    Pick(u32),
-    /// A weft-knitted yarn: the first course that it knits, counted in the repeat, so that copies
-    /// of a course share a number.
-    Course(u32),
-    /// A weft-knitted yarn: its carrier.
-    Carrier(u32),
-    /// A warp-knitted yarn.
-    Guide {
-        /// Guide bar, 1 in front.
-        bar: u32,
-        /// Guide within the bar.
-        guide: u32,
-    },
-}
-
-impl fmt::Display for Origin {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unknown => write!(f, "yarn"),
-            Self::End(end) => write!(f, "end {end}"),
-            Self::Pick(pick) => write!(f, "pick {pick}"),
-            Self::Course(course) => write!(f, "course {course}"),
-            Self::Carrier(carrier) => write!(f, "carrier {carrier}"),
-            Self::Guide { bar, guide } => write!(f, "guide bar {bar}, guide {guide}"),
-        }
-    }
-}
-
-/// What belongs to one yarn beside its control points.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Yarn {
-    /// Index into the materials.
-    pub material: u32,
-    /// Index into the sections.
-    pub section: u32,
-    /// Whether the last control point joins up with the first.
-    pub closed: bool,
-    /// Twist, rad per mm along the yarn; positive is Z twist (right-handed).
-    pub twist: f32,
-    /// Where the yarn comes from.
-    pub origin: Origin,
-}
-
-impl Yarn {
-    /// The fewest control points that make a yarn.
-    pub(crate) const fn points_least(&self) -> u64 {
-        if self.closed { 3 } else { 2 }
-    }
-}
-
-/// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest
-/// sewing thread.
-pub const TWIST_LIMIT: f32 = 1e3;
-
-/// Everything about the yarns that decides counts and offsets, and how their splines run between
-/// control points: all but positions and colours.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Layout {
-    offsets: Vec<u64>,
-    yarns: Vec<Yarn>,
-    sections: Vec<Section>,
-    /// Which yarns run too steeply for upright frames.
-    steep: Vec<bool>,
-    /// How yarns lean that do, by their numbers.
-    leaning: BTreeMap<usize, Arc<Leaning>>,
-    /// Tension of the splines through the control points.
-    tension: f32,
-}
-
-impl Layout {
-    /// A layout of `yarns`, `offsets` (where each yarn's control points start, and their total
-    /// last) and `sections`. The [tension](Layout::tension) of their splines is 0.
-    ///
-    /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer
-    /// than two control points (three when closed), an unknown section, a twist that is not finite
-    /// or beyond [`TWIST_LIMIT`], a section with invalid parameters.
-    pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
-        if yarns.is_empty() {
-            return Err(YarnError::NoYarns);
-        }
-        if offsets.len() != yarns.len() + 1 {
-            return Err(YarnError::OffsetCount { offsets: offsets.len(), yarns: yarns.len() });
-        }
-        if offsets[0] != 0 {
-            return Err(YarnError::OffsetOrder { yarn: 0, start: 0, end: offsets[0] });
-        }
-        for (section, shape) in sections.iter().enumerate() {
-            shape.validate().map_err(|source| YarnError::Section { section, source })?;
-        }
-        for (index, yarn) in yarns.iter().enumerate() {
-            let (start, end) = (offsets[index], offsets[index + 1]);
-            if end < start {
-                return Err(YarnError::OffsetOrder { yarn: index, start, end });
-            }
-            let (points, least) = (end - start, yarn.points_least());
-            if points < least {
-                return Err(YarnError::TooFewPoints { yarn: index, points, least, closed: yarn.closed });
-            }
-            if yarn.section as usize >= sections.len() {
-                return Err(YarnError::UnknownSection {
-                    yarn: index,
-                    section: yarn.section,
-                    sections: sections.len(),
-                });
-            }
-            if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&yarn.twist) {
-                return Err(YarnError::Twist { yarn: index, twist: yarn.twist, limit: TWIST_LIMIT });
-            }
-        }
-        let steep = vec![false; yarns.len()];
-        Ok(Self { offsets, yarns, sections, steep, leaning: BTreeMap::new(), tension: 0.0 })
-    }
-
-    /// The layout with splines of another tension.
-    ///
-    /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
-    pub fn with_tension(self, tension: f32) -> Result<Self, YarnError> {
-        check_tension(tension)?;
-        Ok(Self { tension, ..self })
-    }
-
-    /// Tension of the splines through the control points (the paper's u), in \[0, 1): 0 is the
-    /// Catmull-Rom spline, and towards 1 yarns run straight from point to point.
-    #[must_use]
-    pub const fn tension(&self) -> f32 {
-        self.tension
-    }
-
-    /// Makes yarns others, each of another number of control points.
-    pub(crate) fn edit(&mut self, edits: &Edits<'_>) {
-        let mut start = 0;
-        for yarn in 0..self.yarns.len() {
-            let end = self.offsets[yarn + 1];
-            let mut points = end - start;
-            if let Some((what, own)) = edits.get(&yarn) {
-                (self.yarns[yarn], points) = (*what, own.len() as u64);
-            }
-            self.offsets[yarn + 1] = self.offsets[yarn] + points;
-            start = end;
-        }
-    }
-
-    /// How `yarn` stands.
-    pub(crate) fn stand(&self, yarn: usize) -> Stand {
-        Stand { steep: self.steep[yarn], leaning: self.leaning.get(&yarn).cloned() }
-    }
-
-    pub(crate) fn set_stand(&mut self, yarn: usize, Stand { steep, leaning }: Stand) {
-        self.steep[yarn] = steep;
-        match leaning {
-            Some(leaning) => self.leaning.insert(yarn, leaning),
-            None => self.leaning.remove(&yarn),
-        };
-    }
-
-    /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1
-    /// values.
-    #[must_use]
-    pub fn offsets(&self) -> &[u64] {
-        &self.offsets
-    }
-
-    /// The yarns that a range of control points belongs to. Points past the last are left out.
-    #[must_use]
-    pub fn yarns_of(&self, points: Range<u64>) -> Range<usize> {
-        let end = points.end.min(self.point_count());
-        if points.start >= end {
-            return 0..0;
-        }
-        let yarns_before = |end: u64| self.offsets.partition_point(|&start| start < end);
-        yarns_before(points.start + 1) - 1..yarns_before(end)
-    }
-
-    /// Where a range of control points meets one of [its yarns](Layout::yarns_of): counted from the
-    /// yarn's first point, and from the range's first.
-    ///
-    /// **Panics** past the last yarn, and for a yarn that the range does not touch.
-    #[must_use]
-    pub fn points_of(&self, yarn: usize, points: &Range<u64>) -> [Range<usize>; 2] {
-        let (start, end) = (self.offsets[yarn], self.offsets[yarn + 1]);
-        let (from, to) = (start.max(points.start), end.min(points.end));
-        [start, points.start].map(|first| (from - first) as usize..(to - first) as usize)
-    }
-
-    /// The yarns.
-    #[must_use]
-    pub fn yarns(&self) -> &[Yarn] {
-        &self.yarns
-    }
-
-    /// The sections that yarns refer to.
-    #[must_use]
-    pub fn sections(&self) -> &[Section] {
-        &self.sections
-    }
-
-    /// How many corners the first polygon among the sections has, if any is one: tubes of a polygon
-    /// have as many [sides](crate::Settings::sides).
-    #[must_use]
-    pub fn corners(&self) -> Option<u32> {
-        self.sections.iter().find_map(|section| match section {
-            Section::Polygon(corners) => Some(corners.len() as u32),
-            _ => None,
-        })
-    }
-
-    /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more
-    /// than [`UPRIGHT_TURN`](crate::definitions::UPRIGHT_TURN) within a control interval.
-    /// [`Yarns::new`] finds it out; a layout without control points has no steep yarns. A flattened
-    /// yarn gets [ups](Layout::ups) instead, and is steep only where ups turn over from one control
-    /// point to the next.
-    ///
-    /// **Panics** past the last yarn.
-    #[must_use]
-    pub fn is_steep(&self, yarn: usize) -> bool {
-        self.steep[yarn]
-    }
-
-    /// Whether any yarn has [up directions](Layout::ups) that it stands by.
-    #[must_use]
-    pub fn leans(&self) -> bool {
-        !self.leaning.is_empty()
-    }
-
-    /// The up directions that the control points of `yarn` stand by, of length 1: [their
-    /// own](Yarns::with_ups), or those that a flattened yarn gets whose upright frame would turn
-    /// about it by more than 15 degrees within a control interval. These hold to the upright frame
-    /// where that turns slowly, and are carried along near the vertical. None of a yarn that stands
-    /// upright, or that is round and has no own ones, and past the last yarn.
-    ///
-    /// ```
-    /// use texere_core::{ControlPoint, Yarn, Yarns};
-    /// // A ribbon that goes along x, then down and a little back: its height turns along, from z to x.
-    /// let mut yarns = Yarns::builder();
-    /// let places = [[0.0, 0.0], [1.0, 0.0], [2.0, -0.2], [2.5, -1.0], [2.4, -2.0], [2.3, -3.0]];
-    /// yarns.yarn(Yarn::default(), &places.map(|[x, z]| ControlPoint::new(x, 0.0, z, 0.1).flattened(0.2, 0.05)));
-    /// let yarns = yarns.build()?;
-    /// let ups = yarns.layout().ups(0).unwrap_or_default();
-    /// assert!(ups[0].z > 0.99 && ups[5].x > 0.99);
-    /// # Ok::<(), texere_core::YarnError>(())
-    /// ```
-    #[must_use]
-    pub fn ups(&self, yarn: usize) -> Option<&[Vec3]> {
-        self.leaning(yarn).map(|leaning| &leaning.ups[..])
-    }
-
-    /// Those of `yarn`, with their points.
-    pub(crate) fn leaning(&self, yarn: usize) -> Option<&Leaning> {
-        self.leaning.get(&yarn).map(|leaning| &**leaning)
-    }
-
-    /// How yarns lean that do, by their numbers.
-    pub(crate) const fn all_leaning(&self) -> &BTreeMap<usize, Arc<Leaning>> {
-        &self.leaning
-    }
-
-    /// Control points of all yarns together.
-    #[must_use]
-    pub fn point_count(&self) -> u64 {
-        self.offsets.last().copied().unwrap_or(0)
-    }
-}
 
 /// The yarns of a fabric, checked: the input of every pipeline.
 ///
@@ -335,7 +60,7 @@ impl Yarns {
             return Err(YarnError::PointCount { points: points.len() as u64, planned: layout.point_count() });
         }
         check_materials(&layout, &materials)?;
-        let yarns = layout.offsets.par_windows(2).zip(&layout.yarns).enumerate();
+        let yarns = layout.offsets().par_windows(2).zip(layout.yarns()).enumerate();
         let stands = yarns.map(|(number, (bounds, yarn))| {
             let own = &points[bounds[0] as usize..bounds[1] as usize];
             check_points(number, own).map(|()| Stand::of(own, yarn.closed, None))
@@ -379,9 +104,8 @@ impl Yarns {
     ///
     /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
     pub fn with_tension(mut self, tension: f32) -> Result<Self, YarnError> {
-        check_tension(tension)?;
         if tension.to_bits() != self.tension().to_bits() {
-            Arc::make_mut(&mut self.layout).tension = tension;
+            self.layout = Arc::new(Arc::unwrap_or_clone(self.layout).with_tension(tension)?);
         }
         Ok(self)
     }
@@ -419,13 +143,13 @@ impl Yarns {
             // Once more, for the square of a very short one has few digits, and so its length is
             // only about 1 at first.
             unit(up).and_then(unit).ok_or_else(|| {
-                let yarn = self.layout.offsets.partition_point(|&start| start <= point as u64) - 1;
-                YarnError::Up { yarn, point: point - self.layout.offsets[yarn] as usize, up: up.to_array() }
+                let yarn = self.layout.offsets().partition_point(|&start| start <= point as u64) - 1;
+                YarnError::Up { yarn, point: point - self.layout.offsets()[yarn] as usize, up: up.to_array() }
             })
         };
         let ups = ups.iter().enumerate().map(unit).collect::<Result<Vec<_>, _>>()?;
         let layout = Arc::make_mut(&mut self.layout);
-        let yarns = layout.offsets.par_windows(2).zip(&layout.yarns);
+        let yarns = layout.offsets().par_windows(2).zip(layout.yarns());
         let stands = yarns.map(|(bounds, yarn)| {
             let own = bounds[0] as usize..bounds[1] as usize;
             Stand::of(&self.points[own.clone()], yarn.closed, Some(&ups[own]))
@@ -454,7 +178,7 @@ impl Yarns {
     /// Tension of the splines through the control points: see [`Layout::tension`].
     #[must_use]
     pub fn tension(&self) -> f32 {
-        self.layout.tension
+        self.layout.tension()
     }
 
     /// The materials that yarns refer to.
@@ -478,7 +202,7 @@ impl Yarns {
     /// The place of a yarn's control points among all, or `None` past the last yarn.
     #[must_use]
     pub fn range(&self, yarn: usize) -> Option<Range<usize>> {
-        let (first, end) = (self.layout.offsets.get(yarn)?, self.layout.offsets.get(yarn + 1)?);
+        let (first, end) = (self.layout.offsets().get(yarn)?, self.layout.offsets().get(yarn + 1)?);
         Some(*first as usize..*end as usize)
     }
 
@@ -494,13 +218,13 @@ impl Yarns {
     /// point; the yarns are then as they were.
     pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
         let range =
-            self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: self.layout.yarns.len() })?;
+            self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: self.layout.yarns().len() })?;
         if range.len() != points.len() {
             return Err(YarnError::PointCount { points: points.len() as u64, planned: range.len() as u64 });
         }
         check_points(yarn, points)?;
         let ups = self.ups().map(|ups| &ups[range.clone()]);
-        let stand = Stand::of(points, self.layout.yarns[yarn].closed, ups);
+        let stand = Stand::of(points, self.layout.yarns()[yarn].closed, ups);
         if stand != self.layout.stand(yarn) {
             Arc::make_mut(&mut self.layout).set_stand(yarn, stand);
         }
@@ -520,7 +244,7 @@ impl Yarns {
 }
 
 fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnError> {
-    for (yarn, each) in layout.yarns.iter().enumerate() {
+    for (yarn, each) in layout.yarns().iter().enumerate() {
         if each.material as usize >= materials.len() {
             return Err(YarnError::UnknownMaterial {
                 yarn,
@@ -546,19 +270,6 @@ pub fn check_material(material: usize, &Material { hairiness, .. }: &Material) -
         return Err(YarnError::Hairiness { material, hairiness, limit: HAIRINESS_LIMIT });
     }
     Ok(())
-}
-
-/// Checks the tension of yarns' splines.
-///
-/// **Errors**: [`YarnError::Tension`] outside \[0, 1).
-///
-/// ```
-/// use texere_core::check_tension;
-/// assert!(check_tension(0.5).is_ok());
-/// assert!(check_tension(f32::NAN).is_err());
-/// ```
-pub fn check_tension(tension: f32) -> Result<(), YarnError> {
-    if (0.0..1.0).contains(&tension) { Ok(()) } else { Err(YarnError::Tension { tension }) }
 }
 
 /// Checks the control points of yarn number `yarn`, whose number is only said in errors.

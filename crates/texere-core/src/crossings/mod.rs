@@ -11,21 +11,27 @@
 mod block;
 mod crossing;
 pub(crate) mod error;
+mod pass;
 mod passage;
 mod plan;
 mod problem;
+mod rows;
 mod run;
 mod settler;
+mod step;
 mod terms;
 
 pub use block::{CrossingBlock, DAMPING, PIVOT};
 pub use crossing::{CrossingState, Lie, Set};
 use error::CrossingsError;
+pub use pass::CrossingsPass;
 pub use passage::{CURVED, STEPS, StraightPassage, TURN};
-pub use plan::{CrossingsPlan, HALF_HEIGHT, HALF_WIDTH, MOMENTUM, Row, STEP, Site};
+pub use plan::CrossingsPlan;
 pub use problem::{CrossingThread, Crossings};
-pub use run::{CrossingsPass, CrossingsRest, settle};
+pub use rows::{Row, Site};
+pub use run::{CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
+pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP};
 pub use terms::{
     AREA_GAIN, AREA_LOSS, ASPECT, BEND, MARGIN, NEAR, PRESS, SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH,
     STEEPER, TENSION,

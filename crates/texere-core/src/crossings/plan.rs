@@ -1,8 +1,7 @@
 //! The plan: every count and table of a problem, made on the host before anything is launched.
 
-use super::{
-    CrossingBlock, CrossingState, CrossingThread, Crossings, CrossingsError, CrossingsPass, Lie, Set, terms,
-};
+use super::rows::{further, rows};
+use super::{CrossingState, CrossingThread, Crossings, CrossingsError, Lie, Row, Set, Site};
 use crate::backend::{room, zeroed};
 use crate::{BackendError, RADIUS_MAX, RADIUS_MIN};
 
@@ -20,72 +19,14 @@ const STIFFNESS: [f32; 2] = [0.01, 100.0];
 /// Levels that a set may have.
 const LEVELS_MAX: u32 = 8;
 
-/// Threads of one level are neighbours up to so many threads apart.
-const BESIDE_MAX: i32 = 16;
-
-/// The longest step of an unknown, in units.
-pub const STEP: f32 = 0.1;
-
-/// The share of a step that a crossing goes on by.
-pub const MOMENTUM: f32 = 0.8;
-
-/// How far threads go sideways: a quarter of a unit, and two fifths of the way to a neighbour.
-const SIDEWAYS: [f32; 2] = [0.25, 0.4];
-
 /// How far up and down, in units, for each level of the set that has most.
 const HEIGHT: f32 = 1.5;
 
 /// From one level to the next where threads start, in units.
 const RISE: f32 = 1.5;
 
-/// The least and the most of a half width, in radii.
-pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
-
-/// The least and the most of a half height, in radii.
-pub const HALF_HEIGHT: [f32; 2] = [0.3, 2.0];
-
 /// The share of its area with which a thread starts, as a share of its radius.
 const THIN: f32 = 0.632_455_5;
-
-/// A thread, in units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
-    /// To the next thread.
-    pub gap: f32,
-    /// Its radius.
-    pub radius: f32,
-    /// Its stiffness against bending, 1 for cotton.
-    pub stiffness: f32,
-    /// How far it may shift.
-    pub freedom: f32,
-    /// How far it may go up and down.
-    pub height: f32,
-    /// Its level.
-    pub level: i32,
-    /// How many threads before it, and after it, the next one of its level lies; 0 where there is
-    /// none near enough to touch it.
-    pub beside: [i32; 2],
-}
-
-/// A crossing by its end and its pick, from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Site {
-    /// The end.
-    pub end: usize,
-    /// The pick.
-    pub pick: usize,
-}
-
-impl Site {
-    /// The number of its thread of a set.
-    #[must_use]
-    pub const fn thread(self, set: Set) -> usize {
-        match set {
-            Set::Warp => self.end,
-            Set::Weft => self.pick,
-        }
-    }
-}
 
 /// All tables of a problem. Lengths are in its unit, the mean diameter of warp and weft.
 ///
@@ -206,7 +147,7 @@ impl CrossingsPlan {
     ///
     /// **Panics** past the last crossing.
     #[must_use]
-    pub fn are_apart(&self, site: Site) -> bool {
+    pub(super) fn are_apart(&self, site: Site) -> bool {
         self.is_layered && self.rows[0][site.end].level != self.rows[1][site.pick].level
     }
 
@@ -298,91 +239,6 @@ impl CrossingsPlan {
         }
         Ok(all)
     }
-
-    /// What pulls at a crossing while all lie as `crossings` says.
-    ///
-    /// **Panics** where `crossings` has fewer than the plan.
-    #[must_use]
-    pub fn block(&self, pass: &CrossingsPass, crossings: &[CrossingState], site: Site) -> CrossingBlock {
-        terms::gather(self, pass, crossings, site)
-    }
-
-    /// A crossing after its step.
-    #[must_use]
-    pub fn moved(&self, crossing: &CrossingState, block: &CrossingBlock, site: Site) -> CrossingState {
-        let step = block.step();
-        let longest = step.iter().fold(0.0, |longest: f32, step| longest.max(step.abs()));
-        let share = if longest > STEP { STEP / longest } else { 1.0 };
-        self.bounded(crossing, step.map(|step| share * step), site)
-    }
-
-    /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum
-    /// carries it on.
-    #[must_use]
-    pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
-        let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];
-        let on = std::array::from_fn(|unknown| MOMENTUM * (after[unknown] - before[unknown]));
-        self.bounded(is, on, site)
-    }
-
-    /// A crossing moved by `step`, as far as its unknowns may go.
-    fn bounded(&self, crossing: &CrossingState, step: [f32; 8], site: Site) -> CrossingState {
-        let mut moved = *crossing;
-        for set in Set::BOTH {
-            let row = self.rows(set)[site.thread(set)];
-            let by = |unknown: usize| step[set.first() + unknown];
-            let lie = moved.lie_mut(set);
-            lie.shift = (lie.shift + by(0)).clamp(-row.freedom, row.freedom);
-            lie.height = (lie.height + by(1)).clamp(-row.height, row.height);
-            let within = |value: f32, [low, high]: [f32; 2]| value.clamp(low * row.radius, high * row.radius);
-            lie.half_width = within(lie.half_width + by(2), HALF_WIDTH);
-            lie.half_height = within(lie.half_height + by(3), HALF_HEIGHT);
-        }
-        moved
-    }
-}
-
-/// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
-fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
-    let to = at.wrapping_add_signed(by as isize);
-    if to < count {
-        return Some(to);
-    }
-    // Before the first one it has wrapped round.
-    repeats.then(|| if by < 0 { to.wrapping_add(count) } else { to - count })
-}
-
-/// A set's threads in units.
-fn rows(
-    threads: &[CrossingThread],
-    unit: f32,
-    height: f32,
-    repeat: bool,
-) -> Result<Vec<Row>, CrossingsError> {
-    let mut rows = room("threads", threads.len())?;
-    let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
-    for (number, thread) in threads.iter().enumerate() {
-        let beside = |step: i32| {
-            let is_level = |steps: &i32| {
-                let other = further(number, step * steps, threads.len(), repeat);
-                other.is_some_and(|other| threads[other].level == thread.level)
-            };
-            (1..=BESIDE_MAX.min(threads.len() as i32)).find(is_level).unwrap_or(0)
-        };
-        let gap = thread.pitch / unit;
-        let [most, share] = SIDEWAYS;
-        rows.push(Row {
-            gap,
-            radius: 0.5 * thread.diameter / unit,
-            stiffness: thread.stiffness,
-            freedom: most.min(share * gap.min(before)),
-            height,
-            level: thread.level as i32,
-            beside: [beside(-1), beside(1)],
-        });
-        before = gap;
-    }
-    Ok(rows)
 }
 
 /// How many levels a set has.

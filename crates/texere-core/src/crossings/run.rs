@@ -2,49 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use super::{CrossingsPlan, CrossingsSeen, CrossingsSettler};
+use super::pass::GROWING;
+use super::{CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use crate::BackendError;
-
-/// In so many passes threads grow and penalties harden.
-const GROWING: u32 = 50;
-
-/// The share of their area that threads have at first.
-const THIN: f64 = 0.4;
-
-/// Penalties at first and in the end.
-const PENALTIES: [f64; 2] = [30.0, 1000.0];
 
 /// It is at rest where no unknown has moved further than that in so many passes, in the plan's
 /// unit. One pass would not do: what swings stands still where it turns.
 const STILL: f32 = 5e-5;
 const STILL_PASSES: u32 = 10;
-
-/// What a pass goes by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CrossingsPass {
-    /// The weight of terms that keep threads apart.
-    pub penalty: f32,
-    /// The share of its area that a thread wants.
-    pub area: f32,
-}
-
-impl CrossingsPass {
-    /// Pass number `number` of the course, from 0.
-    ///
-    /// ```
-    /// use texere_core::crossings::CrossingsPass;
-    /// assert_eq!(CrossingsPass::of(200), CrossingsPass { penalty: 1000.0, area: 1.0 });
-    /// ```
-    #[must_use]
-    pub fn of(number: u32) -> Self {
-        let grown = (f64::from(number) / f64::from(GROWING)).min(1.0);
-        let [soft, hard] = PENALTIES;
-        Self {
-            penalty: (soft * (hard / soft).powf(grown)) as f32,
-            area: (THIN + (1.0 - THIN) * grown) as f32,
-        }
-    }
-}
 
 /// What came of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

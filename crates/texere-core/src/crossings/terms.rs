@@ -51,37 +51,38 @@ const HEIGHT: usize = 1;
 const WIDTH: usize = 2;
 const THICKNESS: usize = 3;
 
-/// Gathers all terms that the crossing at `site` is part of.
-pub(super) fn gather(
-    plan: &CrossingsPlan,
-    pass: &CrossingsPass,
-    all: &[CrossingState],
-    site: Site,
-) -> CrossingBlock {
-    let mut block = CrossingBlock::NOTHING;
-    let both = Set::BOTH.map(|set| Here { plan, pass, all, site, set, row: set.first() });
-    for here in both {
-        let set = here.set;
-        here.own(&mut block);
-        here.bends(&mut block);
-        here.steps(&mut block);
-        for steps in [-1, 1] {
-            here.meeting(&mut block, steps);
-        }
-        for (sign, steps) in here.of_level(set) {
-            here.neighbour(&mut block, sign * steps);
-            if steps != 1 {
-                here.stacked(&mut block, sign);
+impl CrossingsPlan {
+    /// What pulls at a crossing while all lie as `crossings` says.
+    ///
+    /// **Panics** where `crossings` has fewer than the plan.
+    #[must_use]
+    pub fn block(&self, pass: &CrossingsPass, crossings: &[CrossingState], site: Site) -> CrossingBlock {
+        let mut block = CrossingBlock::NOTHING;
+        let both =
+            Set::BOTH.map(|set| Here { plan: self, pass, all: crossings, site, set, row: set.first() });
+        for here in both {
+            let set = here.set;
+            here.own(&mut block);
+            here.bends(&mut block);
+            here.steps(&mut block);
+            for steps in [-1, 1] {
+                here.meeting(&mut block, steps);
+            }
+            for (sign, steps) in here.of_level(set) {
+                here.neighbour(&mut block, sign * steps);
+                if steps != 1 {
+                    here.stacked(&mut block, sign);
+                }
+            }
+            for (sign, steps) in here.of_level(set.other()) {
+                if steps > 1 {
+                    here.meeting(&mut block, sign * steps);
+                }
             }
         }
-        for (sign, steps) in here.of_level(set.other()) {
-            if steps > 1 {
-                here.meeting(&mut block, sign * steps);
-            }
-        }
+        contact(&both, &mut block);
+        block
     }
-    contact(&both, &mut block);
-    block
 }
 
 /// Both threads of a crossing lie one on top of the other.

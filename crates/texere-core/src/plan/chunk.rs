@@ -1,9 +1,9 @@
 //! Chunks: ranges of blocks that fit a device, cut also inside a yarn.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{Block, PlanId};
+use super::Block;
+use super::identity::{PlanId, TablesId};
 use crate::End;
 
 /// A run of one yarn's rings in a chunk. All but `yarn` and `first_ring` count from the start of
@@ -93,7 +93,7 @@ impl Chunk {
     /// [region](crate::backend::Plan::within) may be fewer. The table has a row more for each ring
     /// that is repeated.
     #[must_use]
-    pub const fn block_range(&self) -> Range<u64> {
+    pub(crate) const fn block_range(&self) -> Range<u64> {
         self.tables.blocks.start..self.tables.blocks.end
     }
 
@@ -177,23 +177,6 @@ impl Chunk {
     #[must_use]
     pub const fn first_index(&self) -> u64 {
         self.first_index
-    }
-}
-
-/// Identifies the tables of a chunk within its plan: chunks of one plan with the same identity have
-/// the same tables, and differ at most in their place in the whole.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TablesId {
-    pub(super) blocks: Range<u64>,
-    /// 0 for a chunk as the plan cuts it. A patch, and a chunk that was cut again, has a number
-    /// that no other has.
-    pub(super) edit: u64,
-}
-
-impl TablesId {
-    pub(super) fn next(blocks: Range<u64>) -> Self {
-        static EDITS: AtomicU64 = AtomicU64::new(1);
-        Self { blocks, edit: EDITS.fetch_add(1, Ordering::Relaxed) }
     }
 }
 

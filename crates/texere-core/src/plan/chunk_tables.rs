@@ -3,7 +3,8 @@
 
 use std::ops::Range;
 
-use super::chunk::{Cap, Chunk, Part, TablesId};
+use super::chunk::{Cap, Chunk, Part};
+use super::identity::TablesId;
 use super::{BLOCK_RINGS, Block, Plan};
 use crate::{End, Topology};
 
@@ -11,7 +12,7 @@ impl Plan {
     /// `chunk`, one of this plan or of one that it was [edited](Plan::edited) from, with the block
     /// table, the parts and the caps that it has in this plan.
     #[must_use]
-    pub fn recut(&self, chunk: &Chunk) -> Chunk {
+    pub(crate) fn recut(&self, chunk: &Chunk) -> Chunk {
         let mut cut = Chunk {
             window: chunk.window(),
             tables: TablesId::next(chunk.block_range()),
@@ -35,7 +36,7 @@ impl Plan {
     ///
     /// **Panics** for no rows, for rows past the last, and for a chunk of another plan.
     #[must_use]
-    pub fn patch(&self, chunk: &Chunk, rows: &[Range<usize>]) -> Chunk {
+    pub(crate) fn patch(&self, chunk: &Chunk, rows: &[Range<usize>]) -> Chunk {
         let blocks: Vec<_> = rows.iter().flat_map(|rows| &chunk.blocks[rows.clone()]).copied().collect();
         let number =
             |row: &Block| self.block_offsets()[row.yarn as usize] + u64::from(row.first_ring / BLOCK_RINGS);

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::chunk::{Chunk, TablesId};
+use super::chunk::Chunk;
+use super::identity::TablesId;
 use super::{BLOCK_RINGS, Block, Limits, Plan};
 use crate::definitions::Ring;
 use crate::{ControlPoint, PlanError, Topology, Vertex};

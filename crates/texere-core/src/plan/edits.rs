@@ -1,17 +1,13 @@
 //! A plan with other yarns: what it takes, and how those stand then.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::Plan;
-use crate::definitions::Turn;
+use crate::backend::Edits;
 use crate::stand::Stand;
 use crate::{ControlPoint, PlanError, TWIST_LIMIT, Yarn};
-
-/// Yarns that become others, by their numbers from 0: what each is then, and its control points.
-pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
 
 impl Plan {
     /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which
@@ -78,15 +74,6 @@ impl Plan {
             self.needs_scan |= self.turns(yarn);
         }
         self
-    }
-
-    /// The lean of each ring of a yarn that leans, worked out.
-    pub(super) fn leans_of(&self, yarn: usize) -> Arc<[Turn]> {
-        let leaning = self.layout.leaning(yarn);
-        leaning
-            .map(|leaning| leaning.rings(self.yarn(yarn).closed, &self.sampling))
-            .unwrap_or_default()
-            .into()
     }
 
     /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number

@@ -8,70 +8,38 @@ mod counts;
 mod cut;
 mod edits;
 mod error;
+mod identity;
+mod leans;
 mod limits;
 mod locate;
 mod offsets;
 mod region;
+mod settings;
 
 pub use block::{BLOCK_RINGS, Block};
 pub use bounds::Bounds;
-pub use chunk::{Cap, Chunk, Part, TablesId};
+pub use chunk::{Cap, Chunk, Part};
 pub use counts::Counts;
 pub use cut::{Chunks, WINDOW_POINTS};
-pub use edits::Edits;
 pub use error::PlanError;
+pub use identity::TablesId;
 pub use limits::Limits;
 pub use locate::MeshPlace;
+pub use offsets::{RINGS_MAX, YARN_RINGS_MAX};
+pub use settings::Settings;
 
+use identity::PlanId;
 use offsets::Offsets;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use crate::definitions::{Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Turn, triangulate};
-use crate::{ControlPoint, Frame, Layout, Quantum, Section, SectionPoint, Topology, Yarn};
-
-/// The choices that a mesh is made with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// Points inserted between two control points (the paper's K).
-    pub subdivisions: u32,
-    /// Sides of the tube (the paper's nc).
-    pub sides: u32,
-    /// How sections are oriented.
-    pub frame: Frame,
-    /// How triangles are encoded.
-    pub topology: Topology,
-    /// Whether the ends of open yarns are closed with a cap, which makes every yarn watertight.
-    pub caps: bool,
-    /// The grid that [packed](crate::PackedVertex) positions lie on.
-    pub quantum: Quantum,
-}
-
-impl Default for Settings {
-    /// The paper's: K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹² mm.
-    fn default() -> Self {
-        Self {
-            subdivisions: 1,
-            sides: 6,
-            frame: Frame::Upright,
-            topology: Topology::Indexed,
-            caps: false,
-            quantum: Quantum::USUAL,
-        }
-    }
-}
-
-/// The most rings that one plan may have, 2³⁶. More would be over ten terabytes of mesh with six
-/// sides: a mistake in the input.
-pub const RINGS_MAX: u64 = 1 << 36;
-
-/// The most rings that one yarn may have: what a `u32` counts.
-pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
+use crate::definitions::{Ring, SIDES_MAX, Sample, Sampling, Turn};
+use crate::section::{SIDES_MIN, triangulate};
+use crate::{ControlPoint, Frame, Layout, Section, SectionPoint, Yarn};
 
 /// A fabric's counts and offsets for one choice of settings.
 ///
@@ -187,6 +155,13 @@ impl Plan {
     #[must_use]
     pub fn owns(&self, chunk: &Chunk) -> bool {
         chunk.plan() == self.id
+    }
+
+    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same one, so
+    /// that all their offsets are the same.
+    #[must_use]
+    pub fn shares_offsets(&self, other: &Self) -> bool {
+        self.id == other.id
     }
 
     /// Whether yarns may get more control points.
@@ -349,7 +324,7 @@ impl Plan {
     ///
     /// **Panics** past the last section.
     #[must_use]
-    pub fn cap_triangles(&self, section: usize) -> &[[u32; 3]] {
+    pub(crate) fn cap_triangles(&self, section: usize) -> &[[u32; 3]] {
         &self.cap_triangles[section]
     }
 
@@ -382,17 +357,5 @@ impl Plan {
     #[must_use]
     pub fn trajectory_bytes(&self) -> u64 {
         self.counts.rings * size_of::<Ring>() as u64
-    }
-}
-
-/// Identifies the offsets of a plan within the process, which never change: its clones have the
-/// same identity, resized ones, and those of a region of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct PlanId(u64);
-
-impl PlanId {
-    fn next() -> Self {
-        static PLANS: AtomicU64 = AtomicU64::new(0);
-        Self(PLANS.fetch_add(1, Ordering::Relaxed))
     }
 }

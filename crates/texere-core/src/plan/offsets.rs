@@ -1,9 +1,15 @@
 //! Where what belongs to each yarn starts, with room for more or without.
 
-use super::Plan;
-use crate::backend::BLOCK_RINGS;
+use super::BLOCK_RINGS;
 use crate::definitions::Sampling;
-use crate::{Layout, PlanError, RINGS_MAX, YARN_RINGS_MAX};
+use crate::{Layout, PlanError};
+
+/// The most rings that one plan may have, 2³⁶. More would be over ten terabytes of mesh with six
+/// sides: a mistake in the input.
+pub const RINGS_MAX: u64 = 1 << 36;
+
+/// The most rings that one yarn may have: what a `u32` counts.
+pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
 
 /// Prefix sums over the yarns: yarns + 1 values each.
 #[derive(Debug)]
@@ -47,15 +53,6 @@ impl Offsets {
     /// The most control points of `yarn`.
     pub(super) fn room(&self, yarn: usize, closed: bool) -> u64 {
         self.padded[yarn + 1] - self.padded[yarn] - virtual_points(closed)
-    }
-}
-
-impl Plan {
-    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same one, so
-    /// that all their offsets are the same.
-    #[must_use]
-    pub fn shares_offsets(&self, other: &Self) -> bool {
-        self.id == other.id
     }
 }
 

@@ -4,7 +4,8 @@ use std::iter;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{BLOCK_RINGS, Bounds, Plan};
+use super::{BLOCK_RINGS, Bounds, Counts, Plan};
+use crate::Topology;
 use crate::backend::PaddedPoints;
 
 impl Plan {
@@ -71,6 +72,43 @@ impl Plan {
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.runs.len() == 1 && self.runs[0] == (0..self.block_count())
+    }
+
+    /// How many of everything it makes.
+    pub(super) fn count(&self) -> Counts {
+        let sides = u64::from(self.settings.sides);
+        let [mut rings, mut gaps, mut caps] = [0; 3];
+        for run in self.runs.iter() {
+            let mut yarn = self.yarn_of_block(run.start);
+            let mut block = run.start;
+            while block < run.end {
+                let (first_block, next) = (self.offsets.blocks[yarn], self.offsets.blocks[yarn + 1]);
+                let (end, all) = (run.end.min(next), u64::from(self.rings(yarn)));
+                let [from, to] =
+                    [block, end].map(|block| ((block - first_block) * u64::from(BLOCK_RINGS)).min(all));
+                // Where the yarn goes on beyond the run, its next ring is repeated.
+                let repeated = u64::from(to < all && to > from);
+                rings += to - from + repeated;
+                gaps += (to - from + repeated).saturating_sub(1);
+                if self.settings.caps && !self.yarn(yarn).closed {
+                    caps += u64::from(from == 0 && to > 0) + u64::from(to == all && to > from);
+                }
+                (block, yarn) = (end, yarn + 1);
+            }
+        }
+        let triangles = 2 * sides * gaps + caps * (sides - 2);
+        Counts {
+            yarns: self.layout.yarns().len() as u64,
+            control_points: self.layout.point_count(),
+            rings,
+            vertices: sides * (rings + caps),
+            triangles,
+            indices: match self.settings.topology {
+                Topology::Indexed => 3 * triangles,
+                Topology::Shared => self.shared_index_count(),
+                Topology::None => 0,
+            },
+        }
     }
 
     /// The blocks that it makes: runs of neighbours, in order.

@@ -7,15 +7,8 @@ use super::SectionPoint;
 ///
 /// Ear clipping (Meisters 1975), since lobed sections are not convex. It always gives `n - 2`
 /// triangles; where rounding leaves no clean ear, the corner that turns most is cut.
-///
-/// ```
-/// use texere_core::definitions::triangulate;
-/// use texere_core::Section;
-/// let cap = triangulate(&Section::Circle.outline(6));
-/// assert_eq!(cap.len(), 4);
-/// ```
 #[must_use]
-pub fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
+pub(crate) fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     let mut left: Vec<u32> = (0..outline.len() as u32).collect();
     let mut triangles = Vec::with_capacity(outline.len().saturating_sub(2));
     while left.len() > 3 {

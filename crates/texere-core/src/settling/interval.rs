@@ -128,7 +128,7 @@ pub const GAUSS_WEIGHTS: [f32; 2] = [5.0 / 18.0, 8.0 / 18.0];
 /// What each of an interval's four control points counts at `u`: their sum is 1.
 #[must_use]
 #[inline]
-pub fn weights(u: f32, s: f32) -> [f32; 4] {
+pub(super) fn weights(u: f32, s: f32) -> [f32; 4] {
     let (square, cube) = (u * u, u * u * u);
     let before = (2.0 * square - u - cube) * s;
     let after = (cube - square) * s;

@@ -57,7 +57,7 @@ impl SettlingPlan {
     /// A way of so many units to something, to the image of that so many repeats away.
     #[must_use]
     #[inline]
-    pub fn to_image(&self, way: IVec3, image: [i32; 2]) -> IVec3 {
+    pub(super) fn to_image(&self, way: IVec3, image: [i32; 2]) -> IVec3 {
         let [x, y] = self.period();
         IVec3::new(
             way.x.wrapping_add(image[0].wrapping_mul(x)),

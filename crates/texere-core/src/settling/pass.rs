@@ -7,8 +7,9 @@
 use glam::Vec3;
 
 use super::contact::share;
+use super::interval::weights;
 use super::strand::tag;
-use super::{Approach, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends, weights};
+use super::{Approach, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends};
 
 /// How a point's step is made from what pulls at it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,14 +57,6 @@ pub const BLOCK_BEND: f32 = 5.0;
 
 /// How far the exact places of a contact may lie from those on the chords, in chords.
 pub const STRIDE: f32 = 0.6;
-
-/// Where lengths are free, an interval may become so many times as long as it was: the least.
-pub const FREE_LEAST: f32 = 0.8;
-/// And that is the most.
-pub const FREE_MOST: f32 = 1.15;
-
-/// The share of what it differs from the mean beside it that its length takes on in a pass.
-pub const FREED: f32 = 0.05;
 
 /// The share of what they lack that plates move points by in a pass.
 pub const PRESS: f32 = 0.1;
@@ -313,17 +306,6 @@ fn solved([xx, xy, xz, yy, yz, zz]: [f32; 6], right: Vec3) -> Vec3 {
         (b * right.x + d * right.y + e * right.z) * inverse,
         (c * right.x + e * right.y + f * right.z) * inverse,
     )
-}
-
-/// The length that an interval is to have after a pass in which lengths are free: `arcs` are those
-/// of the interval before it, its own and the next one's.
-#[must_use]
-#[inline]
-pub fn freed(length: f32, start: f32, arcs: [Option<f32>; 3], tension: f32) -> f32 {
-    let (sum, count) =
-        arcs.into_iter().flatten().fold((0.0, 0.0), |(sum, count), arc| (sum + arc, count + 1.0));
-    let next = length + FREED * (sum / count - length) - tension * length;
-    next.max(FREE_LEAST * start).min(FREE_MOST * start)
 }
 
 /// Whether a place is a control point that may move.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::check::{check, limited, mean_diameter, scale, thickest};
-use super::pass::FREE_MOST;
+use super::length::FREE_MOST;
 use super::strand::{BEYOND, SettlingYarn, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
 use crate::backend::zeroed;
@@ -36,7 +36,7 @@ const NEIGHBOURS_A_CHORD: u64 = 32;
 pub const SKIN: f32 = 0.2;
 
 /// How much further a chord may move than its interval's control points do.
-pub const OVERSHOOT: f32 = 1.25;
+pub(super) const OVERSHOOT: f32 = 1.25;
 
 /// How many of everything a settling has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -405,7 +405,7 @@ impl SettlingPlan {
     /// The shortest repeat that is taken, mm: of two chords that are neighbours the middles are
     /// then nearer than half of it.
     #[must_use]
-    pub fn least_repeat(&self) -> f32 {
+    fn least_repeat(&self) -> f32 {
         let Spans { diameter, thickest, longest_chord, .. } = self.spans;
         2.0 * (2.0 * MARGIN * thickest + SKIN * diameter + OVERSHOOT * longest_chord)
     }

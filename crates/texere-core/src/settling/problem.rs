@@ -1,21 +1,7 @@
 //! The problem: yarns, how they go on, and what is asked of their rest.
 
+use super::Length;
 use crate::{Boundary, ControlPoint, Layout, Yarns};
-
-/// What settling does to the length of yarns.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Length {
-    /// Every interval keeps the length that it has, so that no yarn is drawn through.
-    Held,
-    /// Every interval is to have so many times the length that it has, 0.5 to 2.
-    Given(f32),
-    /// Yarns take the length that their course needs, evenly all along, and are drawn in by a
-    /// tension, in shares of their length a pass, while bends are still soft.
-    Free {
-        /// Tension, 0 for none, 0.1 at most.
-        tension: f32,
-    },
-}
 
 /// Yarns that are to come to rest: until they nowhere pierce one another, nowhere fold, and have
 /// the length that is asked for.

@@ -3,7 +3,7 @@
 use crate::Ends;
 
 /// Places that stand for those beyond a yarn's ends: one before it and two behind it.
-pub const BEYOND: [u64; 2] = [1, 2];
+pub(super) const BEYOND: [u64; 2] = [1, 2];
 
 /// What is known of a place beside where it is.
 pub mod tag {

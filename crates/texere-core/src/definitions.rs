@@ -1,21 +1,21 @@
-//! What the geometry is: the arithmetic that every backend must agree on, to the bit between CPU
-//! backends.
+//! The definitions of the geometry: arithmetic that all CPU backends agree on to the bit, and GPU
+//! backends up to rounding.
 //!
 //! | of | definition |
 //! |---|---|
-//! | the centreline | [`Segment`], at a [`Sample`], with [`tangent_factor`]; [`Sampling`] says where its rings lie |
+//! | the centreline | [`Segment`], at a [`Sample`], with [`tangent_factor`]; [`Sampling`] places the rings on it |
 //! | a ring's axes | [`Basis`], [`up_between`] |
 //! | its roll | [`Turn`] |
 //! | the ring | [`Ring`], with a [`Stance`] for the slope of its vertices |
 //! | its corners | [`Section`](crate::Section), [`corner_angle`] |
 //! | triangles | [`index_pattern`] |
 //!
-//! Constants are parts of these definitions: kernels and shaders have the same values.
+//! Constants belong to these definitions. Kernels and shaders have the same values.
 
 pub use crate::attribute::corner_angle;
 pub use crate::frame::{Basis, NO_MIRROR, VERTICAL};
+pub use crate::interval::neighbours;
 pub use crate::lean::up_between;
-pub use crate::padded::neighbours;
 pub use crate::ring::{Ring, Stance};
 pub use crate::sampling::{RingSample, Sampling};
 pub use crate::section::SIDES_MAX;

@@ -1,4 +1,4 @@
-//! Control intervals: the stretches of a yarn between one control point and the next.
+//! Control intervals: the stretches of a yarn between two neighbouring control points.
 
 use std::ops::Range;
 
@@ -12,22 +12,25 @@ pub(crate) const fn intervals(points: &[ControlPoint], closed: bool) -> Range<us
     0..if closed { points.len() } else { points.len() - 1 }
 }
 
-/// The four control points that steer interval number `interval` of a yarn, virtual ends included.
-pub(crate) fn window(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
+/// The four control points that define interval `interval`, with the paper's virtual ends beyond an
+/// open yarn's own.
+#[inline]
+pub fn neighbours(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
+    if let Some(&[before, start, end, after]) = points.get(interval.wrapping_sub(1)..interval.wrapping_add(3))
+    {
+        return [before, start, end, after];
+    }
     let count = points.len();
-    let mut window = [0, 1, 2, 3].map(|further| points[(interval + count + further - 1) % count]);
-    if !closed && interval == 0 {
-        window[0] = window[1].reflected(&window[2]);
-    }
-    if !closed && interval + 2 == count {
-        window[3] = window[2].reflected(&window[1]);
-    }
-    window
+    let at = |index: usize| points[index % count];
+    let (start, end) = (at(interval), at(interval + 1));
+    let before = if closed || interval > 0 { at(interval + count - 1) } else { start.reflected(&end) };
+    let after = if closed || interval + 2 < count { at(interval + 2) } else { end.reflected(&start) };
+    [before, start, end, after]
 }
 
 /// The tangent at a control point.
 pub(crate) fn tangent(points: &[ControlPoint], closed: bool, point: usize) -> Vec3 {
-    // At control points it is that of any tension.
+    // At control points the tangent does not depend on the tension.
     let (interval, t) = if !closed && point + 1 == points.len() { (point - 1, 1.0) } else { (point, 0.0) };
-    Segment::new(&window(points, closed, interval), 0.5).sample(t).tangent
+    Segment::new(&neighbours(points, closed, interval), 0.5).sample(t).tangent
 }

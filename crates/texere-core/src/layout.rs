@@ -1,4 +1,4 @@
-//! What belongs to each yarn, and where its control points lie among all.
+//! The layout of yarns: the data of each yarn, and the ranges of control points that belong to it.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,23 +11,23 @@ use crate::lean::Leaning;
 use crate::stand::Stand;
 use crate::{ControlPoint, Section, YarnError};
 
-/// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
+/// A yarn's origin in the structure, counted from 1 as weavers and knitters do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Origin {
-    /// Not said.
+    /// Unknown.
     #[default]
     Unknown,
     /// A warp yarn: the end's number from the left.
     End(u32),
     /// A weft yarn: the pick's number from the first one woven.
     Pick(u32),
-    /// A weft-knitted yarn: the first course that it knits, counted in the repeat, so that copies
-    /// of a course share a number.
+    /// A weft-knitted yarn: the first course that it knits, counted within the repeat, so that
+    /// copies of a course share a number.
     Course(u32),
     /// A weft-knitted yarn: its carrier.
     Carrier(u32),
-    /// A warp-knitted yarn.
+    /// A warp-knitted yarn: its guide bar and guide.
     Guide {
         /// Guide bar, 1 in front.
         bar: u32,
@@ -49,57 +49,57 @@ impl fmt::Display for Origin {
     }
 }
 
-/// What belongs to one yarn beside its control points.
+/// The data of one yarn apart from its control points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Yarn {
     /// Index into the materials.
     pub material: u32,
     /// Index into the sections.
     pub section: u32,
-    /// Whether the last control point joins up with the first.
+    /// Whether the last control point is joined to the first.
     pub closed: bool,
     /// Twist, rad per mm along the yarn; positive is Z twist (right-handed).
     pub twist: f32,
-    /// Where the yarn comes from.
+    /// The yarn's origin in the structure.
     pub origin: Origin,
 }
 
 impl Yarn {
-    /// The fewest control points that make a yarn.
+    /// The least number of control points.
     pub(crate) const fn points_least(&self) -> u64 {
         if self.closed { 3 } else { 2 }
     }
 }
 
-/// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest
+/// The largest twist that is accepted, rad/mm: 159,000 turns per metre, thirty times the hardest
 /// sewing thread.
 pub const TWIST_LIMIT: f32 = 1e3;
 
-/// Yarns that become others, by their numbers from 0: what each is then, and its control points.
+/// Edits of yarns. The key is a yarn's number from 0, the value its new data and control points.
 pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
 
-/// Everything about the yarns that decides counts and offsets, and how their splines run between
-/// control points: all but positions and colours.
+/// All data of yarns that decide counts and offsets, and the tension of their splines: everything
+/// but positions and colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     offsets: Vec<u64>,
     yarns: Vec<Yarn>,
     sections: Vec<Section>,
-    /// Which yarns run too steeply for upright frames.
+    /// Whether each yarn runs too steeply for upright frames.
     steep: Vec<bool>,
-    /// How yarns lean that do, by their numbers.
+    /// The up directions of the yarns that lean, by their numbers.
     leaning: BTreeMap<usize, Arc<Leaning>>,
-    /// Tension of the splines through the control points.
+    /// The tension of the splines through the control points.
     tension: f32,
 }
 
 impl Layout {
-    /// A layout of `yarns`, `offsets` (where each yarn's control points start, and their total
-    /// last) and `sections`. The [tension](Layout::tension) of their splines is 0.
+    /// A layout of `yarns`, `offsets` and `sections`. `offsets` has the start of each yarn's
+    /// control points, and their total last. The [tension](Layout::tension) of the splines is 0.
     ///
-    /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer
-    /// than two control points (three when closed), an unknown section, a twist that is not finite
-    /// or beyond [`TWIST_LIMIT`], a section with invalid parameters.
+    /// **Errors**: [`YarnError`] for no yarns, offsets that are not increasing prefix sums, a yarn
+    /// of fewer than two control points (three when closed), an unknown section, a twist that is
+    /// not finite or beyond [`TWIST_LIMIT`], and a section with invalid parameters.
     pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
         if yarns.is_empty() {
             return Err(YarnError::NoYarns);
@@ -137,7 +137,7 @@ impl Layout {
         Ok(Self { offsets, yarns, sections, steep, leaning: BTreeMap::new(), tension: 0.0 })
     }
 
-    /// The layout with splines of another tension.
+    /// This layout with splines of another tension.
     ///
     /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
     pub fn with_tension(self, tension: f32) -> Result<Self, YarnError> {
@@ -145,14 +145,14 @@ impl Layout {
         Ok(Self { tension, ..self })
     }
 
-    /// Tension of the splines through the control points (the paper's u), in \[0, 1): 0 is the
-    /// Catmull-Rom spline, and towards 1 yarns run straight from point to point.
+    /// The tension of the splines through the control points (the paper's u), in \[0, 1): 0 is the
+    /// Catmull-Rom spline. Towards 1, yarns run straight from point to point.
     #[must_use]
     pub const fn tension(&self) -> f32 {
         self.tension
     }
 
-    /// Makes yarns others, each of another number of control points.
+    /// Applies edits, which may change numbers of control points.
     pub(crate) fn edit(&mut self, edits: &Edits<'_>) {
         let mut start = 0;
         for yarn in 0..self.yarns.len() {
@@ -166,7 +166,7 @@ impl Layout {
         }
     }
 
-    /// How `yarn` stands.
+    /// The stand of `yarn`.
     pub(crate) fn stand(&self, yarn: usize) -> Stand {
         Stand { steep: self.steep[yarn], leaning: self.leaning.get(&yarn).cloned() }
     }
@@ -179,14 +179,14 @@ impl Layout {
         };
     }
 
-    /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1
+    /// The start of each yarn's control points, and their total last (the paper's Ωτ): yarns + 1
     /// values.
     #[must_use]
     pub fn offsets(&self) -> &[u64] {
         &self.offsets
     }
 
-    /// The yarns that a range of control points belongs to. Points past the last are left out.
+    /// The yarns that own a range of control points. Points past the last are ignored.
     #[must_use]
     pub fn yarns_of(&self, points: Range<u64>) -> Range<usize> {
         let end = points.end.min(self.point_count());
@@ -197,8 +197,8 @@ impl Layout {
         yarns_before(points.start + 1) - 1..yarns_before(end)
     }
 
-    /// Where a range of control points meets one of [its yarns](Layout::yarns_of): counted from the
-    /// yarn's first point, and from the range's first.
+    /// The part of a range of control points that belongs to one of [its yarns](Layout::yarns_of),
+    /// as two ranges: counted from the yarn's first point, and counted from the range's first.
     ///
     /// **Panics** past the last yarn, and for a yarn that the range does not touch.
     #[must_use]
@@ -220,8 +220,8 @@ impl Layout {
         &self.sections
     }
 
-    /// How many corners the first polygon among the sections has, if any is one: tubes of a polygon
-    /// have as many [sides](crate::Settings::sides).
+    /// The number of corners of the first polygon among the sections, if there is one. Tubes with a
+    /// polygon section need as many [sides](crate::Settings::sides).
     #[must_use]
     pub fn corners(&self) -> Option<u32> {
         self.sections.iter().find_map(|section| match section {
@@ -231,10 +231,10 @@ impl Layout {
     }
 
     /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more
-    /// than [`UPRIGHT_TURN`](crate::definitions::UPRIGHT_TURN) within a control interval.
-    /// [`Yarns::new`] finds it out; a layout without control points has no steep yarns. A flattened
-    /// yarn gets [ups](Layout::ups) instead, and is steep only where ups turn over from one control
-    /// point to the next.
+    /// than 4 degrees within a control interval. Such a yarn is carried along instead.
+    /// [`Yarns::new`](crate::Yarns::new) works this out; a layout without control points has no
+    /// steep yarns. A flattened yarn gets [ups](Layout::ups) instead, and is steep only if its ups
+    /// turn over from one control point to the next.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -242,17 +242,17 @@ impl Layout {
         self.steep[yarn]
     }
 
-    /// Whether any yarn has [up directions](Layout::ups) that it stands by.
+    /// Whether any yarn has [up directions](Layout::ups).
     #[must_use]
     pub fn leans(&self) -> bool {
         !self.leaning.is_empty()
     }
 
-    /// The up directions that the control points of `yarn` stand by, of length 1: [their
-    /// own](Yarns::with_ups), or those that a flattened yarn gets whose upright frame would turn
-    /// about it by more than 15 degrees within a control interval. These hold to the upright frame
-    /// where that turns slowly, and are carried along near the vertical. None of a yarn that stands
-    /// upright, or that is round and has no own ones, and past the last yarn.
+    /// The up directions of the control points of `yarn`, unit vectors. They are
+    /// [given](crate::Yarns::with_ups), or worked out for a flattened yarn whose upright frame
+    /// would turn about it by more than 15 degrees within a control interval. Worked-out ups follow
+    /// the upright frame where it turns slowly, and are carried along near the vertical. `None` for
+    /// a yarn that stands upright, for a round yarn without given ups, and past the last yarn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -270,24 +270,24 @@ impl Layout {
         self.leaning(yarn).map(|leaning| &leaning.ups[..])
     }
 
-    /// Those of `yarn`, with their points.
+    /// The up directions of `yarn`, with their points.
     pub(crate) fn leaning(&self, yarn: usize) -> Option<&Leaning> {
         self.leaning.get(&yarn).map(|leaning| &**leaning)
     }
 
-    /// How yarns lean that do, by their numbers.
+    /// The up directions of the yarns that lean, by their numbers.
     pub(crate) const fn all_leaning(&self) -> &BTreeMap<usize, Arc<Leaning>> {
         &self.leaning
     }
 
-    /// Control points of all yarns together.
+    /// The number of control points of all yarns.
     #[must_use]
     pub fn point_count(&self) -> u64 {
         self.offsets.last().copied().unwrap_or(0)
     }
 }
 
-/// Checks the tension of yarns' splines.
+/// Checks a tension of splines.
 ///
 /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
 ///

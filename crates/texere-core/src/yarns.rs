@@ -1,4 +1,4 @@
-//! The yarns of a fabric: flat control points, offsets, and what belongs to each yarn.
+//! The yarns of a fabric: control points, layout, materials, ups and sources.
 
 mod error;
 
@@ -15,7 +15,7 @@ use crate::{
 
 pub use self::error::YarnError;
 
-/// The yarns of a fabric, checked: the input of every pipeline.
+/// The yarns of a fabric, checked. They are the input of every pipeline.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Material, Origin, Section, Yarn, Yarns};
@@ -38,14 +38,14 @@ pub struct Yarns {
 }
 
 impl Yarns {
-    /// Starts an empty set of yarns.
+    /// A builder without yarns.
     #[must_use]
     pub fn builder() -> YarnsBuilder {
         YarnsBuilder::default()
     }
 
-    /// Yarns of a layout, its materials and its control points (as many as the layout says, yarn
-    /// after yarn).
+    /// Yarns of a layout, with its materials and its control points. There must be as many points
+    /// as the layout says, yarn after yarn.
     ///
     /// **Errors**: [`YarnError`] for a wrong number of points or materials, a hairiness outside
     /// \[0, [`HAIRINESS_LIMIT`]\], and for the first control point that is not finite, lies beyond
@@ -65,7 +65,7 @@ impl Yarns {
             let own = &points[bounds[0] as usize..bounds[1] as usize];
             check_points(number, own).map(|()| Stand::of(own, yarn.closed, None))
         });
-        // Of several errors the first counts.
+        // The first of several errors is returned.
         let stands: Vec<_> = stands.collect();
         for (yarn, stand) in stands.into_iter().enumerate() {
             layout.set_stand(yarn, stand?);
@@ -73,10 +73,10 @@ impl Yarns {
         Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, ups: None, sources: None })
     }
 
-    /// Adds where each control point comes from (a crossing, a stitch, a source line): one `u32`
+    /// Adds the source of each control point (a crossing, a stitch, a line of a file): one `u32`
     /// per control point.
     ///
-    /// **Errors**: [`YarnError::SourceCount`] when their number differs from that of the control
+    /// **Errors**: [`YarnError::SourceCount`] if their number differs from that of the control
     /// points.
     pub fn with_sources(mut self, sources: Vec<u32>) -> Result<Self, YarnError> {
         if sources.len() != self.points.len() {
@@ -86,8 +86,8 @@ impl Yarns {
         Ok(self)
     }
 
-    /// The yarns with splines of another [tension](Layout::tension) through their control points,
-    /// which stay where they are.
+    /// These yarns with splines of another [tension](Layout::tension). The control points stay in
+    /// place.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -110,10 +110,10 @@ impl Yarns {
         Ok(self)
     }
 
-    /// Gives each control point an up direction: where the yarn's height points there, instead of
-    /// along z. A cloth that was bent out of its plane has them along its surface's normals, as
-    /// [`Yarns::mapped`] gives them. What of it lies along the yarn does not count. Between two
-    /// points they go over into one another ([`up_between`](crate::definitions::up_between)).
+    /// Gives each control point an up direction: the direction of the yarn's height there, instead
+    /// of z. A cloth bent out of its plane has ups along its surface's normals, as
+    /// [`Yarns::mapped`] makes them. Only the part at right angles to the yarn counts. Between two
+    /// points the ups are blended ([`up_between`](crate::definitions::up_between)).
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -126,22 +126,22 @@ impl Yarns {
     /// # Ok::<(), texere_core::YarnError>(())
     /// ```
     ///
-    /// **Errors**: [`YarnError::UpCount`] for another number than that of the control points,
-    /// [`YarnError::Up`] for one that has no direction.
+    /// **Errors**: [`YarnError::UpCount`] if their number differs from that of the control points,
+    /// [`YarnError::Up`] for a vector without a direction.
     pub fn with_ups(mut self, ups: Vec<[f32; 3]>) -> Result<Self, YarnError> {
         if ups.len() != self.points.len() {
             return Err(YarnError::UpCount { ups: ups.len(), points: self.points.len() });
         }
         let unit = |(point, up): (usize, &[f32; 3])| {
             let up = Vec3::from_array(*up);
-            // One of length 1 but for rounding stays as it is, so that ups which were read are the
-            // same to the bit when they are given again.
+            // A vector of length 1, up to rounding, stays as it is. So ups that were read from
+            // yarns are the same to the bit when they are given again.
             let unit = |up: Vec3| {
                 let is_unit = (up.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
                 if is_unit { Some(up) } else { up.try_normalize() }
             };
-            // Once more, for the square of a very short one has few digits, and so its length is
-            // only about 1 at first.
+            // Normalised twice: the square of a very short vector has few digits, so its length is
+            // only about 1 after the first time.
             unit(up).and_then(unit).ok_or_else(|| {
                 let yarn = self.layout.offsets().partition_point(|&start| start <= point as u64) - 1;
                 YarnError::Up { yarn, point: point - self.layout.offsets()[yarn] as usize, up: up.to_array() }
@@ -162,20 +162,20 @@ impl Yarns {
         Ok(self)
     }
 
-    /// The up direction of each control point, of length 1, where they have [their
-    /// own](Yarns::with_ups).
+    /// The given [up direction](Yarns::with_ups) of each control point, a unit vector. `None` if
+    /// none were given.
     #[must_use]
     pub fn ups(&self) -> Option<&[Vec3]> {
         self.ups.as_deref()
     }
 
-    /// Counts, offsets, sections, and each yarn's own data.
+    /// The layout: offsets, sections, and the data of each yarn.
     #[must_use]
     pub fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
 
-    /// Tension of the splines through the control points: see [`Layout::tension`].
+    /// The tension of the splines: see [`Layout::tension`].
     #[must_use]
     pub fn tension(&self) -> f32 {
         self.layout.tension()
@@ -193,13 +193,13 @@ impl Yarns {
         &self.points
     }
 
-    /// Where each control point comes from, if the structure gave it.
+    /// The source of each control point, if the structure gave them.
     #[must_use]
     pub fn sources(&self) -> Option<&[u32]> {
         self.sources.as_deref()
     }
 
-    /// The place of a yarn's control points among all, or `None` past the last yarn.
+    /// The range of a yarn's control points among all, or `None` past the last yarn.
     #[must_use]
     pub fn range(&self, yarn: usize) -> Option<Range<usize>> {
         let (first, end) = (self.layout.offsets().get(yarn)?, self.layout.offsets().get(yarn + 1)?);
@@ -212,10 +212,10 @@ impl Yarns {
         self.points.get(self.range(yarn)?)
     }
 
-    /// Moves one yarn: replaces its control points by as many others.
+    /// Moves one yarn: replaces its control points by the same number of others.
     ///
     /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or an invalid
-    /// point; the yarns are then as they were.
+    /// point. The yarns are then unchanged.
     pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
         let range =
             self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: self.layout.yarns().len() })?;
@@ -232,9 +232,9 @@ impl Yarns {
         Ok(())
     }
 
-    /// Replaces the materials: a change of colour that leaves all geometry as it is.
+    /// Replaces the materials. The geometry stays as it is.
     ///
-    /// **Errors**: [`YarnError::UnknownMaterial`] when a yarn refers to one that is missing,
+    /// **Errors**: [`YarnError::UnknownMaterial`] if a yarn refers to a missing one, and
     /// [`YarnError::Hairiness`].
     pub fn set_materials(&mut self, materials: Vec<Material>) -> Result<(), YarnError> {
         check_materials(&self.layout, &materials)?;
@@ -256,7 +256,7 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
     materials.iter().enumerate().try_for_each(|(material, each)| check_material(material, each))
 }
 
-/// Checks material number `material`, whose number is only said in errors.
+/// Checks a material. Its number, `material`, only appears in errors.
 ///
 /// **Errors**: [`YarnError::Hairiness`] outside \[0, [`HAIRINESS_LIMIT`]\].
 ///
@@ -272,9 +272,10 @@ pub fn check_material(material: usize, &Material { hairiness, .. }: &Material) -
     Ok(())
 }
 
-/// Checks the control points of yarn number `yarn`, whose number is only said in errors.
+/// Checks the control points of a yarn. Its number, `yarn`, only appears in errors.
 ///
-/// **Errors**: those of [`Yarns::new`] for the first point that is not sound.
+/// **Errors**: [`YarnError::NotFinite`], [`YarnError::TooFar`] and [`YarnError::Size`] for the
+/// first point that is not sound.
 ///
 /// ```
 /// use texere_core::{ControlPoint, check_points};
@@ -282,7 +283,8 @@ pub fn check_material(material: usize, &Material { hairiness, .. }: &Material) -
 /// assert!(check_points(0, &[ControlPoint::new(f32::NAN, 2.0, 3.0, 0.1)]).is_err());
 /// ```
 pub fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
-    // All points at once, without a branch; the invalid one is looked for only if there is one.
+    // Checks all points at once, without a branch. An invalid one is looked for only if there is
+    // one.
     let within = |value: f32, low: f32, high: f32| (value >= low) & (value <= high);
     let sound = points.iter().fold(true, |sound, point| {
         let placed = [point.x, point.y, point.z].map(|at| within(at, -COORDINATE_LIMIT, COORDINATE_LIMIT));
@@ -313,7 +315,7 @@ pub fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnErro
     Ok(())
 }
 
-/// Collects yarns one by one; [`YarnsBuilder::build`] checks them all.
+/// A builder that collects yarns one by one. [`YarnsBuilder::build`] checks them all.
 #[derive(Debug, Clone, Default)]
 pub struct YarnsBuilder {
     offsets: Vec<u64>,
@@ -325,13 +327,13 @@ pub struct YarnsBuilder {
 }
 
 impl YarnsBuilder {
-    /// Adds a material and gives its index.
+    /// Adds a material and returns its index.
     pub fn material(&mut self, material: Material) -> u32 {
         self.materials.push(material);
         self.materials.len() as u32 - 1
     }
 
-    /// Adds a section and gives its index.
+    /// Adds a section and returns its index.
     pub fn section(&mut self, section: Section) -> u32 {
         self.sections.push(section);
         self.sections.len() as u32 - 1
@@ -348,17 +350,16 @@ impl YarnsBuilder {
         self
     }
 
-    /// Sets the [tension](Layout::tension) of all yarns' splines, in \[0, 1): 0 where it is not
-    /// set.
+    /// Sets the [tension](Layout::tension) of all yarns' splines, in \[0, 1). The default is 0.
     pub const fn tension(&mut self, tension: f32) -> &mut Self {
         self.tension = tension;
         self
     }
 
-    /// Checks everything and gives the yarns. Where no section was added there is the circle, where
-    /// no material undyed yarn.
+    /// Checks everything and makes the yarns. Without sections there is the circle, without
+    /// materials undyed yarn.
     ///
-    /// **Errors**: those of [`Layout::new`], [`Layout::with_tension`] and [`Yarns::new`].
+    /// **Errors**: the errors of [`Layout::new`], [`Layout::with_tension`] and [`Yarns::new`].
     pub fn build(mut self) -> Result<Yarns, YarnError> {
         if self.sections.is_empty() {
             self.sections.push(Section::Circle);

@@ -1,12 +1,12 @@
-//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so nothing has
-//! to be searched: at every crossing both threads shift sideways, rise, widen and flatten, until an
-//! energy is least that keeps them from piercing one another.
+//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so no search
+//! is needed. At every crossing both threads shift sideways, rise, widen and flatten until an
+//! energy is least. The energy keeps threads from piercing one another.
 //!
-//! A [`Crossings`] says what is asked, a [`CrossingsPlan`] works out every table, a
-//! [`CrossingsSettler`] does the passes on a device, and [`settle`] leads it. What all devices
-//! agree on is here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
-//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] says where its neighbours meet
-//! it next.
+//! A [`Crossings`] is the problem, a [`CrossingsPlan`] holds its tables, a [`CrossingsSettler`]
+//! does the passes on a device, and [`settle`] drives it. The definitions that all devices share
+//! are here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
+//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] gives the state that its
+//! neighbours see in the next pass.
 
 mod block;
 mod crossing;
@@ -22,7 +22,7 @@ mod step;
 mod terms;
 
 pub use block::{CrossingBlock, DAMPING, PIVOT};
-pub use crossing::{CrossingState, Lie, Set};
+pub use crossing::{CrossingState, Set, ThreadState};
 use error::CrossingsError;
 pub use pass::CrossingsPass;
 pub use passage::{CURVED, STEPS, StraightPassage, TURN};

@@ -1,25 +1,25 @@
-//! What a pass goes by: how far threads have grown, and how hard penalties are.
+//! The settings of a pass: the growth of threads, and the hardness of penalties.
 
-/// In so many passes threads grow and penalties harden.
+/// The passes in which threads grow and penalties harden.
 pub(super) const GROWING: u32 = 50;
 
 /// The share of their area that threads have at first.
 const THIN: f64 = 0.4;
 
-/// Penalties at first and in the end.
+/// The weights of penalties at first and in the end.
 const PENALTIES: [f64; 2] = [30.0, 1000.0];
 
-/// What a pass goes by.
+/// The settings of one pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingsPass {
-    /// The weight of terms that keep threads apart.
+    /// The weight of the terms that keep threads apart.
     pub penalty: f32,
-    /// The share of its area that a thread wants.
+    /// The share of its area that a thread tends to.
     pub area: f32,
 }
 
 impl CrossingsPass {
-    /// Pass number `number` of the course, from 0.
+    /// The settings of pass number `number`, from 0.
     ///
     /// ```
     /// use texere_core::crossings::CrossingsPass;

@@ -1,35 +1,36 @@
-//! Threads as tables, and the crossings that lie on them.
+//! The rows of a plan, one for each thread, and the sites of crossings.
 
 use super::{CrossingThread, CrossingsError, Set};
 use crate::backend::room;
 
-/// Threads of one level are neighbours up to so many threads apart.
+/// The largest distance, in threads, of neighbours of one level.
 const BESIDE_MAX: i32 = 16;
 
-/// How far threads go sideways: a quarter of a unit, and two fifths of the way to a neighbour.
+/// The largest shift sideways: a quarter of a unit, and two fifths of the way to a neighbour.
+/// Without bounds threads tunnel through one another or the steps stop short.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// A thread, in units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// To the next thread.
+    /// The distance to the next thread.
     pub gap: f32,
     /// Its radius.
     pub radius: f32,
     /// Its stiffness against bending, 1 for cotton.
     pub stiffness: f32,
-    /// How far it may shift.
+    /// The largest shift, either way.
     pub freedom: f32,
-    /// How far it may go up and down.
+    /// The largest height, up or down.
     pub height: f32,
     /// Its level.
     pub level: i32,
-    /// How many threads before it, and after it, the next one of its level lies; 0 where there is
-    /// none near enough to touch it.
+    /// The distances, in threads, to the nearest thread of its level before and after it. 0 if none
+    /// is near enough to touch.
     pub beside: [i32; 2],
 }
 
-/// A crossing by its end and its pick, from 0.
+/// A crossing, given by its end and its pick, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Site {
     /// The end.
@@ -39,7 +40,7 @@ pub struct Site {
 }
 
 impl Site {
-    /// The number of its thread of a set.
+    /// The number of the crossing's thread of a set.
     #[must_use]
     pub const fn thread(self, set: Set) -> usize {
         match set {
@@ -49,17 +50,18 @@ impl Site {
     }
 }
 
-/// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
+/// `at` moved on by `by` among `count`. After the last one follows the first if they repeat;
+/// otherwise there is none.
 pub(super) fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
     let to = at.wrapping_add_signed(by as isize);
     if to < count {
         return Some(to);
     }
-    // Before the first one it has wrapped round.
+    // A number before the first has wrapped round.
     repeats.then(|| if by < 0 { to.wrapping_add(count) } else { to - count })
 }
 
-/// A set's threads in units.
+/// The rows of a set's threads, with lengths in units.
 pub(super) fn rows(
     threads: &[CrossingThread],
     unit: f32,

@@ -1,4 +1,4 @@
-//! The course: how threads grow, how penalties harden, and when it is done.
+//! The course of a settling: passes until rest.
 
 use std::ops::ControlFlow;
 
@@ -6,28 +6,29 @@ use super::pass::GROWING;
 use super::{CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use crate::BackendError;
 
-/// It is at rest where no unknown has moved further than that in so many passes, in the plan's
-/// unit. One pass would not do: what swings stands still where it turns.
+/// The cloth is at rest if no unknown has moved further than this, in the plan's unit, in this
+/// number of passes. One pass is not enough: an oscillation stands still where it turns.
 const STILL: f32 = 5e-5;
 const STILL_PASSES: u32 = 10;
 
-/// What came of it.
+/// The result of a settling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingsRest {
-    /// Whether the last passes moved nothing any more.
+    /// Whether the last passes moved nothing.
     pub at_rest: bool,
     /// Passes in all.
     pub passes: u32,
-    /// What the last pass has seen.
+    /// The measures of the last pass.
     pub seen: CrossingsSeen,
 }
 
-/// Lets crossings come to rest on a device, and leaves them there. `watch` sees every pass, and may
-/// break it off: after it, or after the passes that were asked for with it, ten at most.
+/// Lets crossings come to rest on a device, and leaves them there. `watch` sees every pass. If it
+/// breaks off, the run ends after that pass, or after the passes that were asked for together with
+/// it, ten at most.
 ///
-/// Threads grow from four tenths of their area and are parted by penalties that harden, in fifty
-/// passes. Then passes go on until nothing moves, as many as the problem allows. A device is asked
-/// at once for as many passes as rest is away at least.
+/// In fifty passes threads grow from four tenths of their area, while penalties that part them
+/// harden. Then passes follow until nothing moves, as many as the problem allows. The device gets
+/// as many passes at once as are certainly needed to reach rest.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(
@@ -39,7 +40,7 @@ pub fn settle(
     let mut rest = CrossingsRest { at_rest: false, passes: 0, seen: CrossingsSeen::NOTHING };
     let mut still = 0;
     while rest.passes < plan.passes() && !rest.at_rest {
-        // Rest takes all of these to stand still, so none of them comes after it.
+        // Rest needs all of these passes to stand still, so it can't come before the last of them.
         let last = plan.passes().min(rest.passes + STILL_PASSES - still);
         let passes: Vec<CrossingsPass> = (rest.passes..last).map(CrossingsPass::of).collect();
         let broken_off = settler.passes(&passes, &mut |pass, seen| {

@@ -1,17 +1,17 @@
-//! The step of a crossing, and the bounds that it keeps.
+//! The step of a crossing, and the bounds of its unknowns.
 
 use super::{CrossingBlock, CrossingState, CrossingsPlan, Set, Site};
 
 /// The longest step of an unknown, in units.
 pub const STEP: f32 = 0.1;
 
-/// The share of a step that a crossing goes on by.
+/// The share of its last step that a crossing goes on by.
 pub const MOMENTUM: f32 = 0.8;
 
-/// The least and the most of a half width, in radii.
+/// The least and the largest half width, in radii.
 pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
 
-/// The least and the most of a half height, in radii.
+/// The least and the largest half height, in radii.
 pub const HALF_HEIGHT: [f32; 2] = [0.3, 2.0];
 
 impl CrossingsPlan {
@@ -24,7 +24,7 @@ impl CrossingsPlan {
         self.bounded(crossing, step.map(|step| share * step), site)
     }
 
-    /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum
+    /// The state in which other crossings see one that has moved from `was` to `is`: momentum
     /// carries it on.
     #[must_use]
     pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
@@ -33,13 +33,13 @@ impl CrossingsPlan {
         self.bounded(is, on, site)
     }
 
-    /// A crossing moved by `step`, as far as its unknowns may go.
+    /// A crossing moved by `step`, within the bounds of its unknowns.
     fn bounded(&self, crossing: &CrossingState, step: [f32; 8], site: Site) -> CrossingState {
         let mut moved = *crossing;
         for set in Set::BOTH {
             let row = self.rows(set)[site.thread(set)];
             let by = |unknown: usize| step[set.first() + unknown];
-            let lie = moved.lie_mut(set);
+            let lie = moved.thread_mut(set);
             lie.shift = (lie.shift + by(0)).clamp(-row.freedom, row.freedom);
             lie.height = (lie.height + by(1)).clamp(-row.height, row.height);
             let within = |value: f32, [low, high]: [f32; 2]| value.clamp(low * row.radius, high * row.radius);

@@ -1,8 +1,8 @@
-//! How many of everything a plan makes.
+//! Counts of everything that a plan makes.
 
 use crate::Vertex;
 
-/// How many of everything a plan makes, uncut.
+/// The counts of everything that a plan makes, before it is cut into chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
     /// Yarns.
@@ -13,15 +13,15 @@ pub struct Counts {
     pub rings: u64,
     /// Vertices, caps included.
     pub vertices: u64,
-    /// Triangles that get drawn, caps included.
+    /// Triangles that are drawn, caps included.
     pub triangles: u64,
-    /// Indices that are stored; with [`Topology::Shared`](crate::Topology::Shared) far fewer than
-    /// three a triangle.
+    /// Indices that are stored. With [`Topology::Shared`](crate::Topology::Shared) they are far
+    /// fewer than three per triangle.
     pub indices: u64,
 }
 
 impl Counts {
-    /// Bytes of the mesh: 24 a vertex, 4 an index.
+    /// The bytes of the mesh: 24 per vertex, 4 per index.
     #[must_use]
     pub const fn bytes(&self) -> u64 {
         self.vertices * size_of::<Vertex>() as u64 + self.indices * 4

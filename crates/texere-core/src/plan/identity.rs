@@ -1,10 +1,10 @@
-//! What plans and tables are known by.
+//! Identities of plans and of chunks' tables.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Identifies the offsets of a plan within the process, which never change: its clones have the
-/// same identity, resized ones, and those of a region of it.
+/// Identifies the offsets of a plan within the process. They never change, so clones, edited plans
+/// and plans of a region share the identity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlanId(u64);
 
@@ -15,13 +15,13 @@ impl PlanId {
     }
 }
 
-/// Identifies the tables of a chunk within its plan: chunks of one plan with the same identity have
+/// Identifies the tables of a chunk within its plan. Chunks of one plan with the same identity have
 /// the same tables, and differ at most in their place in the whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TablesId {
     pub(super) blocks: Range<u64>,
-    /// 0 for a chunk as the plan cuts it. A patch, and a chunk that was cut again, has a number
-    /// that no other has.
+    /// 0 for a chunk that the whole plan is cut into. Regions, patches, and chunks cut again after
+    /// an edit, have numbers of their own.
     pub(super) edit: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Plans of only a part of a cloth.
+//! Plans of a region: only a part of the cloth is made.
 
 use std::iter;
 use std::ops::Range;
@@ -9,14 +9,13 @@ use crate::Topology;
 use crate::backend::PaddedPoints;
 
 impl Plan {
-    /// The same plan but that it makes only what lies in a box: those blocks of [`BLOCK_RINGS`]
-    /// rings whose own [box](Plan::part_bounds) touches `bounds`. So what lies in it is all there,
-    /// as in the whole mesh to the bit, and up to a block of each yarn beyond. `points` are this
-    /// plan's.
+    /// A plan that makes only the part in a box: the blocks of [`BLOCK_RINGS`] rings whose own
+    /// [box](Plan::part_bounds) touches `bounds`. Everything in the box is made, with the same bits
+    /// as in the whole mesh, and up to a block of each yarn beyond. `points` are this plan's.
     ///
-    /// Numbers of yarns, rings and control points stay, and all offsets; a session of either plan
-    /// makes chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks) are of the
-    /// region.
+    /// Numbers of yarns, rings and control points stay, as do all offsets. A session of either plan
+    /// makes chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks) are those of
+    /// the region.
     ///
     /// ```
     /// use texere_core::backend::{PaddedPoints, Plan};
@@ -43,7 +42,7 @@ impl Plan {
             blocks.flat_map(|(yarn, ends)| (ends[0]..ends[1]).map(move |block| (yarn, block)))
         {
             let first = (block - self.offsets.blocks[yarn]) as u32 * BLOCK_RINGS;
-            // Its last triangles reach to the ring after it.
+            // The block's last triangles reach to the ring after it.
             let rings = first..first.saturating_add(BLOCK_RINGS + 1);
             if self.part_bounds(points, yarn, rings).touches(bounds) {
                 match runs.last_mut() {
@@ -57,7 +56,7 @@ impl Plan {
         plan
     }
 
-    /// The same plan, but that it makes all that there is.
+    /// The plan without its region: it makes everything.
     #[must_use]
     pub fn whole(&self) -> Self {
         let mut plan = self.clone();
@@ -68,13 +67,13 @@ impl Plan {
         plan
     }
 
-    /// Whether it makes all that there is.
+    /// Whether the plan makes everything.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.runs.len() == 1 && self.runs[0] == (0..self.block_count())
     }
 
-    /// How many of everything it makes.
+    /// Counts everything that the plan makes.
     pub(super) fn count(&self) -> Counts {
         let sides = u64::from(self.settings.sides);
         let [mut rings, mut gaps, mut caps] = [0; 3];
@@ -86,7 +85,7 @@ impl Plan {
                 let (end, all) = (run.end.min(next), u64::from(self.rings(yarn)));
                 let [from, to] =
                     [block, end].map(|block| ((block - first_block) * u64::from(BLOCK_RINGS)).min(all));
-                // Where the yarn goes on beyond the run, its next ring is repeated.
+                // If the yarn goes on beyond the run, its next ring is repeated.
                 let repeated = u64::from(to < all && to > from);
                 rings += to - from + repeated;
                 gaps += (to - from + repeated).saturating_sub(1);
@@ -111,18 +110,18 @@ impl Plan {
         }
     }
 
-    /// The blocks that it makes: runs of neighbours, in order.
+    /// The blocks that the plan makes: runs of neighbours, in order.
     pub(super) fn runs(&self) -> &[Range<u64>] {
         &self.runs
     }
 
-    /// Whether it makes block number `block`.
+    /// Whether the plan makes block number `block`.
     pub(super) fn makes(&self, block: u64) -> bool {
         let after = self.runs.partition_point(|run| run.start <= block);
         after > 0 && block < self.runs[after - 1].end
     }
 
-    /// The yarn that a block is of.
+    /// The yarn of a block.
     pub(super) fn yarn_of_block(&self, block: u64) -> usize {
         self.offsets.blocks.partition_point(|&start| start <= block) - 1
     }

@@ -9,13 +9,13 @@ pub struct Settings {
     pub subdivisions: u32,
     /// Sides of the tube (the paper's nc).
     pub sides: u32,
-    /// How sections are oriented.
+    /// The orientation of sections.
     pub frame: Frame,
-    /// How triangles are encoded.
+    /// The encoding of triangles.
     pub topology: Topology,
-    /// Whether the ends of open yarns are closed with a cap, which makes every yarn watertight.
+    /// Whether the ends of open yarns are closed with caps, which make every yarn watertight.
     pub caps: bool,
-    /// The grid that [packed](crate::PackedVertex) positions lie on.
+    /// The step of the grid that [packed](crate::PackedVertex) positions lie on.
     pub quantum: Quantum,
 }
 

@@ -1,4 +1,4 @@
-//! Cross-sections: the outline that stands on every ring.
+//! Cross-sections: the outlines that stand on rings.
 
 mod error;
 mod outline;
@@ -42,7 +42,7 @@ pub enum Section {
     Lenticular {
         /// Width over height.
         aspect: f32,
-        /// How far the edges lie above the middle, in half heights, within (-1, 1).
+        /// The height of the edges above the middle, in half heights, within (-1, 1).
         distortion: f32,
     },
     /// An ellipse whose height is `|sin θ|^exponent`.
@@ -57,8 +57,8 @@ pub enum Section {
         /// Number of plies.
         plies: u32,
     },
-    /// The caller's own outline: counter-clockwise corners, in radii of the yarn. A plan that uses
-    /// it must have as many sides as it has corners.
+    /// An outline of the caller's own: counter-clockwise corners, in radii of the yarn. A plan with
+    /// it must have one side per corner.
     Polygon(Vec<[f32; 2]>),
 }
 
@@ -81,14 +81,14 @@ pub struct SectionPoint {
 const _: () = assert!(size_of::<SectionPoint>() == 16);
 
 impl SectionPoint {
-    /// Position · normal: how much of the radius' growth this point's surface feels. 1 all round a
-    /// circle.
+    /// Position · normal: the share of the radius' growth that this point's surface feels. It is 1
+    /// all round a circle.
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.x * self.normal_x + self.y * self.normal_y
     }
 
-    /// The point turned by the roll whose sine and cosine these are.
+    /// The point turned by a roll, given its sine and cosine.
     #[must_use]
     #[inline]
     pub fn rolled(&self, sin: f32, cos: f32) -> Self {
@@ -101,5 +101,5 @@ impl SectionPoint {
 /// The fewest sides a tube can have.
 pub(crate) const SIDES_MIN: u32 = 3;
 
-/// The most sides a tube can have: far beyond what a yarn a few pixels wide can show.
+/// The most sides a tube can have: far more than a yarn a few pixels wide can show.
 pub const SIDES_MAX: u32 = 256;

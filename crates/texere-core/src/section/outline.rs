@@ -1,16 +1,16 @@
-//! Outlines of the sections, point by point.
+//! Outlines of sections, point by point.
 
 use super::{Section, SectionPoint};
 use crate::definitions::Turn;
 use crate::turn::atan2_turns;
 
-/// How deep the valley between two plies goes at most, as a share of the yarn's radius.
+/// The least distance of the valley between two plies from the axis, in radii of the yarn.
 ///
-/// Two round plies that just touch leave a valley down to the axis; real plies press flat against
-/// each other and their loose fibres fill the rest.
+/// Two round plies that just touch leave a valley down to the axis. Real plies press flat against
+/// each other, and their loose fibres fill the rest.
 const VALLEY: f32 = 0.5;
 
-/// Points at which the extent and the area of a section are measured: a polygon of 1,024 sides
+/// The points at which the extent and the area of a section are measured. A polygon of 1,024 sides
 /// misses 6e-6 of a circle's area.
 const MEASURE_POINTS: u32 = 1024;
 
@@ -22,8 +22,7 @@ fn sin_cos_at(k: u32, count: u32) -> (f32, f32) {
 impl Section {
     /// The outline as `sides` points, counter-clockwise seen against the tangent.
     ///
-    /// A polygon is given back corner by corner, whatever `sides` says: a plan refuses the two when
-    /// they differ.
+    /// A polygon has its corners, whatever `sides` is. A plan refuses the two if they differ.
     #[must_use]
     pub fn outline(&self, sides: u32) -> Vec<SectionPoint> {
         if let Self::Polygon(corners) = self {
@@ -44,14 +43,14 @@ impl Section {
         self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.x.abs().max(most))
     }
 
-    /// Half the height, in radii of the yarn: what yarns that cross have to make room for.
+    /// Half the height, in radii of the yarn: the room that crossing yarns need.
     #[must_use]
     pub fn half_height(&self) -> f32 {
         self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.y.abs().max(most))
     }
 }
 
-/// Point `k` of `count` of a shape, before its area is made that of the unit circle.
+/// Point `k` of `count` of a shape, before its area is scaled to that of the unit circle.
 fn point(section: &Section, k: u32, count: u32) -> SectionPoint {
     let (sin, cos) = sin_cos_at(k, count);
     match *section {
@@ -76,11 +75,11 @@ fn point(section: &Section, k: u32, count: u32) -> SectionPoint {
     }
 }
 
-/// Two arcs from edge to edge; the upper takes the first half of the points, the lower the second.
+/// Two arcs from edge to edge. The upper has the first half of the points, the lower the second.
 fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
     let half_width = aspect;
     let along = (2 * k) as f32 / count as f32;
-    // The edges are where two arcs meet: there the normal points straight out.
+    // At the edges, where the two arcs meet, the normal points straight out.
     if k == 0 {
         return with_normal(half_width, distortion, 1.0, 0.0);
     }
@@ -95,13 +94,13 @@ fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
     with_normal(radius * sin, distortion + up * (radius * cos - (radius - rise)), sin, up * cos)
 }
 
-/// `1 - depth (1 - cos(plies θ))`: touches the unit circle at each ply and falls to the valley
+/// `1 - depth (1 - cos(plies θ))`: it touches the unit circle at each ply and falls to the valley
 /// between two.
 fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
     let (sin, cos) = sin_cos_at(k, count);
     let turn = ((u64::from(k) << 32) / u64::from(count)) as u32;
     let (lobe_sin, lobe_cos) = Turn(turn.wrapping_mul(plies)).sin_cos();
-    // Valley between two touching round plies whose centres lie `c` from the axis: c cos(π /
+    // The valley between two touching round plies whose centres lie `c` from the axis: c cos(π /
     // plies).
     let (half_sin, half_cos) = sin_cos_at(1, 2 * plies);
     let valley = (half_cos / (1.0 + half_sin)).max(VALLEY);
@@ -111,7 +110,7 @@ fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
     with_normal(distance * cos, distance * sin, distance * cos + change * sin, distance * sin - change * cos)
 }
 
-/// A point whose normal still has to be made a unit vector.
+/// A point from a normal of any length.
 fn with_normal(x: f32, y: f32, normal_x: f32, normal_y: f32) -> SectionPoint {
     let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y).sqrt();
     SectionPoint { x, y, normal_x: normal_x * inverse, normal_y: normal_y * inverse }

@@ -1,9 +1,9 @@
-//! What parameters a section may have.
+//! The checks of a section's parameters.
 
 use super::outline::{cross, doubled_area};
 use super::{SIDES_MAX, SIDES_MIN, Section, SectionError};
 
-/// The furthest a corner may lie from the axis, in radii of the yarn.
+/// The largest coordinate of a corner, in radii of the yarn.
 const CORNER_LIMIT: f32 = 100.0;
 
 impl Section {
@@ -52,7 +52,7 @@ fn polygon(corners: &[[f32; 2]]) -> Result<(), SectionError> {
             });
         }
     }
-    // Before edges are compared: the two beside a repeated corner meet in it.
+    // Checked before edges are compared: the two edges beside a repeated corner meet in it.
     if let Some(corner) = (0..count).find(|&corner| corners[corner] == corners[(corner + 1) % count]) {
         return Err(SectionError::RepeatedCorner { corner });
     }
@@ -64,8 +64,7 @@ fn polygon(corners: &[[f32; 2]]) -> Result<(), SectionError> {
             if apart && intersect(corners[first], corners[next], corners[second], corners[after]) {
                 return Err(SectionError::SelfIntersecting { first, second });
             }
-            // Two edges that share a corner and lie on one another: the outline turns back on
-            // itself.
+            // Two edges that share a corner and overlap: the outline turns back on itself.
             if next == second && folds(corners[first], corners[next], corners[after]) {
                 return Err(SectionError::SelfIntersecting { first, second });
             }
@@ -95,7 +94,7 @@ fn intersect(a: [f32; 2], b: [f32; 2], c: [f32; 2], d: [f32; 2]) -> bool {
     crossing || between(a, b, c) || between(a, b, d) || between(c, d, a) || between(c, d, b)
 }
 
-/// Whether the way a-b-c turns straight back at b.
+/// Whether the path a-b-c turns straight back at b.
 fn folds(a: [f32; 2], b: [f32; 2], c: [f32; 2]) -> bool {
     let (back, on) = ([a[0] - b[0], a[1] - b[1]], [c[0] - b[0], c[1] - b[1]]);
     cross(back, on) == 0.0 && back[0] * on[0] + back[1] * on[1] > 0.0

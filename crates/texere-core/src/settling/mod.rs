@@ -1,9 +1,9 @@
 //! Settling: yarns come to rest. Control points move until yarns nowhere pierce one another,
 //! nowhere fold, and have the length that is asked for.
 //!
-//! A [`Settling`] says what is asked, a [`SettlingPlan`] works out every table, a [`Settler`] does
-//! the passes on a device, and [`settle`] leads it. The definitions that all devices agree on are
-//! here: [`Interval`], [`Chord`], [`Pair`], [`Pull`].
+//! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] does the
+//! passes on a device, and [`settle`] drives it. The definitions that all devices share are here:
+//! [`Interval`], [`Chord`], [`Pair`], [`Pull`].
 
 mod check;
 mod contact;

@@ -256,7 +256,7 @@ fn broken_settlers_are_caught() {
 fn means(plan: &CrossingsPlan, crossings: &[CrossingState]) -> Vec<f32> {
     let mean = |of: &dyn Fn(usize) -> f32| (0..crossings.len()).map(of).sum::<f32>() / crossings.len() as f32;
     let each = Set::BOTH.into_iter().flat_map(|set| {
-        let lie = move |number: usize| crossings[number].lie(set);
+        let lie = move |number: usize| crossings[number].thread(set);
         let radius = move |number: usize| plan.rows(set)[plan.site(number).thread(set)].radius;
         [
             mean(&move |number| lie(number).half_width),
@@ -271,7 +271,7 @@ fn means(plan: &CrossingsPlan, crossings: &[CrossingState]) -> Vec<f32> {
 /// Crossings with each set's mean shift taken off: a repeat lies as well a little further on.
 fn centred(crossings: &[CrossingState]) -> Vec<CrossingState> {
     let mean = |set: Set| {
-        crossings.iter().map(|crossing| crossing.lie(set).shift).sum::<f32>() / crossings.len() as f32
+        crossings.iter().map(|crossing| crossing.thread(set).shift).sum::<f32>() / crossings.len() as f32
     };
     let [warp, weft] = Set::BOTH.map(mean);
     let centre = |mut crossing: CrossingState| {

@@ -169,7 +169,7 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
     }
     for ((drawn, rest), shares) in lies.drawn.iter_mut().zip(&lies.rest).zip(shares) {
         for (set, share) in Set::BOTH.into_iter().zip(shares) {
-            let (halves, lie) = (&mut drawn[set as usize], rest.lie(set));
+            let (halves, lie) = (&mut drawn[set as usize], rest.thread(set));
             let least = [lie.half_width, lie.half_height].map(|half| KEPT_LEAST * half);
             *halves = [0, 1].map(|half| (halves[half] * share[half] as f32).max(least[half]));
         }

@@ -38,8 +38,9 @@ impl Lies {
     ) -> Self {
         let mm: &mut [f32] = bytemuck::cast_slice_mut(&mut rest);
         mm.iter_mut().for_each(|value| *value *= plan.unit());
-        let drawn =
-            rest.iter().map(|at| Set::BOTH.map(|set| [at.lie(set).half_width, at.lie(set).half_height]));
+        let drawn = rest
+            .iter()
+            .map(|at| Set::BOTH.map(|set| [at.thread(set).half_width, at.thread(set).half_height]));
         let [warp, weft] = &problem.levels;
         let layers = if warp.iter().max() == weft.iter().max() {
             problem.levels

@@ -95,8 +95,8 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
 
 /// Adds a float at each needle that a yarn passes on its way from `one` to `other`.
 ///
-/// Where `other` lies ahead of the carriage, the yarn floats on to it, and turns there if it has to.
-/// Where `other` lies behind the carriage, the yarn turns at once and floats back.
+/// Where `other` lies ahead of the carriage, the yarn floats on to it, and turns there if it has
+/// to. Where `other` lies behind the carriage, the yarn turns at once and floats back.
 fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
     let way = f64::from(other.at - one.at) * one.direction;
     let turns = one.direction != other.direction;

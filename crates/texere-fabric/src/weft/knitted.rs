@@ -158,7 +158,7 @@ impl Knitted {
     /// One repeat of the cloth, with its boundary and its pinned points. It is the whole cloth
     /// where the stitches do not repeat. See [`Knitted::repeat`].
     ///
-    /// **Errors**: those of [`Knitted::yarns`].
+    /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
         Ok(self.repeat()?.piece)
     }
@@ -169,7 +169,7 @@ impl Knitted {
     /// taken a few together. Any other cloth settles whole: the ends of its yarns, the feet of its
     /// first course and the heads on needles are pinned.
     ///
-    /// **Errors**: those of [`Knitted::yarns`].
+    /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
         let Some(size) = self.stitches.repeat else {
             return Ok(Repeat { piece: self.piece_of(&self.stitches)?, copies: [1, 1] });

@@ -109,8 +109,8 @@ impl Cloth<'_> {
         }
     }
 
-    /// The form of the loop that a yarn makes at a cell: its needle gives x, its course and its lift
-    /// give y.
+    /// The form of the loop that a yarn makes at a cell: its needle gives x, its course and its
+    /// lift give y.
     fn form(&self, cell: &Cell, number: u32) -> Form<'_> {
         let y = cell.course as f64 * self.shape.course;
         let at = [self.x(cell.at), y, self.y(cell) - y];
@@ -234,8 +234,8 @@ impl Cloth<'_> {
     }
 }
 
-/// z of the arc between two loops, mm: that of the loop which lies further back, or half way between
-/// two loops on opposite sides.
+/// z of the arc between two loops, mm: that of the loop which lies further back, or half way
+/// between two loops on opposite sides.
 fn between(one: f64, other: f64) -> f64 {
     if one * other <= 0.0 {
         f64::midpoint(one, other)

@@ -25,7 +25,8 @@ impl KnitYarn {
 /// The number of control points of a stitch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cells {
-    /// The number that the bends of the yarn need: 12 for a plain loop, 3 for a float past a needle.
+    /// The number that the bends of the yarn need: 12 for a plain loop, 3 for a float past a
+    /// needle.
     #[default]
     Round,
     /// 12 for each needle that the yarn comes to, whether it makes a loop there or floats.

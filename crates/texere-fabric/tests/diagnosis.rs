@@ -1,4 +1,4 @@
-//! What is wrong with a cloth is named as a weaver names it, and cures are cures.
+//! Faults are named as a weaver names them, and cures do cure.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
@@ -40,7 +40,7 @@ fn faults_are_named_by_thread_and_crossing() {
     );
     let jams = faults.jams.unwrap();
     assert_eq!((jams.ends, jams.picks, jams.threads[0].thread), (19, 0, Origin::End(2)));
-    // A contact of an end and a pick lies where the two cross, or next to it.
+    // A contact of an end and a pick lies at their crossing or at the one beside it.
     let contact = faults.pierces[0];
     let [Origin::End(end), Origin::Pick(pick)] = contact.places.map(|place| place.thread) else {
         panic!("{contact:?}")
@@ -92,7 +92,7 @@ fn each_cure_leaves_what_it_says() {
         }
         assert_eq!(diagnose(&changed).faults.kinds(), cure.leaves, "{:?}", cure.remedy);
     }
-    // Relief that the design has already is no cure.
+    // A design that is already relieved does not get relief as a cure.
     let relieved = design(&jammed, Relief::Flatten);
     let left = relieved.cures(&diagnose(relieved.cloth()), |_| ControlFlow::Continue(()));
     assert!(relieved.is_relieved() && !left.iter().any(|cure| matches!(cure.remedy, Remedy::Relief { .. })));

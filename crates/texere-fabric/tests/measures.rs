@@ -18,7 +18,7 @@ fn cloth(tex: [Option<f32>; 2]) -> Woven {
     open_cloth(tex, 0.4)
 }
 
-/// The same with ends further apart.
+/// The cloth with ends further apart.
 fn open_cloth(tex: [Option<f32>; 2], spacing_mm: f64) -> Woven {
     let (warp, weft) = (Thread::new(spacing_mm, 0.1), Thread { material: 1, ..Thread::new(0.5, 0.12) });
     let drawdown = Weave::parse("plain").unwrap().drawdown(100, 80).unwrap();
@@ -61,7 +61,7 @@ fn weight_is_length_times_tex_over_area() {
 fn weight_needs_the_tex_of_what_is_used() {
     assert_eq!(measures(&cloth([Some(20.0), None])).areal_weight, None);
     assert_eq!(measures(&cloth([Some(20.0), None])).cover.unwrap().factor, None);
-    // A kilometre of 30 tex weighs 30 g; what is not used needs no tex.
+    // A kilometre of 30 tex weighs 30 g. Materials that are not used need no tex.
     assert_eq!(weight_g(&[1e6, 0.0], &[material(Some(30.0)), material(None)]), Some(30.0));
     assert_eq!(weight_g(&[1e6, 1.0], &[material(Some(30.0)), material(None)]), None);
 }
@@ -100,7 +100,7 @@ fn thickness_is_from_surface_to_surface() {
     let mut cloth = cloth([None; 2]);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
     assert!((measures(&cloth).thickness_mm - 2.0 * (0.11 + 0.12)).abs() < 2e-3);
-    // Straight ends in the middle: the picks alone, 0.22 to each side.
+    // Ends are straight in the middle of the cloth. The picks alone reach out, 0.22 to each side.
     let mut cloth = open_cloth([None; 2], 1.0);
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
     let thickness = measures(&cloth).thickness_mm;
@@ -116,10 +116,11 @@ fn flat_and_leaning_sections_count_with_their_own_height() {
         yarns.yarn(Yarn::default(), &points);
         yarns.build().unwrap()
     };
-    // Half as high as the circle, twice as wide.
+    // Sections half as high as the circle, and twice as wide.
     let flat = thickness_mm(&yarn(Section::Ellipse { aspect: 4.0 }, [1.0, 0.0, 0.0]));
     assert!((flat - 0.5).abs() < 1e-5, "{flat}");
-    // Upright, its length alone; at 45 degrees 1/√2 of the section's height more.
+    // An upright yarn is as high as its length. At 45 degrees 1/√2 of the section's height is
+    // added.
     assert!((thickness_mm(&yarn(Section::Circle, [0.0, 0.0, 1.0])) - 2.0).abs() < 1e-5);
     let leaning = thickness_mm(&yarn(Section::Circle, [1.0, 0.0, 1.0]));
     assert!((leaning - (2.0 + 0.5f64.sqrt())).abs() < 1e-5, "{leaning}");

@@ -1,4 +1,4 @@
-//! Jammed cloth, before and after something is done about it.
+//! Jammed cloth before and after relief.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -58,7 +58,7 @@ fn nothing_between_two_threads_jams_nothing() {
 
 #[test]
 fn crimp_goes_where_the_cloth_is_dense() {
-    // Warp-dense: the ends bend, the picks straighten, and no thread is changed.
+    // Cloth with dense warp: the ends bend, the picks straighten, and no thread changes.
     let mut cloth = dense("plain", 1.5, 2.4);
     let (threads, report) = (cloth.clone(), cloth.relieve(Relief::Flatten).unwrap());
     assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
@@ -70,7 +70,8 @@ fn crimp_goes_where_the_cloth_is_dense() {
 
 #[test]
 fn flattening_keeps_the_area_and_clears_the_surfaces() {
-    // A share that is given stays: what passes between the ends has to grow flatter.
+    // A share of the crimp that is given stays. Picks have to grow flatter to pass between the
+    // ends.
     let mut cloth = dense("plain", 1.6, 3.0);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
     let report = cloth.relieve(Relief::Flatten).unwrap();
@@ -93,7 +94,7 @@ fn what_can_not_be_flattened_is_told() {
     assert_eq!(report.after.map(|set| set.jammed).into_iter().max(), Some(7));
 }
 
-/// Plies, and what else turns with the twist, stay as they are inside the flattened outline.
+/// Plies, and all that turns with the twist, stay unchanged inside the flattened outline.
 #[test]
 fn plies_are_flattened_as_they_are() {
     let plies = Section::Lobed { plies: 2 };
@@ -134,7 +135,7 @@ fn threads_too_thin_to_shrink_are_left_alone() {
     assert_eq!(cloth, before);
 }
 
-/// Other lifts jam other threads, so relief begins again from the cloth that was given.
+/// Other lifts jam other threads. Relief then begins again from the cloth that was given.
 #[test]
 fn a_design_with_another_lift_is_one_that_was_given_so() {
     let given = dense("plain", 1.2, 1.2);

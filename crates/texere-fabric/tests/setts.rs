@@ -5,7 +5,7 @@
 use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, Thread, Woven};
 
-/// A twill of so many up, so many down and so on, each pick one end further.
+/// A twill from its numbers up, down and so on. Each pick is moved by one end.
 fn cloth(floats: &[usize], per_inch: f64, diameters_per_inch: f64) -> Woven {
     let thread = Thread::new(25.4 / per_inch, (0.5 * 25.4 / diameters_per_inch) as f32);
     let repeat: Vec<bool> =
@@ -61,7 +61,7 @@ fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     for jammed in square(plain, thread, thread) {
         assert!((10.0 / jammed.unwrap() / 0.4 - 0.866).abs() < 1e-4, "{jammed:?}");
     }
-    // Twills do not jam so.
+    // Twills do not jam at this angle.
     assert_eq!(square(|end, pick| (end + 8 - pick) % 4 < 2, thread, thread), [None; 2]);
 }
 
@@ -109,7 +109,8 @@ fn threads_of_other_sets_take_their_own_room() {
     let doubled = vec![thin; 6];
     let cloth =
         Woven::new(ribs, doubled, vec![thick; 6], vec![Material::default()], vec![Section::Circle]).unwrap();
-    // Of six ends the third pair is as the first: over the repeat's seam nothing changes.
+    // With six ends the third pair equals the first, so that nothing changes over the repeat's
+    // seam.
     let [ends, picks] = cloth.setts();
     assert!((ends.interlacings - 0.5).abs() < 1e-9 && (picks.interlacings - 1.0).abs() < 1e-9, "{ends:?}");
 }

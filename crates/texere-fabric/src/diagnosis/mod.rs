@@ -1,4 +1,4 @@
-//! What is wrong with a cloth, where, and what would cure it.
+//! Diagnosis of a cloth: its faults, their places, and their cures.
 
 mod cures;
 mod faults;

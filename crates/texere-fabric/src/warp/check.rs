@@ -1,4 +1,4 @@
-//! Whether bars, gauge and yarns can be a cloth.
+//! Checks of bars, gauge and yarns: whether they can be a cloth.
 
 use texere_core::Origin;
 
@@ -18,16 +18,16 @@ const OFFSET_MAX: i32 = 1 << 16;
 /// The most wales or courses of all copies.
 const SIDE_MAX: u64 = 1 << 30;
 
-/// The most laps that are laid before they are copied.
+/// The most laps of a cloth before it is copied.
 const LAID_MAX: u64 = 1 << 26;
 
-/// Control points of a lap at least.
+/// The fewest control points of a lap.
 const LAP_POINTS: u64 = 2;
 
 /// Control points of a loop.
 const LOOP_POINTS: u64 = 9;
 
-/// Whether bars are sound, and refer only to yarns that there are.
+/// Checks that bars are sound, and refer only to yarns that exist.
 pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     if !(1..=BARS_MAX).contains(&bars.len()) {
         return Err(WarpError::Bars { bars: bars.len(), limit: BARS_MAX });
@@ -53,14 +53,14 @@ pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     Ok(())
 }
 
-/// The first guide that is threaded with the yarn of that number, from 0.
+/// The first guide that holds the yarn with the number `yarn`, from 0.
 pub(super) fn first_guide(bars: &[Bar], yarn: u32) -> Origin {
     let guide = |bar: &Bar| bar.threading.guides().iter().position(|threaded| *threaded == Some(yarn));
     let found = (1..).zip(bars).find_map(|(bar, each)| Some((bar, guide(each)?)));
     found.map_or(Origin::Unknown, |(bar, guide)| Origin::Guide { bar, guide: guide as u32 + 1 })
 }
 
-/// Wales and courses after which all bars begin again, if `size` are multiples of them.
+/// Wales and courses after which all bars begin again. `size` has to be a multiple of them.
 pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError> {
     let periods = bars.iter().map(|bar| {
         let [guides, rounds] = bar.jacquard.as_ref().map_or([1, 1], |image| image.size());
@@ -76,7 +76,7 @@ pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError
     Ok(repeat.map(|count| count as u32))
 }
 
-/// The least common multiple, or more than any size.
+/// The least common multiple; the largest `u64` where that is too large.
 fn common(one: u64, other: u64) -> u64 {
     let (mut greatest, mut rest) = (one, other);
     while rest > 0 {
@@ -85,8 +85,8 @@ fn common(one: u64, other: u64) -> u64 {
     (one / greatest.max(1)).saturating_mul(other)
 }
 
-/// Whether the cloth has loops, and no more control points than are taken: a low estimate, before
-/// any is made.
+/// Checks that the cloth has loops, and by a low estimate that it does not have too many control
+/// points. None has been made then.
 pub(super) fn size(
     bars: &[Bar],
     repeat: [u32; 2],
@@ -130,7 +130,8 @@ pub(super) fn size(
     Ok(tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)?)
 }
 
-/// Control points of a lap and its underlap, about. Pieces of underlaps are 0.4 wales long.
+/// The number of control points of a lap with its underlap, about. Pieces of underlaps are 0.4
+/// wales long.
 fn lap_points(laid: &Laid) -> u64 {
     let [needles, underlap] =
         [laid.lap.overlap(), laid.underlap].map(|count| u64::from(count.unsigned_abs()));

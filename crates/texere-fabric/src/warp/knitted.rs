@@ -1,4 +1,4 @@
-//! A warp-knitted cloth: its bars, how close its loops lie, and what its yarns are like.
+//! A warp-knitted cloth: its guide bars, its gauge and its yarns.
 
 use glam::DVec3;
 use texere_core::backend::room_for;
@@ -11,10 +11,10 @@ use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
 use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 
-/// A warp-knitted cloth: its guide bars, with sizes and yarns.
+/// A warp-knitted cloth: guide bars, the distances between loops, and yarns.
 ///
-/// All guides of a bar move alike but for a Jacquard bar's, and begin again after some wales and
-/// courses: so one repeat settles, and is copied.
+/// All guides of a bar move alike, except those of a Jacquard bar. The laps repeat after some wales
+/// and courses. One repeat therefore settles, and is copied.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -34,7 +34,7 @@ use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 pub struct WarpKnitted {
     bars: Vec<Bar>,
     gauge: Gauge,
-    /// Wales and courses of what `copies` counts.
+    /// Wales and courses of one copy, where `copies` counts them.
     laid: [u32; 2],
     /// Wales and courses after which all bars begin again.
     repeat: [u32; 2],
@@ -46,17 +46,18 @@ pub struct WarpKnitted {
 }
 
 impl WarpKnitted {
-    /// A cloth of these bars, the front one first, on so many wales and courses. So many copies of
-    /// that lie side by side along x and y. The gauge's loop length counts for nothing: bars have
-    /// run-ins.
+    /// A cloth of `bars`, the front bar first, on `wales` and `courses`, at the distances of
+    /// `gauge`. `yarns` are the yarns that threadings refer to; they refer to `materials` and
+    /// `sections` by index. `copies` is the number of copies of the whole along x and y. The loop
+    /// length of the gauge has no effect: bars have run-ins.
     ///
     /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars),
     /// [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn),
     /// [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset),
     /// [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
-    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that none
-    /// are, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and courses
-    /// that are no multiples of those after which the bars begin again,
+    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that are
+    /// not sound, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and
+    /// courses in which the bars do not repeat evenly,
     /// [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops),
     /// [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no cloth has,
     /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and
@@ -82,9 +83,8 @@ impl WarpKnitted {
         Ok(Self { bars, gauge, laid, repeat, yarns, materials, sections, copies, cells: Cells::Round })
     }
 
-    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of
-    /// their courses: of [`WarpKnitted::size`] over [`WarpKnitted::copies`], which begin again at
-    /// its edges.
+    /// The laps of all threaded guides, bar by bar, guide by guide and course by course. They are
+    /// those of one copy, [`WarpKnitted::laid_size`], and repeat beyond its edges.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -105,8 +105,8 @@ impl WarpKnitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
-    /// it was.
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound. The cloth is then
+    /// unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -114,9 +114,9 @@ impl WarpKnitted {
         Ok(())
     }
 
-    /// The same cloth with other numbers of control points: [`Cells::Even`] has 9 for each loop and
-    /// none for underlaps. Plain repeats come to rest so; a Jacquard may not, for its underlaps
-    /// turn too sharply.
+    /// Changes the number of control points of each lap. [`Cells::Even`] has 9 for each loop and
+    /// none for underlaps. Plain repeats come to rest with these. A Jacquard may not, because its
+    /// underlaps turn too sharply.
     #[must_use]
     pub fn with_cells(mut self, cells: Cells) -> Self {
         self.cells = cells;
@@ -129,7 +129,7 @@ impl WarpKnitted {
         &self.bars
     }
 
-    /// How close loops lie.
+    /// The distances between loops.
     #[must_use]
     pub const fn gauge(&self) -> &Gauge {
         &self.gauge
@@ -141,7 +141,7 @@ impl WarpKnitted {
         &self.yarns
     }
 
-    /// What the yarns are of.
+    /// The materials that yarns refer to.
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -153,8 +153,7 @@ impl WarpKnitted {
         self.copies
     }
 
-    /// Wales and courses of what [`WarpKnitted::copies`] are copies of: those that
-    /// [`WarpKnitted::laps`] are on.
+    /// Wales and courses of one of the [`WarpKnitted::copies`].
     #[must_use]
     pub const fn laid_size(&self) -> [u32; 2] {
         self.laid
@@ -165,19 +164,20 @@ impl WarpKnitted {
         self.repeat
     }
 
-    /// Wales and courses of the whole cloth.
+    /// Number of wales and of courses in the whole cloth.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.laid[axis] * self.copies[axis])
     }
 
-    /// Width and height of the cloth, mm. Guides at its edges may lap beyond them.
+    /// Width and height of the cloth, mm: wales and courses times their distances. Guides at the
+    /// edges may lap beyond that.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         self.mm(self.size())
     }
 
-    /// Loops of the whole cloth; a two-needle lap makes two.
+    /// Number of loops in the whole cloth. A lap round two needles makes two.
     #[must_use]
     pub fn loops(&self) -> u64 {
         let [across, along] = [0, 1].map(|axis| u64::from(self.size()[axis] / self.repeat[axis]));
@@ -185,21 +185,23 @@ impl WarpKnitted {
         laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
     }
 
-    /// The yarns, about where they belong: bar by bar, and in each from the left.
+    /// The yarns of the whole cloth, as placed before settling: bar by bar, and in each bar from
+    /// the left.
     ///
-    /// Needle 0 lies half a wale from x = 0, the feet of the first course at y = 0. Origins are
-    /// [`Origin::Guide`], bars and guides counted from 1. The source of a control point is the
+    /// Needle 0 is half a wale from x = 0. The feet of the first course are at y = 0. Origins are
+    /// [`Origin::Guide`], with bars and guides counted from 1. The source of a control point is the
     /// course of its lap, from 1.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`],
-    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for more control points than
-    /// are taken, and [`FabricError::Yarns`] where they can't be taken.
+    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for too many control points,
+    /// and [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
         self.laid(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not, with the names of their own guides and courses.
+    /// All copies of a repeat, settled or not. Origins and sources count guides and courses of the
+    /// whole cloth.
     pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
         let origin = |origin, [x, _]: [i64; 2]| match origin {
@@ -212,18 +214,18 @@ impl WarpKnitted {
         self.ended(repeat.laid_as(yarns, self.beyond(), origin, source)?)
     }
 
-    /// One repeat of the cloth, and what holds it: see [`WarpKnitted::repeat`].
+    /// One repeat of the cloth, with its boundary. See [`WarpKnitted::repeat`].
     ///
-    /// **Errors**: those of [`WarpKnitted::yarns`].
+    /// **Errors**: the errors of [`WarpKnitted::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
         Ok(self.repeat()?.piece)
     }
 
-    /// What settles, and how many copies of that the cloth is: the wales and courses after which
-    /// all bars begin again, or a few such repeats that are taken together. A Jacquard begins again
-    /// where its image does.
+    /// The piece of cloth that settles, and the number of its copies in the whole cloth. The piece
+    /// has the wales and courses after which all bars begin again. Small repeats are taken a few
+    /// together. A Jacquard bar begins again where its image does.
     ///
-    /// **Errors**: those of [`WarpKnitted::yarns`].
+    /// **Errors**: the errors of [`WarpKnitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
         let repeats = [0, 1].map(|axis| self.size()[axis] / self.repeat[axis]);
         let tiles = settled_together(self.repeat, repeats);
@@ -231,8 +233,8 @@ impl WarpKnitted {
         Ok(Repeat { piece: self.piece_of(size)?, copies: [0, 1].map(|axis| repeats[axis] / tiles[axis]) })
     }
 
-    /// The stitch at a place on one of the cloth's yarns: its course by the place's source, its
-    /// wale by where it lies.
+    /// The stitch at a place on one of the cloth's yarns. The source of the place gives the course,
+    /// and its x gives the wale.
     pub(crate) fn stitch_at(&self, place: &YarnPlace) -> Option<StitchPlace> {
         let wale = (place.position[0] / self.gauge.wale_mm).clamp(0.0, f64::from(self.size()[0].max(1) - 1));
         Some(StitchPlace { wale: wale as u32 + 1, course: place.source? })

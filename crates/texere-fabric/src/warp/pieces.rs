@@ -1,5 +1,5 @@
-//! Which guides hold which: loops by needle, drawn through those of the course below, and what is
-//! laid in between.
+//! Yarns of a warp knit that hold one another: by loops drawn through those of the course below,
+//! and by yarns laid in between.
 
 use texere_core::Origin;
 
@@ -8,18 +8,18 @@ use super::{Laid, LapKind, WarpKnitted};
 use crate::Pieces;
 use crate::diagnosis::Joined;
 
-/// A loop: its guide's number among all, and how many repeats its needle lies further than the
-/// guide.
+/// A loop: the number of its guide among all guides, and the repeats by which its needle lies
+/// further than the guide.
 type Loop = (usize, i64);
 
 impl WarpKnitted {
-    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles
-    /// there never is a loop.
+    /// The pieces into which the cloth falls, the yarns that nothing holds, and the needles that
+    /// never have a loop.
     ///
-    /// A loop is held where a loop of the next course is drawn through it, on the same needle: a
-    /// needle that gets no yarn at a course casts off what it holds. What crosses needles, an
-    /// underlap or a yarn that is laid in, is held where it passes between the loops of a bar
-    /// further forward and what this lays from course to course.
+    /// A loop is held where a loop of the next course is drawn through it on the same needle. A
+    /// needle that gets no yarn at a course casts off its loops. An underlap or an inlay is held
+    /// where it passes between the loops of a bar further forward and the yarn which that bar lays
+    /// from course to course.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let [wales, courses] = self.repeat_size();
@@ -48,7 +48,8 @@ impl WarpKnitted {
                 }
             }
         }
-        // Bars come from the front, so that the first yarn to pass a space is the foremost one.
+        // Bars come in order from the front. The first yarn to pass a space is thus the foremost
+        // one.
         let mut behind: Vec<Option<Loop>> = vec![None; hanging.len()];
         for (guide, laps) in guides.iter().enumerate() {
             for (lap, next) in laps.iter().zip(laps.iter().cycle().skip(1)) {
@@ -86,7 +87,7 @@ impl WarpKnitted {
     }
 }
 
-/// The needles that a yarn crosses on its way to its next lap, without those of its own loops.
+/// The needles that a yarn crosses on its way to its next lap, except the needles of its own loops.
 fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
     let [from, to] = [lap.lap.to, lap.lap.to + lap.underlap];
     let [low, high] = [from.min(to), from.max(to)];

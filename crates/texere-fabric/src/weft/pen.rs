@@ -1,4 +1,4 @@
-//! Control points as they are written down, cell by cell.
+//! A pen that records the control points of a yarn cell by cell.
 
 use glam::DVec3;
 use texere_core::OutOfMemory;
@@ -6,33 +6,34 @@ use texere_core::backend::room_for;
 
 use super::shape::cardinal;
 
-/// Control points of a cell where all have as many: those of a plain loop and the arc before it.
+/// Control points of a cell with [`Cells::Even`](super::Cells::Even): as many as a plain loop and
+/// the arc before it have. `even_cells_have_twelve_points_each` counts them.
 const EVEN: usize = 12;
 
-/// The control points of a yarn.
+/// The control points of a yarn that has been laid.
 #[derive(Debug, Default)]
 pub(super) struct Laid {
     pub(super) points: Vec<DVec3>,
-    /// What each comes from: see [`Operation::source`](super::Operation::source).
+    /// The source of each point: see [`Operation::source`](super::Operation::source).
     pub(super) sources: Vec<u32>,
-    /// Those that nothing but the machine holds: ends of the yarn, feet of the first course, and
-    /// heads on needles.
+    /// Indices of the points that only the machine holds: ends of the yarn, feet of the first
+    /// course, and heads on needles.
     pub(super) pinned: Vec<u64>,
 }
 
-/// Writes control points down.
+/// Records the control points of one yarn.
 #[derive(Debug, Default)]
 pub(super) struct Pen {
     laid: Laid,
     source: u32,
-    /// Where each cell begins.
+    /// Index of the first point of each cell.
     cells: Vec<usize>,
-    /// Where the last one ends, if something comes after it.
+    /// Index at which the last cell ends, if points come after it.
     tail: Option<usize>,
 }
 
 impl Pen {
-    /// Makes room for so many points more.
+    /// Reserves memory for `points` more points.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn room(&mut self, points: usize) -> Result<(), OutOfMemory> {
@@ -40,18 +41,18 @@ impl Pen {
         room_for(&mut self.laid.sources, points, "sources of a yarn's points")
     }
 
-    /// A cell begins.
+    /// Begins a cell whose points have this source.
     pub(super) fn cell(&mut self, source: u32) {
         self.source = source;
         self.cells.push(self.laid.points.len());
     }
 
-    /// The last cell has ended.
+    /// Ends the last cell.
     pub(super) fn tail(&mut self) {
         self.tail = Some(self.laid.points.len());
     }
 
-    /// What comes next comes from there.
+    /// Sets the source of the points that follow.
     pub(super) fn source(&mut self, source: u32) {
         self.source = source;
     }
@@ -61,19 +62,19 @@ impl Pen {
         self.laid.sources.push(self.source);
     }
 
-    /// Pins the last point.
+    /// Pins the point that was recorded last.
     pub(super) fn pin(&mut self) {
         self.laid.pinned.push(self.laid.points.len() as u64 - 1);
     }
 
-    /// The points as they were written.
+    /// The points as they were recorded.
     pub(super) fn laid(self) -> Laid {
         self.laid
     }
 
-    /// As many points in each cell, along the curve through those that were written. `onward` is
-    /// how far the yarn's next round lies from this one. What comes before the first cell and after
-    /// the last stays as it is.
+    /// Equally many points for each cell, on the curve through the recorded points. `onward` is the
+    /// way from this round of the yarn to its next one, mm. Points before the first cell and after
+    /// the last one stay unchanged.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, OutOfMemory> {
@@ -113,7 +114,7 @@ impl Pen {
                 even.points.push(cardinal(four, along.fract()));
                 even.sources.push(sources[first]);
             }
-            // Of pinned points the nearest to where they were.
+            // The new point that lies nearest to a pinned one is pinned instead.
             let pins = pinned.iter().filter(|pin| (first as u64..last as u64).contains(pin));
             for pin in pins {
                 let along = (pin - first as u64) as f64 / (last - first) as f64;

@@ -205,7 +205,7 @@ impl Woven {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: those of [`Woven::new`].
+    /// **Errors**: the errors of [`Woven::new`].
     pub fn with_threads(
         &self,
         warp: Vec<Thread>,

@@ -35,7 +35,7 @@ impl WovenDesign {
     /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that it
     /// is woven by, if it has one: its drawdown is the cloth's.
     ///
-    /// **Errors**: those of [`Woven::relieve`].
+    /// **Errors**: the errors of [`Woven::relieve`].
     pub fn new(mut cloth: Woven, draft: Option<Draft>, relief: Relief) -> Result<Self, FabricError> {
         let (jam_report, given) = relieve(&mut cloth, relief)?;
         Ok(Self { cloth, draft, relief, jam_report, given })

@@ -80,7 +80,7 @@ impl Draft {
     /// The cloth that this draft weaves: the warp is up where one of the end's shafts is among
     /// those that the pick lifts.
     ///
-    /// **Errors**: those of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
+    /// **Errors**: the errors of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
     /// exceed [`CROSSINGS_MAX`].
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;

@@ -68,7 +68,7 @@ impl Drawdown {
 
     /// A drawdown whose warp is up where `up(end, pick)` says so.
     ///
-    /// **Errors**: those of [`Drawdown::new`].
+    /// **Errors**: the errors of [`Drawdown::new`].
     pub fn from_fn(
         ends: usize,
         picks: usize,
@@ -87,7 +87,7 @@ impl Drawdown {
     /// `repeat.1` picks, from where they repeat over all others. `up` is asked once for each
     /// crossing of the repeat that the cloth has.
     ///
-    /// **Errors**: those of [`Drawdown::new`].
+    /// **Errors**: the errors of [`Drawdown::new`].
     ///
     /// ```
     /// use texere_fabric::Drawdown;

@@ -124,7 +124,7 @@ impl Loom {
     /// Gives the threads that yarn number `yarn` consists of the material, the section and the
     /// twist of `what`. No yarn lies otherwise for it.
     ///
-    /// **Errors**: those of [`Woven::new`] for a thread; the cloth is then as it was.
+    /// **Errors**: the errors of [`Woven::new`] for a thread; the cloth is then as it was.
     ///
     /// **Panics** past the last yarn.
     pub fn set_yarn(&mut self, yarn: usize, what: &Yarn) -> Result<(), FabricError> {

@@ -50,7 +50,7 @@ impl<'a> Sample<'a> {
     /// are cut off straight at its edges, are woven again among others: how a thread bends at the
     /// edge depends on floats that are cut off there.
     ///
-    /// **Errors**: those of [`Woven::yarns`].
+    /// **Errors**: the errors of [`Woven::yarns`].
     pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
         let repeat = cloth.repeat();
         let counts = [cloth.warp().len(), cloth.weft().len()];

@@ -137,7 +137,7 @@ impl Weave {
 
     /// A cloth of `ends` and `picks` in this weave.
     ///
-    /// **Errors**: those of [`Drawdown::new`].
+    /// **Errors**: the errors of [`Drawdown::new`].
     pub fn drawdown(&self, ends: usize, picks: usize) -> Result<Drawdown, FabricError> {
         Drawdown::repeating(ends, picks, self.repeat(), |end, pick| self.up(end, pick))
     }

@@ -6,7 +6,7 @@ use texere_fabric::{Drawdown, Thread, Woven, WovenRest};
 use crate::surfaces::Surfaces;
 use crate::{at_rest, plain, tightest};
 
-/// Ends, and picks, of a cloth.
+/// Number of ends, and of picks.
 const THREADS: usize = 24;
 
 /// Diameter of all threads, mm.
@@ -16,19 +16,20 @@ fn twill(end: usize, pick: usize) -> bool {
     (end + 64 - pick) % 4 < 2
 }
 
-/// Two cloths of a weave, face ends and picks first by turns. Where `stitched`, some ends of the
-/// back are lifted over a pick of the face.
+/// Two layers of one weave. Ends and picks belong to the face and to the back by turns, the face
+/// first. Where `stitched`, some back ends are lifted over a face pick.
 fn double(weave: fn(usize, usize) -> bool, stitched: bool) -> Drawdown {
     let up = move |end: usize, pick: usize| match [end % 2, pick % 2] {
         [0, 0] | [1, 1] => weave(end / 2, pick / 2),
         [0, _] => true,
-        // Where the ends beside it float over that pick, and it lies over the picks beside it.
+        // A stitch: the ends beside it float over that pick, and the back end lies over the picks
+        // beside it.
         _ => stitched && (end / 2).is_multiple_of(4) && (end / 2 + 64 - pick / 2).is_multiple_of(8),
     };
     Drawdown::from_fn(THREADS, THREADS, up).unwrap()
 }
 
-/// Picks by turns of the face, in a weft-faced twill, and of the back, in a warp-faced one.
+/// Picks by turns of the face, which is a weft-faced twill, and of the back, a warp-faced one.
 fn weft_backed(end: usize, pick: usize) -> bool {
     let step = (end + 64 - pick / 2) % 4;
     if pick.is_multiple_of(2) { step == 0 } else { step != 2 }
@@ -79,7 +80,8 @@ fn layers_lie_on_one_another() {
     }
 }
 
-/// At every crossing the thread that the drawdown has on top lies higher, whatever its layer.
+/// At every crossing the thread that the drawdown puts on top lies higher, in whichever layer it
+/// is.
 fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
     let path = |yarn: usize| -> Vec<[f64; 3]> {
         let points = rest.yarns.yarn_points(yarn).unwrap();
@@ -91,7 +93,7 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
         let [one, two] = [path[after - 1], path[after]];
         one[2] + (at - one[axis]) / (two[axis] - one[axis]) * (two[2] - one[2])
     };
-    // Threads shift sideways: an end's place is that of its nearest point.
+    // Threads shift sideways: the point of an end that lies nearest to the pick counts.
     let place = |path: &[[f64; 3]], axis: usize, along: usize, at: f64| {
         let near = path.iter().min_by(|one, two| (one[along] - at).abs().total_cmp(&(two[along] - at).abs()));
         near.unwrap()[axis]
@@ -110,7 +112,7 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
     }
 }
 
-/// Two layers side by side in one would be far from clear.
+/// Layers that are laid into one plane are far from clear: the test is able to fail.
 #[test]
 fn layers_in_one_place_pierce() {
     let clearance = Surfaces::new(&cloth(double(plain, false), 2.0).yarns().unwrap()).clearance();

@@ -27,8 +27,8 @@ pub(crate) struct YarnUnder {
 /// The yarns under `point`, the topmost first.
 pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2]) -> Vec<YarnUnder> {
     let said = |place: &YarnPlace| {
-        let NamedPlace { thread, material, told } = design.named(yarns, place);
-        let (place_of, instructions) = told.map(|told| (told.place, told.instructions)).unzip();
+        let NamedPlace { thread, material, program } = design.named(yarns, place);
+        let (place_of, instructions) = program.map(|program| (program.place, program.instructions)).unzip();
         // Guides of a warp knit make all courses.
         let course =
             || design.structure.warp_knitted().and(place.source).map(|course| format!("course {course}"));

@@ -93,7 +93,7 @@ impl MachineReport {
         design.structure.knitted()?;
         let said = |errors| {
             let faults = design.faults().iter().filter(|fault| fault.is_error == errors);
-            faults.map(|fault| fault.said.clone()).collect()
+            faults.map(|fault| fault.message.clone()).collect()
         };
         Some(Self { errors: said(true), warnings: said(false) })
     }

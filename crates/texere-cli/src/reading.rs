@@ -43,7 +43,7 @@ pub(crate) fn saved(
 /// remarks that were printed.
 pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     let design = texere::read(path)?;
-    let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.said);
+    let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.message);
     let pieces = design.structure.pieces();
     let apart = pieces.falls_apart().then(|| pieces.to_string());
     let faults: Vec<_> = errors.chain(&apart).collect();

@@ -95,10 +95,10 @@ fn designs() -> Vec<(&'static str, String, Option<&'static str>)> {
 /// All that is known of a design but its files.
 fn known(design: &Design) -> String {
     let Design { name, structure, settle, finish, stretch, .. } = design;
-    let told: Vec<_> = (0..20).map(|source| design.told(source)).collect();
+    let places: Vec<_> = (0..20).map(|source| design.program_place(source)).collect();
     let (yarns, faults) = (design.yarns().unwrap(), design.faults());
     format!(
-        "{name} {structure:?} {settle} {finish:?} {stretch:?} {yarns:?} {told:?} {faults:?} {:?}",
+        "{name} {structure:?} {settle} {finish:?} {stretch:?} {yarns:?} {places:?} {faults:?} {:?}",
         design.warnings()
     )
 }

@@ -56,9 +56,9 @@ fn a_chart_in_symbols() {
     assert_eq!(names, ["red", "white"]);
     assert!(design.settle && design.warnings().is_empty());
     // Cell of row 1 from the top, column 2: the first row that is read is the first course.
-    let told = design.told(3).unwrap();
-    assert!(told.place.ends_with("a.toml, row 1 from the top, column 2"), "{}", told.place);
-    assert!(told.instructions.contains(&"knit - b1 red".into()), "{:?}", told.instructions);
+    let place = design.program_place(3).unwrap();
+    assert!(place.place.ends_with("a.toml, row 1 from the top, column 2"), "{}", place.place);
+    assert!(place.instructions.contains(&"knit - b1 red".into()), "{:?}", place.instructions);
 }
 
 #[test]
@@ -92,11 +92,11 @@ fn a_picture_is_jacquard_or_a_chart() {
     assert_eq!(single.yarns().unwrap().layout().yarns().len(), 3);
     assert_eq!(knitted(&single).stitches().loops.len(), 6);
     assert_eq!(single.files().len(), 2);
-    let told = single.told(1).unwrap();
-    assert!(told.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", told.place);
+    let place = single.program_place(1).unwrap();
+    assert!(place.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", place.place);
     let upside_down = read("rows = \"first-pick-first\"", &colors("red", "white")).unwrap();
-    let told = upside_down.told(4).unwrap();
-    assert!(told.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", told.place);
+    let place = upside_down.program_place(4).unwrap();
+    assert!(place.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", place.place);
     for (backing, loops) in [("birdseye", 10), ("ladder", 12)] {
         let double = read(&format!("backing = \"{backing}\""), &colors("red", "white")).unwrap();
         assert_eq!(knitted(&double).stitches().loops.len(), loops, "{backing}");
@@ -148,8 +148,8 @@ fn a_knitout_file_alone_or_named_by_a_design() {
         );
         assert!(warnings[0].contains("line 7: needles f2 and f1 hold nothing"), "{warnings:?}");
         assert!(design.faults().iter().all(|fault| !fault.is_error));
-        let told = design.told(10).unwrap();
-        assert!(told.place.ends_with(", line 10") && told.instructions == ["knit + f1 3"], "{told:?}");
+        let place = design.program_place(10).unwrap();
+        assert!(place.place.ends_with(", line 10") && place.instructions == ["knit + f1 3"], "{place:?}");
     }
     let design = read_in(
         folder.path(),
@@ -183,7 +183,7 @@ fn faults_of_a_machine_are_told_by_place() {
     for (line, said) in [(4, "the hook takes carrier 2"), (7, "rack 9"), (8, "does not lie opposite")] {
         let place = format!("a.k, line {line}: ");
         assert!(
-            errors.iter().any(|fault| fault.said.contains(&place) && fault.said.contains(said)),
+            errors.iter().any(|fault| fault.message.contains(&place) && fault.message.contains(said)),
             "{errors:?}"
         );
     }

@@ -13,4 +13,4 @@
 //! | say in words where a yarn was picked | [`Design::named`](crate::Design::named), which gives a [`NamedPlace`] |
 
 pub use texere_formats::read::{SavedYarns, yarns, yarns_from};
-pub use texere_formats::{FilePlace, MachineFault, NamedPlace, Refusal, Told};
+pub use texere_formats::{FilePlace, MachineFault, NamedPlace, ProgramPlace, Refusal};

@@ -5,10 +5,10 @@ use texere_core::settling::Length;
 use texere_fabric::{Finish, Stretch};
 use toml::Spanned;
 
+use super::any::Any;
 use super::limits::{STRETCH, TIMES_MOST};
 use super::schema::FinishTable;
 use super::source::Source;
-use super::value::Any;
 use crate::read::ReadError;
 
 /// The least and the most times its length that a yarn may be given.

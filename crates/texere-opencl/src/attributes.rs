@@ -8,11 +8,11 @@ use texere_core::{ArcLength, BackendError};
 use texere_gpu::Params;
 use texere_kernels::{ATTRIBUTES_OF_CAPS, ATTRIBUTES_OF_TUBES, BLOCK_LENGTHS, YARN_LENGTHS};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel, in_memory};
-use crate::kernels::{Launches, Work};
 use crate::opened::Opened;
+use crate::work::{Launches, Work};
 
 /// What makes attributes, of an engine that was asked for them.
 #[derive(Debug)]

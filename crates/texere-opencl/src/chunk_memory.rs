@@ -7,7 +7,7 @@ use texere_core::definitions::Ring;
 use texere_core::{Attribute, BackendError, PackedVertex, Topology, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 

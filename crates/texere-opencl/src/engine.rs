@@ -15,16 +15,17 @@ use texere_core::{BackendError, ControlPoint, Limits, MeshPiece, Vertex};
 use texere_gpu::{YarnEnds, YarnRow, check_schedule, settles_flattened};
 
 use crate::attributes::Attributes;
-use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
-use crate::kernels::{Kernels, Launches, Work, kernels};
+use crate::device_mesh::DeviceMesh;
+use crate::kernels::kernels;
 use crate::opened::Opened;
 use crate::packed::Packed;
-use crate::session::DeviceMesh;
+use crate::readback::Readback;
 use crate::settling::OpenClSettler;
 use crate::tables::Tables;
 use crate::upload::Outbox;
+use crate::work::{Kernels, Launches, Work};
 
 /// The engine of an [`OpenClSession`](crate::OpenClSession).
 #[derive(Debug)]
@@ -41,7 +42,7 @@ pub struct OpenClEngine {
     packed: Option<Packed>,
     /// One for each [`Slot`].
     memory: Vec<ChunkMemory>,
-    staging: Staging,
+    readback: Readback,
     outbox: Outbox,
     clock: Clock,
     opened: Arc<Opened>,
@@ -59,7 +60,7 @@ impl OpenClEngine {
             packed: None,
             plan,
             memory: Vec::new(),
-            staging: Staging::default(),
+            readback: Readback::default(),
             outbox: Outbox::default(),
             clock: Clock::default(),
             opened,
@@ -283,9 +284,9 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { rings, ready, .. } = &memory[slot.index()];
-        staging.read(opened, rings, chunk.rings(), ready.as_deref(), clock, &mut |_, rings| sink(rings))
+        readback.read(opened, rings, chunk.rings(), ready.as_deref(), clock, &mut |_, rings| sink(rings))
     }
 
     fn read_mesh(
@@ -294,10 +295,10 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { vertices, indices, ready, .. } = &memory[slot.index()];
         let ready = ready.as_deref();
-        let flow = staging.read(
+        let flow = readback.read(
             opened,
             vertices,
             chunk.vertices(),
@@ -308,7 +309,7 @@ impl Engine for OpenClEngine {
         if flow.is_break() {
             return Ok(flow);
         }
-        staging.read(opened, indices, chunk.indices(), ready, clock, &mut |first, indices: &[u32]| {
+        readback.read(opened, indices, chunk.indices(), ready, clock, &mut |first, indices: &[u32]| {
             sink(MeshPiece::Indices { first, indices })
         })
     }
@@ -340,9 +341,9 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: AttributeSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { attributes, ready, .. } = &memory[slot.index()];
-        staging.read(opened, attributes, chunk.vertices(), ready.as_deref(), clock, sink)
+        readback.read(opened, attributes, chunk.vertices(), ready.as_deref(), clock, sink)
     }
 
     fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
@@ -365,9 +366,9 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: PackedSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { packed, ready, .. } = &memory[slot.index()];
-        staging.read(opened, packed, chunk.vertices(), ready.as_deref(), clock, sink)
+        readback.read(opened, packed, chunk.vertices(), ready.as_deref(), clock, sink)
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

@@ -11,7 +11,7 @@ use opencl3::kernel::{create_kernel, set_kernel_arg};
 use texere_core::BackendError;
 use texere_kernels::EntryPoint;
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 

@@ -17,11 +17,12 @@
 
 mod attributes;
 mod backend;
-mod buffers;
+mod buffer;
 mod chunk_memory;
 mod clock;
 mod crossings;
 mod device;
+mod device_mesh;
 mod engine;
 mod faults;
 mod handles;
@@ -29,16 +30,20 @@ mod kernel;
 mod kernels;
 mod opened;
 mod packed;
+mod per_ring;
 mod per_yarn;
 mod pinned;
+mod readback;
 mod room;
 mod session;
 mod settling;
 mod tables;
 mod upload;
+mod work;
 
 pub use backend::OpenClBackend;
+pub use device_mesh::DeviceMesh;
 pub use engine::OpenClEngine;
 pub use faults::OpenClError;
-pub use session::{DeviceMesh, OpenClSession};
+pub use session::OpenClSession;
 pub use texere_core::backend::Schedule;

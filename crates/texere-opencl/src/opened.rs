@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 
 use opencl3::command_queue::{CL_QUEUE_DEVICE, get_command_queue_info};
 use opencl3::error_codes::{CL_BUILD_PROGRAM_FAILURE, ClError};
+use opencl3::event::wait_for_events;
 use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
@@ -125,6 +126,11 @@ impl Opened {
         let compiled = build(device, &self.context, &self.name, program, flattened)?;
         // Another session may have been faster.
         Ok(held.get_or_init(|| compiled))
+    }
+
+    /// Waits until `event`'s command has ended.
+    pub(crate) fn wait(&self, event: &Handle) -> Result<(), BackendError> {
+        wait_for_events(&[event.raw()]).map_err(self.failed("clWaitForEvents"))
     }
 
     /// The error that `call` ended in.

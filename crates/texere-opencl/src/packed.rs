@@ -7,8 +7,8 @@ use texere_kernels::{PACKED, PACKED_CAPS, PACKED_ODD};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
-use crate::kernels::{Launches, Work};
 use crate::opened::Opened;
+use crate::work::{Launches, Work};
 
 /// What packs vertices, of an engine that was asked for it.
 #[derive(Debug)]

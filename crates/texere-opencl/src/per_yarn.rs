@@ -10,8 +10,8 @@ use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
-use crate::kernels::{Kernels, Launches, Work};
 use crate::opened::Opened;
+use crate::work::{Kernels, Launches, Work};
 
 /// A lane a part.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 use texere_core::{BackendError, Limits, OutOfMemory};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::opened::Opened;
 
 /// What a device may still be asked for.

@@ -7,7 +7,7 @@ use texere_core::definitions::{Turn, index_pattern};
 use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{YarnRow, cap_pattern, lean_count, lean_rows};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::opened::Opened;
 
 /// What every stage reads.

@@ -11,7 +11,7 @@ use opencl3::memory::CL_MAP_WRITE;
 use texere_core::{BackendError, ControlPoint};
 use texere_gpu::PaddedUpload;
 
-use crate::buffers::{Buffer, wait};
+use crate::buffer::Buffer;
 use crate::clock::{Clock, Stage};
 use crate::handles::Handle;
 use crate::opened::Opened;
@@ -88,7 +88,7 @@ impl Outbox {
         range: Range<u64>,
     ) -> Result<Vec<Arc<Handle>>, BackendError> {
         if let Some(last) = self.last.take() {
-            wait(opened, &last)?;
+            opened.wait(&last)?;
         }
         let pieces = Piece::cut(&range);
         let largest = pieces.iter().map(|piece| piece.range.end - piece.range.start).max().unwrap_or(0);
@@ -223,7 +223,7 @@ impl Flight<'_> {
         if let (true, Some(before)) = (first_part, number.checked_sub(self.slots.len())) {
             // Its parts were taken before, so other cores are at them.
             let Some(sent) = self.wait_until(|| self.pieces[before].sent.get()) else { return Ok(false) };
-            wait(self.opened, sent)?;
+            self.opened.wait(sent)?;
             piece.free.store(true, Ordering::Release);
         }
         Ok(self.wait_until(|| piece.free.load(Ordering::Acquire).then_some(())).is_some())

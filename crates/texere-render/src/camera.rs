@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use crate::axes::{across, aspect};
 use crate::{Extent, RenderError};
 
 /// Room left round the cloth, as a share of it.
@@ -288,17 +289,6 @@ impl Camera {
 /// A perspective of the field of view that all cameras have which nobody gave another.
 fn portrait(distance: f32) -> Projection {
     Projection::Perspective { distance, field_of_view: Camera::FIELD_OF_VIEW }
-}
-
-/// The picture's right and up, where the eye lies in direction `toward`.
-pub(crate) fn across(up: Vec3, toward: Vec3) -> [Vec3; 2] {
-    let right = up.cross(toward).normalize();
-    [right, toward.cross(right)]
-}
-
-pub(crate) fn aspect(size: [u32; 2]) -> f32 {
-    // An empty picture is refused later, when it is drawn.
-    size[0].max(1) as f32 / size[1].max(1) as f32
 }
 
 fn positive(what: &'static str, value: f32) -> Result<f32, RenderError> {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use texere_core::settling::Settler;
 use texere_core::{BackendError, Section, Yarns};
 
-use crate::camera::{across, aspect};
+use crate::axes::{across, aspect};
 
 /// The box round a fabric, and how thick its yarns are.
 #[derive(Debug, Clone, Copy, PartialEq)]

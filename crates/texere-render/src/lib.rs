@@ -10,11 +10,13 @@
 //! view of the fabric. Every triangle is drawn from control points, by compute shaders and without
 //! a mesh, chunk after chunk; then the visible pixels are lit, once.
 
+mod axes;
 mod background;
 mod camera;
 mod error;
 mod extent;
 mod hairs;
+mod mapped;
 mod memory;
 mod projection;
 mod raster;

@@ -1,7 +1,6 @@
 //! Buffers of a renderer's device.
 
 use texere_core::BackendError;
-use texere_wgpu::WgpuBackend;
 use wgpu::BufferUsages;
 
 use crate::Renderer;
@@ -41,16 +40,4 @@ impl Renderer {
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), BackendError> {
         self.device.scoped("Queue::write_buffer", || self.device.queue().write_buffer(buffer, 0, bytes))
     }
-}
-
-/// What `read` makes of `buffer`, which a submission that is done has asked to map.
-pub(crate) fn read_mapped<T>(
-    device: &WgpuBackend,
-    buffer: &wgpu::Buffer,
-    read: impl FnOnce(&[u8]) -> T,
-) -> Result<T, BackendError> {
-    let call = "Buffer::get_mapped_range";
-    device
-        .scoped(call, || buffer.get_mapped_range(..).map(|view| read(&view)))?
-        .map_err(|source| BackendError::Driver { call, source: source.into() })
 }

@@ -81,7 +81,7 @@ impl Renderer {
             last.take().filter(|screen| screen.fits(size, supersampling) && Arc::strong_count(screen) == 1);
         let screen = match free {
             Some(screen) => screen,
-            None => Arc::new(Screen::new(self, size, supersampling)?),
+            None => Arc::new(Screen::new(&self.device, size, supersampling)?),
         };
         Ok(last.insert(screen).clone())
     }

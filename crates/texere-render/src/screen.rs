@@ -3,12 +3,11 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::BackendError;
+use texere_core::{Backend, BackendError};
 use texere_wgpu::WgpuBackend;
 use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 
-use crate::Renderer;
-use crate::memory::read_mapped;
+use crate::mapped::read_mapped;
 
 /// Samples of a pixel, where rasterisers of every device have them for four.
 pub(crate) const SAMPLES: u32 = 4;
@@ -45,8 +44,11 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
-    pub(crate) fn new(renderer: &Renderer, size: [u32; 2], supersampling: u32) -> Result<Self, BackendError> {
-        let device = &renderer.device;
+    pub(crate) fn new(
+        device: &WgpuBackend,
+        size: [u32; 2],
+        supersampling: u32,
+    ) -> Result<Self, BackendError> {
         let large = size.map(|pixels| pixels * supersampling);
         let texture = |label, [width, height]: [u32; 2], layers, format, usage| {
             let texture = device.device().create_texture(&wgpu::TextureDescriptor {
@@ -77,11 +79,11 @@ impl Screen {
         let bytes = u64::from(row_bytes(size)) * u64::from(size[1]);
         let host = device.buffer("picture", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
         let key_bytes = key_row(large) * u64::from(large[1]);
-        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes).max(key_row(large));
-        let keys = renderer.buffer(
+        let most = KEYS_MOST.min(device.info().limits.binding_bytes).max(key_row(large));
+        let keys = device.buffer(
             "samples",
             key_bytes.min(most / key_row(large) * key_row(large)),
-            BufferUsages::STORAGE,
+            BufferUsages::STORAGE | BufferUsages::COPY_DST,
         )?;
         Ok(Self { size, supersampling, depths, directions, places, visibility, lit, picture, keys, host })
     }

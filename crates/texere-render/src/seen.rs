@@ -3,7 +3,7 @@
 use glam::DVec3;
 use wgpu::{BufferUsages, Extent3d, Origin3d, TexelCopyBufferInfo, TexelCopyBufferLayout, TextureAspect};
 
-use crate::memory::read_mapped;
+use crate::mapped::read_mapped;
 use crate::{RenderError, Scene};
 
 /// What a picture shows at a point: the yarn, and where on its surface.

@@ -4,7 +4,7 @@ use texere_core::BackendError;
 use texere_shaders::{ATTRIBUTES_OF_CAPS, ATTRIBUTES_OF_TUBES, BLOCK_LENGTHS, YARN_LENGTHS};
 
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 /// The compiled shaders that make attributes.
 #[derive(Debug)]

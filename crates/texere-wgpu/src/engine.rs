@@ -18,7 +18,9 @@ use wgpu::BindingResource;
 
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
-use crate::kernels::{Kernel, Kernels, Opened};
+use crate::kernel::Kernel;
+use crate::kernels::Kernels;
+use crate::opened::Opened;
 use crate::per_yarn;
 use crate::readback::Readback;
 use crate::settling::WgpuSettler;

@@ -29,6 +29,7 @@
 
 mod answer;
 mod attributes;
+mod backend;
 mod buffer;
 mod chunk_memory;
 mod clock;
@@ -37,9 +38,12 @@ mod device;
 mod draw;
 mod engine;
 mod gpu;
+mod kernel;
 mod kernels;
 mod mapped;
+mod opened;
 mod packed;
+mod per_ring;
 mod per_yarn;
 mod readback;
 mod room;
@@ -48,7 +52,8 @@ mod settling;
 mod tables;
 mod upload;
 
-pub use device::{LAUNCH_BLOCKS, LONG_ATOMICS, WgpuBackend};
+pub use backend::WgpuBackend;
+pub use device::{LAUNCH_BLOCKS, LONG_ATOMICS};
 pub use draw::{ATTRIBUTE_LAYOUT, PACKED_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};

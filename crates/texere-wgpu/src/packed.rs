@@ -4,7 +4,7 @@ use texere_core::BackendError;
 use texere_shaders::{PACKED, PACKED_CAPS, PACKED_ODD};
 
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 /// The compiled shaders that pack vertices.
 #[derive(Debug)]

@@ -5,10 +5,12 @@ use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk};
 use texere_core::{PackedVertex, Quantum, Vertex};
 
+use super::instruction_set::InstructionSet;
 use super::lines::Lines;
+use super::maker::Maker;
+use super::mesh::{MeshJob, STREAM_BYTES};
 use super::runs::{MeshRun, vertex_runs};
 use super::simd::{Floats, IN_TURN, Integers, Job, LANES_MAX, LINE, Mask, Simd};
-use super::{InstructionSet, Maker, MeshJob, STREAM_BYTES};
 use crate::engine::Work;
 use crate::packed::caps;
 use crate::pages;

@@ -4,7 +4,9 @@ use texere_core::SectionPoint;
 
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd, difference, plus, scale};
-use super::vertices::VERTEX;
+
+/// Floats of a vertex: position and normal.
+pub(super) const VERTEX: usize = 6;
 
 /// A vector of rings with what all their vertices share.
 pub(super) trait Stances<S: Simd> {

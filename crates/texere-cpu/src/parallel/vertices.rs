@@ -5,10 +5,7 @@ use texere_core::SectionPoint;
 
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd};
-use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances};
-
-/// Floats of a vertex: position and normal.
-pub(super) const VERTEX: usize = 6;
+use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances, VERTEX};
 
 /// Floats by which the stores of a ring may reach over its end.
 pub(super) const OVERHANG: usize = 2;

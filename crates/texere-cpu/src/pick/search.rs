@@ -2,10 +2,10 @@
 
 use texere_core::backend::BLOCK_RINGS;
 use texere_core::definitions::Ring;
-use texere_core::{Bounds, End, MeshPlace};
+use texere_core::{Bounds, End, MeshPlace, Ray};
 
 use super::beam::{Beam, Touch};
-use super::{Hit, Picker};
+use super::picker::Picker;
 use crate::serial::rings;
 
 /// Rings of a block, and the one after it that its last triangles end at.
@@ -14,9 +14,36 @@ const RINGS: usize = BLOCK_RINGS as usize + 1;
 /// What sections and frames may reach further than they should, by rounding.
 const REACH_SLACK: f32 = 1.0 + 1e-5;
 
+/// What a ray hits first. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its yarn, interval
+/// and `t`, and a structure's `place` says what a weaver or a knitter calls that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// How far from the ray's origin, in lengths of its direction: in mm where that has length 1.
+    pub distance: f64,
+    /// The triangle's place.
+    pub place: MeshPlace,
+    /// Where it is hit, mm.
+    pub position: [f64; 3],
+    /// The control interval of the yarn, from 0.
+    pub interval: u32,
+    /// How far along that, from 0 to 1: between the rings of the triangle, as the point lies
+    /// between them.
+    pub t: f64,
+}
+
+impl Picker {
+    /// The first triangle that `ray` hits, from either side; of several at the same distance the
+    /// first along the yarns. None where it hits nothing, goes nowhere, or has numbers that are not
+    /// finite.
+    #[must_use]
+    pub fn pick(&self, ray: &Ray) -> Option<Hit> {
+        Search::new(self, Beam::new(ray)?).run()
+    }
+}
+
 /// A ray on its way.
 #[derive(Debug)]
-pub(super) struct Search<'a> {
+struct Search<'a> {
     picker: &'a Picker,
     beam: Beam,
     /// The vertices of two rings.
@@ -44,12 +71,12 @@ impl Nearest {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(picker: &'a Picker, beam: Beam) -> Self {
+    fn new(picker: &'a Picker, beam: Beam) -> Self {
         Self { picker, beam, corners: Vec::new(), nearest: None }
     }
 
     /// Goes through the whole cloth.
-    pub(super) fn run(mut self) -> Option<Hit> {
+    fn run(mut self) -> Option<Hit> {
         let picker = self.picker;
         let (mut most, beam) = (f64::INFINITY, self.beam);
         picker.cloth.visit(&beam, &mut most, &mut |position| {

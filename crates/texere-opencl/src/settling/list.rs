@@ -11,7 +11,7 @@ use texere_kernels::{
 };
 
 use super::memory::Memory;
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 

@@ -5,7 +5,7 @@ use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, StrandRow};
 use texere_kernels::{SETTLING_PULL_WEIGHTED, SETTLING_SCAN_VALUES};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::opened::Opened;
 use crate::room::Room;
 

@@ -13,7 +13,7 @@ use texere_core::{BackendError, Limits};
 use texere_gpu::{SettlingParams, settles_flattened};
 use texere_kernels::EntryPoint;
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::kernel::Kernel;
 use crate::opened::Opened;
 use list::ListKernels;

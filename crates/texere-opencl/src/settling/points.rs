@@ -8,7 +8,7 @@ use texere_gpu::{BoundsRow, EXTENT_GROUPS, SettledParams, SettledRow};
 use texere_kernels::{EntryPoint, SETTLING_BOUNDS, SETTLING_POINTS};
 
 use super::memory::Memory;
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 

@@ -5,7 +5,7 @@ use texere_core::settling::Form;
 use texere_shaders::settling;
 
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 /// All of them, for round yarns alone or for all yarns.
 #[derive(Debug)]

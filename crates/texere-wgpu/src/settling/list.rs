@@ -8,7 +8,7 @@ use wgpu::{BindingResource, BufferBinding, BufferSize, CommandEncoder, ComputePa
 use super::memory::groups;
 use super::{SettlingKernels, WgpuSettler, record, submit};
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 impl WgpuSettler {
     /// Works out all chords, and cells as they need them while yarns have `growth` of their

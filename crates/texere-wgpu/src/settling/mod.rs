@@ -3,6 +3,7 @@
 mod kernels;
 mod list;
 mod memory;
+mod pass;
 mod points;
 
 use std::ops::ControlFlow;
@@ -11,12 +12,13 @@ use std::sync::Arc;
 use texere_core::backend::zeroed;
 use texere_core::settling::{Pass, Place, Settler, SettlingPlan, SettlingSeen};
 use texere_core::{BackendError, Limits};
-use texere_gpu::{SeenRow, SettlingParams, settles_flattened};
+use texere_gpu::{SettlingParams, settles_flattened};
 use wgpu::{CommandEncoder, ComputePassDescriptor};
 
 use crate::answer::Answer;
 use crate::gpu::Gpu;
-use crate::kernels::{Kernel, Opened};
+use crate::kernel::Kernel;
+use crate::opened::Opened;
 use crate::readback::Readback;
 
 pub(crate) use kernels::SettlingKernels;
@@ -113,25 +115,10 @@ impl Settler for WgpuSettler {
         if self.params.places == 0 {
             return Ok(SettlingSeen::NOTHING);
         }
-        self.params = self.params.with_pass(&self.plan, pass);
-        self.send_params()?;
-        let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
-        let [pull, step] = kernels.form(pass.form);
-        let places = pull.workgroups(self.params.places);
-        let yarns = kernels.ends.workgroups(self.params.yarns);
-        let seen: Vec<SeenRow> = self.answer.after(gpu, &memory.all, (0, 1), |encoder| {
-            let stages = [
-                (&kernels.chords, kernels.chords.workgroups(self.params.chords)),
-                (pull, places),
-                (step, places),
-                (&kernels.ends, yarns),
-                (&kernels.seen, 1),
-            ];
-            record(gpu, memory, encoder, &stages);
-        })?;
+        let seen = self.run(pass)?;
         std::mem::swap(&mut self.memory.places, &mut self.memory.seen);
         self.seen = true;
-        Ok(seen.first().map_or(SettlingSeen::NOTHING, |row| row.seen()))
+        Ok(seen)
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {

@@ -9,7 +9,8 @@ use texere_shaders::Resource;
 use wgpu::{BufferUsages, CommandEncoder, ComputePassDescriptor};
 
 use super::{WgpuSettler, submit};
-use crate::kernels::{Kernel, Opened};
+use crate::kernel::Kernel;
+use crate::opened::Opened;
 
 impl WgpuSettler {
     /// Writes all control points, padded as `plan` says, to `points` where that lies on the same

@@ -5,6 +5,7 @@ mod chords;
 mod contacts;
 mod curves;
 mod lists;
+mod make;
 mod steps;
 mod tables;
 
@@ -23,8 +24,9 @@ use super::simd::{Job, Simd};
 use bends::Own;
 use contacts::{Room, Source};
 use lists::{Basis, Lists};
+use make::Make;
 use steps::Gather;
-use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, Make, PullRow, TASK};
+use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, PullRow, TASK};
 
 /// All cores.
 #[derive(Debug)]

@@ -1,0 +1,73 @@
+//! What the stages of an engine are given and give back, whatever the schedule.
+
+use std::fmt::Debug;
+use std::ops::Range;
+use std::sync::Arc;
+
+use bytemuck::bytes_of;
+use texere_core::BackendError;
+use texere_core::backend::{Chunk, Plan};
+use texere_gpu::Params;
+
+use crate::chunk_memory::ChunkMemory;
+use crate::handles::Handle;
+use crate::kernel::Arg;
+use crate::opened::Opened;
+use crate::tables::Tables;
+
+/// The events of the launches that make a stage, in order.
+pub(crate) type Launches = Vec<Arc<Handle>>;
+
+/// What a stage works with.
+#[derive(Clone, Copy)]
+pub(crate) struct Work<'a> {
+    pub(crate) opened: &'a Opened,
+    pub(crate) plan: &'a Plan,
+    pub(crate) tables: &'a Tables,
+}
+
+impl<'a> Work<'a> {
+    /// What the kernels that read a chunk's table begin with, in the order of the sources. Those
+    /// that need no rolls leave out the last two, `block_turns` the last.
+    pub(crate) fn inputs(
+        &self,
+        params: &'a Params,
+        window: &'a u64,
+        memory: &'a ChunkMemory,
+    ) -> [Arg<'a>; 7] {
+        [
+            Arg::Value(bytes_of(params)),
+            Arg::Value(bytes_of(window)),
+            Arg::Memory(&self.tables.points),
+            Arg::Memory(&self.tables.yarns),
+            Arg::Memory(&memory.table),
+            Arg::Memory(&self.tables.rolls),
+            Arg::Memory(&self.tables.yarn_turns),
+        ]
+    }
+}
+
+/// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the
+/// chunk's tables, and room for what the stage writes.
+pub(crate) trait Kernels: Debug + Send {
+    /// Whether `mesh` reads the chunk's rings rather than work them out itself.
+    fn mesh_reads_rings(&self) -> bool;
+
+    /// The first half of the scan: what each block of the chunk turns by.
+    fn block_turns(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError>;
+    /// The second half: rolls of `yarns` from the turns of their blocks.
+    fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError>;
+    fn trajectory(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError>;
+    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, memory: &ChunkMemory)
+    -> Result<Launches, BackendError>;
+}

@@ -51,3 +51,24 @@ fn every_path_of_the_map_is_there() {
     assert!(lost.is_empty(), "not there: {lost:?}");
     assert!(!is_there(&root.join("docs/NOWHERE.md")) && !is_there(&root.join("docs/NO*.md")));
 }
+
+/// Where the map says "`name` in `path`", the file has that name.
+#[test]
+fn every_name_of_the_map_is_in_its_file() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let map = include_str!("../../docs/ARCHITECTURE.md");
+    let mut seen = 0;
+    for line in map.lines() {
+        let pieces: Vec<_> = line.split('`').collect();
+        for piece in pieces.windows(3).filter(|piece| piece[1] == " in " && piece[2].ends_with(".rs")) {
+            let name = piece[0].rsplit("::").next().unwrap();
+            for path in alternatives(piece[2]) {
+                let text = std::fs::read_to_string(root.join(&path)).unwrap_or_default();
+                let mut words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+                assert!(words.any(|word| word == name), "{name} is not in {path}");
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 8, "{seen} names are not all of the map");
+}

@@ -6,7 +6,6 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::backend::OutOfMemory;
 use texere::check::ContactError;
 use texere::mesh::PlanError;
 use texere::picture::RenderError;
@@ -252,6 +251,7 @@ impl From<texere_view::ViewError> for Fail {
 mod tests {
     use std::io::ErrorKind;
 
+    use texere::backend::OutOfMemory;
     use texere::read::FilePlace;
 
     use super::*;

@@ -34,8 +34,8 @@ enum Edit {
 type Fabric = Vec<(Yarn, Vec<ControlPoint>)>;
 
 fn points(count: impl Into<prop::collection::SizeRange>) -> impl Strategy<Value = Vec<ControlPoint>> {
-    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where
-    // the lower bound has finer digits.
+    // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an assertion
+    // of its own where the lower bound has finer digits than the upper one.
     let half = || (0.0f32..0.5).prop_map(|half| half.max(0.05));
     let halves = prop_oneof![3 => Just((0.2f32, 0.2f32)), 1 => (half(), half())];
     let point = (-2.0f32..2.0, -2.0f32..2.0, -2.0f32..2.0, halves)

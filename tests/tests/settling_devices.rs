@@ -142,7 +142,7 @@ impl Reference {
     fn new(plan: &Arc<SettlingPlan>, form: Form) -> Self {
         let mut serial = SerialBackend::new().settler(Arc::clone(plan)).expect("a settler");
         let course = eight_passes(serial.as_mut(), form, &begin(plan, 0)).expect("a course");
-        // A shortcut that gives the same bits.
+        // `cpu` gives the same bits as `cpu-serial`, sooner.
         let mut cpu = ParallelBackend::open().expect("the CPU").settler(Arc::clone(plan)).expect("a settler");
         let mut apart = |units| {
             let other = eight_passes(cpu.as_mut(), form, &begin(plan, units)).expect("a course");

@@ -45,10 +45,10 @@ fn main() -> ExitCode {
 struct Worst {
     chunks: u64,
     vertices: u64,
-    /// Of a coordinate, in units of the tolerance: 1e-4 of the radius plus 4 units in the last
-    /// place.
+    /// Largest difference of a coordinate, in units of the tolerance: 1e-4 of the radius plus 4
+    /// units in the last place.
     position: f32,
-    /// Of a normal's component, in units of 1e-4.
+    /// Largest difference of a normal's component, in units of 1e-4.
     normal: f32,
     wrong_indices: u64,
 }

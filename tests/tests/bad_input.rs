@@ -338,7 +338,7 @@ fn the_edges_of_what_is_taken() {
     let tiny = line(&[(0.0, 1e-4), (1e-30, 1e-4), (1e-20, 1e-4), (1.0, 1e-4)]);
     // A step in the radius: a growth of 1e19, whose square f32 can't hold.
     let steep = line(&[(0.0, 1e-4), (1e-15, 3e4), (2e-15, 1e-4), (3e-15, 3e4)]);
-    // As flat as can be, and on edge.
+    // Yarns as flat as possible, and on edge.
     let flat = |points: &[ControlPoint], height: f32| -> Vec<ControlPoint> {
         points.iter().map(|point| point.flattened(point.half_width(), height)).collect()
     };

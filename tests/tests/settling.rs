@@ -46,7 +46,7 @@ fn starts_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Cloths without equal repeats, and with so many moving points that the worst of them decide.
+/// Cloths without equal repeats, and with many moving points, of which the worst decide.
 #[test]
 fn large_cloths_come_to_rest() {
     let failed: Vec<_> = [random_misses(30, 1), lace(25)].iter().filter_map(lacking).collect();

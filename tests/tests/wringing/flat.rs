@@ -21,7 +21,7 @@ fn flattened(point: &ControlPoint, flatness: f32) -> ControlPoint {
     point.flattened(radius * flatness.sqrt(), radius / flatness.sqrt())
 }
 
-/// The same yarns, flattened.
+/// `yarns`, flattened.
 fn flat(yarns: &Yarns, flatness: f32) -> Yarns {
     let points = yarns.points().iter().map(|point| flattened(point, flatness)).collect();
     Yarns::new(yarns.layout().as_ref().clone(), yarns.materials().to_vec(), points).unwrap()

@@ -11,8 +11,8 @@ use texere_wgpu::WgpuBackend;
 use crate::DeferredBackend;
 use crate::cases::{self, Case};
 
-/// All devices on which yarns of a mesh can be edited. For each that does not open, the reason is
-/// printed.
+/// All devices on which yarns of a mesh can be edited, and for each device that does not open the
+/// reason.
 #[must_use]
 pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
     let (devices, missing): (Vec<_>, Vec<_>) = REGISTRY.iter().map(Entry::devices).unzip();

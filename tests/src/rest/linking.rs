@@ -22,7 +22,7 @@ pub const CROSSED: f64 = 0.6;
 /// Number of intervals of a window to each side of its middle.
 const HALF_WINDOW: isize = 3;
 
-/// Chords an interval.
+/// Number of chords per interval.
 const PARTS: usize = 4;
 
 /// Largest distance between the middles of compared windows, before or after, in sums of both

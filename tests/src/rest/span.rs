@@ -60,7 +60,8 @@ pub fn piece_curve(piece: &Piece, yarns: &Yarns, yarn: usize, parts: usize) -> V
     (0..=points.len() * parts).map(sample).collect()
 }
 
-/// A surface over a loop: triangles from a place between its feet, from which all of it is seen.
+/// A surface that a loop spans: triangles from a point between its feet from which the whole loop
+/// is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct Span<'a> {
     ring: &'a [DVec3],
@@ -70,7 +71,7 @@ pub struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    /// The surface over a chain from foot to foot, with so many chords to a control interval.
+    /// The surface of a chain from foot to foot, with this many chords per control interval.
     ///
     /// # Panics
     ///
@@ -84,7 +85,7 @@ impl<'a> Span<'a> {
         Self { ring, middle, low: fold(DVec3::min), high: fold(DVec3::max) }
     }
 
-    /// How often a chain goes through, those that come back taken off.
+    /// Number of times that a chain goes through the surface, less the times that it comes back.
     #[must_use]
     pub fn through(&self, chain: &[DVec3]) -> i32 {
         let mut count = 0;

@@ -62,7 +62,7 @@ pub enum Remedy {
     },
     /// Circular sections for all threads, see [`Woven::set_section`].
     Circle,
-    /// The same flatness, width over height, for all threads: see [`Woven::set_flatness`].
+    /// One flatness, width over height, for all threads: see [`Woven::set_flatness`].
     Flatness(f32),
     /// All threads further apart.
     Spacing {

@@ -17,7 +17,7 @@ pub enum Verdict {
     /// No surface, as drawn, is nearer to another than [`CLEAR`], and none folds. All yarns keep
     /// their lengths and their linking.
     AtRest,
-    /// Yarns of a knit have no room: settling has tried everything, and they are not clear.
+    /// Yarns of a knit have no room: even the block form of settling has not made them clear.
     Jammed,
     /// A condition of [`Verdict::AtRest`] is not met.
     NotAtRest,

@@ -30,7 +30,7 @@ pub enum WeftError {
         passed: u64,
         /// Number of loops.
         loops: u64,
-        /// Most taken for so many loops.
+        /// Most taken for this number of loops.
         limit: u64,
         /// The [source](crate::weft::Operation::source) of the operation at which the longest way
         /// of a yarn between two loops ends; none for a warp knit.

@@ -20,6 +20,10 @@
 //!
 //! A tuck, and a loop on an empty needle, are drawn through nothing. Such an arch has no lower leg.
 //! A dropped loop has no upper leg: its head lies just above the middle of its legs.
+//!
+//! Loops laid so need not be clear of one another, but they have to be linked as in the cloth
+//! (`loops_are_drawn_through_what_the_chart_says`). Settling makes them clear
+//! (`knits_come_to_rest`).
 
 use glam::DVec3;
 

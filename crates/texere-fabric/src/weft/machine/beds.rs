@@ -66,8 +66,8 @@ impl Beds {
         HALVES * i64::from(needle.number) + racked
     }
 
-    /// The width of `repeats` repeats, in half wales: a loop that belongs to a repeat so many
-    /// further on lies this far to the left of the needle of repeat 0.
+    /// The width of `repeats` repeats, in half wales. A loop that hangs this number of repeats
+    /// further on lies this far to the left of its needle in repeat 0.
     pub(super) fn shift(&self, repeats: i32) -> i64 {
         HALVES * i64::from(repeats) * i64::from(self.width)
     }

@@ -114,19 +114,25 @@ fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64>
     (rises == (knot > 0.0)).then_some(knot)
 }
 
-/// Newton's method on (distance / sum of radii)², by way of |Δ|² - λ² (r₁ + r₂)², whose least value
-/// at the least λ is 0 (Dinkelbach, "On nonlinear fractional programming", Management Science 13,
-/// 1967): the parameters, the ratio, and its least curvature there.
-fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
-    let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
-    let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
-    let mut place = held_at(start);
-    let (mut a, mut b) = at(place);
-    let mut lambda = ratio_of(&a, &b);
-    // The least curvature of half the squared distance, by the same measure that is used below: 1 -
-    // |cos| of straight lines.
-    let mut curved = f64::INFINITY;
-    for _ in 0..STEPS {
+/// |Δ|² - λ² (r₁ + r₂)², halved, near a place of two yarns: how it rises and how it bends.
+///
+/// λ is the ratio there, so the value itself is 0.
+struct Slopes {
+    gradient: DVec2,
+    /// The second derivative by both parameters.
+    across: f64,
+    /// The second derivatives by each parameter, with what is added to make them convex.
+    bent: DVec2,
+    /// The squared speeds of both curves.
+    flat: [f64; 2],
+    /// The least curvature, of straight lines 1 less the cosine between them.
+    curved: f64,
+    /// Whether nothing had to be added.
+    convex: bool,
+}
+
+impl Slopes {
+    fn new(a: &At, b: &At, lambda: f64) -> Self {
         let (apart, radii) = (a.position - b.position, a.radius()[0] + b.radius()[0]);
         let held = lambda * lambda;
         let gradient = DVec2::new(
@@ -140,35 +146,39 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
                 - held * (at.radius()[1] * at.radius()[1] + radii * at.radius()[2]);
             (flat, bent)
         };
-        let ((flat_a, bent_a), (flat_b, bent_b)) = (own(&a, 1.0), own(&b, -1.0));
+        let ((flat_a, bent_a), (flat_b, bent_b)) = (own(a, 1.0), own(b, -1.0));
         // Where the distance is not convex, enough is added on the diagonal, by the measure of the
         // straight lines through both places, that it becomes so. A little more keeps parallel
         // lines where they are.
         let scale = DVec2::new(flat_a, flat_b) + f64::MIN_POSITIVE;
         let (own, along) = (DVec2::new(bent_a, bent_b) / scale, across / (scale.x * scale.y).sqrt());
-        curved = (own.x + own.y - (own.x - own.y).hypot(2.0 * along)) / 2.0;
+        let curved = (own.x + own.y - (own.x - own.y).hypot(2.0 * along)) / 2.0;
         let short = (-2.0 * curved).max(0.0);
         let added = scale * (short + 1e-9);
-        let (aa, bb) = (bent_a + added.x, bent_b + added.y);
-        if one.is_gone(place.x, -gradient.x) || other.is_gone(place.y, -gradient.y) {
-            break;
+        Self {
+            gradient,
+            across,
+            bent: DVec2::new(bent_a + added.x, bent_b + added.y),
+            flat: [flat_a, flat_b],
+            curved,
+            convex: short == 0.0,
         }
+    }
+
+    /// Newton's step downhill, [`STRIDE`] at most; `held` says which parameters can't go on in a
+    /// direction.
+    fn step(&self, held: impl Fn(DVec2) -> [bool; 2]) -> DVec2 {
+        let Self { gradient, across, bent, .. } = *self;
         // A parameter that is held where it would go on stays; the other one goes on alone.
-        let held_from = |towards: DVec2| {
-            let stays = |side: &Side<'_>, t: f64, towards: f64| {
-                towards != 0.0 && side.held(t + CLOSE * towards.signum()) == t
-            };
-            [stays(&one, place.x, towards.x), stays(&other, place.y, towards.y)]
-        };
         let alone = |fixed: [bool; 2]| {
-            let step = DVec2::new(-gradient.x / aa, -gradient.y / bb);
+            let step = DVec2::new(-gradient.x / bent.x, -gradient.y / bent.y);
             DVec2::select(fixed.into(), DVec2::ZERO, step)
         };
-        let step = match held_from(-gradient) {
+        let step = match held(-gradient) {
             [false, false] => {
-                let hessian = DMat2::from_cols(DVec2::new(aa, across), DVec2::new(across, bb));
+                let hessian = DMat2::from_cols(DVec2::new(bent.x, across), DVec2::new(across, bent.y));
                 let step = -(hessian.inverse() * gradient);
-                match held_from(step) {
+                match held(step) {
                     [false, false] => step,
                     fixed => alone(fixed),
                 }
@@ -176,13 +186,36 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
             fixed => alone(fixed),
         };
         // A yarn that stands still at a place has no way to go there. The other one goes on alone.
-        let step = if step.is_finite() {
-            step
-        } else {
-            alone([flat_a, flat_b].map(|flat| flat < f64::MIN_POSITIVE))
-        };
+        let step =
+            if step.is_finite() { step } else { alone(self.flat.map(|flat| flat < f64::MIN_POSITIVE)) };
         let step = if step.is_finite() { step } else { DVec2::ZERO };
-        let mut step = step * (STRIDE / step.abs().max_element()).min(1.0);
+        step * (STRIDE / step.abs().max_element()).min(1.0)
+    }
+}
+
+/// Newton's method on (distance / sum of radii)²: the parameters, the ratio, and its least
+/// curvature there.
+///
+/// It goes by way of |Δ|² - λ² (r₁ + r₂)², whose least value at the least λ is 0 (Dinkelbach, "On
+/// nonlinear fractional programming", Management Science 13, 1967).
+fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
+    let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
+    let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
+    let stays = |side: &Side<'_>, t: f64, towards: f64| {
+        towards != 0.0 && side.held(t + CLOSE * towards.signum()) == t
+    };
+    let mut place = held_at(start);
+    let (mut a, mut b) = at(place);
+    let mut lambda = ratio_of(&a, &b);
+    let mut curved = f64::INFINITY;
+    for _ in 0..STEPS {
+        let slopes = Slopes::new(&a, &b, lambda);
+        curved = slopes.curved;
+        if one.is_gone(place.x, -slopes.gradient.x) || other.is_gone(place.y, -slopes.gradient.y) {
+            break;
+        }
+        let mut step =
+            slopes.step(|towards| [stays(&one, place.x, towards.x), stays(&other, place.y, towards.y)]);
         // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth
         // without end.
         let moved = loop {
@@ -197,7 +230,7 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
             step /= 2.0;
         };
         // Where nothing was added, what is left is the square of it.
-        if moved < if short == 0.0 { SHORT } else { CLOSE } {
+        if moved < if slopes.convex { SHORT } else { CLOSE } {
             break;
         }
     }

@@ -59,7 +59,7 @@ pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled,
 pub use structure::Structure;
 pub use warning::FabricWarning;
 pub use woven::{
-    CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
+    BySet, CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
     POINTS_MAX, Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett,
     Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
     WovenRest,

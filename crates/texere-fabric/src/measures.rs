@@ -10,7 +10,7 @@ use crate::own::Own;
 use crate::reach::{Reach, mean_reach};
 use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
-use crate::{FabricError, Thread, Woven, tex_from_cotton_count};
+use crate::{BySet, FabricError, Thread, Woven, tex_from_cotton_count};
 
 /// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a
 /// cubic, whose turning points are met to 1/64 of an interval, and its height to the square of
@@ -43,14 +43,13 @@ pub struct Measures {
     /// Length of yarn of each material, mm, in the materials' order. Ends that hang out of a knit
     /// do not count.
     pub length_mm: Vec<f64>,
-    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1, in whole
-    /// repeats. Turns at a selvedge count as weft; of a cloth whose weft turns it is what the mill
+    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. Turns at a selvedge count as weft; of a cloth whose weft turns it is what the mill
     /// has to wind, not the wave of a pick alone.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define it so.
     ///
     /// None of a knit.
-    pub crimp: Option<[f64; 2]>,
+    pub crimp: Option<BySet<f64>>,
     /// How much of woven cloth its threads cover.
     pub cover: Option<Cover>,
     /// What only knits have.
@@ -84,17 +83,17 @@ pub struct KnitMeasures {
 /// How much of the cloth its threads cover, seen from the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
-    /// Peirce's cover factors of the warp and the weft: threads to the inch over √Ne, that is 28
+    /// Peirce's cover factors: threads to the inch over √Ne, that is 28
     /// times the share of width that round cotton yarns of the threads' weight take. It needs the
     /// tex of every material that is used.
     ///
     /// **Source**: Peirce 1937 (K = n/√N; at 28 cotton threads lie side by side).
-    pub factor: Option<[f64; 2]>,
+    pub factor: Option<BySet<f64>>,
     /// Peirce's K₁ + K₂ - K₁ K₂ / 28.
     pub cloth_factor: Option<f64>,
     /// Share of the width that ends take, of the length that picks take: widths of sections over
     /// spacings; 1 at most.
-    pub fraction: [f64; 2],
+    pub fraction: BySet<f64>,
     /// Share of the area that either covers: c₁ + c₂ - c₁ c₂.
     pub cloth: f64,
 }
@@ -160,7 +159,7 @@ impl Measures {
             threads.map(|(thread, ratio)| Some(tex(thread)? * ratio / extent)).sum::<Option<f64>>()
         });
         Ok(Self {
-            crimp: Some([crimp(0), crimp(1)]),
+            crimp: Some(BySet { warp: crimp(0), weft: crimp(1) }),
             cover: Some(Cover::of(cloth, yarns, whole, by_weight)),
             knit: None,
             areal_weight: weights.into_iter().sum(),
@@ -220,12 +219,12 @@ impl Cover {
                 let sum: Option<f64> = threads.iter().map(root).sum();
                 sum.map(|sum| sum / (across / INCH_MM))
             });
-        let factor = if let [Some(warp), Some(weft)] = factors { Some([warp, weft]) } else { None };
+        let factor = if let [Some(warp), Some(weft)] = factors { Some(BySet { warp, weft }) } else { None };
         Self {
             factor,
-            cloth_factor: factor.map(|[warp, weft]| warp + weft - warp * weft / PEIRCE),
-            fraction,
+            cloth_factor: factor.map(|BySet { warp, weft }| warp + weft - warp * weft / PEIRCE),
             cloth: fraction[0] + fraction[1] - fraction[0] * fraction[1],
+            fraction: BySet::of(fraction),
         }
     }
 }

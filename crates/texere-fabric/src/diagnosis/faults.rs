@@ -173,7 +173,7 @@ impl Woven {
     /// The jammed threads; `None` if there are none.
     #[must_use]
     pub fn jams(&self) -> Option<Jams> {
-        let [mut threads, picks] = self.pitches().map(|mut pitches| {
+        let [mut threads, picks] = self.pitches().into_array().map(|mut pitches| {
             pitches.retain(Pitch::is_jammed);
             pitches
         });

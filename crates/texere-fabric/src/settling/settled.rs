@@ -4,7 +4,7 @@ use texere_contact::{Clearance, Linking};
 use texere_core::settling::{Length, Pass, Rest, SettlingSeen};
 use texere_core::{Origin, YarnPlace, Yarns};
 
-use crate::FabricWarning;
+use crate::{BySet, FabricWarning};
 
 /// What is asked of yarns that settle: lengths, a press and passes of knits, tensions and a
 /// calender of woven cloth.
@@ -23,7 +23,7 @@ pub struct Finish {
     pub record: bool,
     /// How taut woven cloth's warp and weft are, 1 where it is relaxed, 0 to 10: the tauter set
     /// straightens, and the other one takes its crimp.
-    pub taut: [f32; 2],
+    pub taut: BySet<f32>,
     /// How strongly woven cloth is pressed flat, 1 where it is relaxed, 0 to 10.
     pub calender: f32,
 }
@@ -39,7 +39,14 @@ impl Default for Finish {
     /// Lengths as the structure has them, nothing presses, 250 passes of either form at most, no
     /// record; relaxed woven cloth.
     fn default() -> Self {
-        Self { length: None, press_mm: None, passes: 250, record: false, taut: [1.0; 2], calender: 1.0 }
+        Self {
+            length: None,
+            press_mm: None,
+            passes: 250,
+            record: false,
+            taut: BySet { warp: 1.0, weft: 1.0 },
+            calender: 1.0,
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Se
 use super::thread::{
     FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread, middles,
 };
-use super::{Crimp, Drawdown, Shape};
+use super::{BySet, Crimp, Drawdown, Shape};
 use crate::{FabricError, ThreadError, WovenError, yarn_check};
 
 /// The most control points of a cloth: 64 GiB of them.
@@ -346,12 +346,12 @@ impl Woven {
     /// let plain = Weave::parse("plain")?.drawdown(3, 1)?;
     /// let (warp, weft) = (vec![thin, thick, thin], vec![thin]);
     /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-    /// assert_eq!(cloth.middles_mm(), [vec![0.5, 2.0, 3.5], vec![0.5]]);
+    /// assert_eq!(cloth.middles_mm().warp, [0.5, 2.0, 3.5]);
     /// assert_eq!(cloth.size_mm(), [4.0, 1.0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     #[must_use]
-    pub fn middles_mm(&self) -> [Vec<f64>; 2] {
-        [&self.warp, &self.weft].map(|threads| middles(threads).collect())
+    pub fn middles_mm(&self) -> BySet<Vec<f64>> {
+        BySet { warp: &self.warp, weft: &self.weft }.map(|threads| middles(threads).collect())
     }
 }

@@ -16,8 +16,8 @@ use crate::{FabricError, WovenError};
 /// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
 /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
 /// let design = WovenDesign::new(cloth, None, Relief::Flatten)?;
-/// assert_eq!(design.jam_report().before[0].jammed, 19);
-/// assert_eq!(design.jam_report().after[0].jammed, 0);
+/// assert_eq!(design.jam_report().before.warp.jammed, 19);
+/// assert_eq!(design.jam_report().after.warp.jammed, 0);
 /// assert!(design.cloth().warp_share() > 0.5);
 /// # Ok::<(), texere_fabric::FabricError>(())
 /// ```

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use texere_core::Origin;
 
-use super::Drawdown;
+use super::{BySet, Drawdown};
 
 impl Drawdown {
     /// The layers that the cloth falls apart into, the one on the face first: how many ends and
@@ -17,18 +17,18 @@ impl Drawdown {
     /// lie on top as often as they cross these and one another.
     ///
     /// ```
-    /// use texere_fabric::{Drawdown, Weave};
-    /// assert_eq!(Weave::parse("2/2")?.drawdown(8, 8)?.layers(), [[8, 8]]);
+    /// use texere_fabric::{BySet, Drawdown, Weave};
+    /// assert_eq!(Weave::parse("2/2")?.drawdown(8, 8)?.layers(), [BySet { warp: 8, weft: 8 }]);
     /// // Every other end and pick makes a plain cloth over another one of the rest.
     /// let double = Drawdown::from_fn(8, 8, |end, pick| match (end % 2, pick % 2) {
     ///     (0, 0) | (1, 1) => (end / 2 + pick / 2) % 2 == 0,
     ///     (face, _) => face == 0,
     /// })?;
-    /// assert_eq!(double.layers(), [[4, 4], [4, 4]]);
+    /// assert_eq!(double.layers(), [BySet { warp: 4, weft: 4 }; 2]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     #[must_use]
-    pub fn layers(&self) -> Vec<[usize; 2]> {
+    pub fn layers(&self) -> Vec<BySet<usize>> {
         let [ends, picks] = [self.ends(), self.picks()];
         // How often each thread lies on top, those that do so most often first; and how often the
         // first so many of each set do.
@@ -71,10 +71,11 @@ impl Drawdown {
                 last = [first, second];
             }
         }
-        layers
+        layers.into_iter().map(BySet::of).collect()
     }
+
     /// The threads of those of the cloth's `layers` that have threads of one set alone: ends first.
-    pub(crate) fn loose(&self, layers: &[[usize; 2]]) -> Vec<Origin> {
+    pub(crate) fn loose(&self, layers: &[BySet<usize>]) -> Vec<Origin> {
         let orders = [self.ups_of_ends(), self.downs_of_picks()].map(|counts| {
             let mut order: Vec<usize> = (0..counts.len()).collect();
             order.sort_by_key(|thread| Reverse(counts[*thread]));
@@ -84,7 +85,7 @@ impl Drawdown {
         let of = |set: usize| {
             let mut first = 0;
             let mut loose = Vec::new();
-            for layer in layers {
+            for layer in layers.iter().map(|layer| layer.into_array()) {
                 if layer[1 - set] == 0 {
                     loose.extend_from_slice(&orders[set][first..first + layer[set]]);
                 }

@@ -1,6 +1,6 @@
 //! Which threads of a set lie above others of it.
 
-use super::Drawdown;
+use super::{BySet, Drawdown};
 
 /// A thread lies above the next one where at most one in so many of what they cross says otherwise:
 /// the stitches of a double cloth.
@@ -38,29 +38,29 @@ impl Drawdown {
     ///
     /// ```
     /// use texere_fabric::{Drawdown, Weave};
-    /// assert_eq!(Weave::parse("satin 8(3)")?.drawdown(8, 8)?.levels(), [[0; 8], [0; 8]]);
+    /// assert_eq!(Weave::parse("satin 8(3)")?.drawdown(8, 8)?.levels().warp, [0; 8]);
     /// // Every other end and pick makes a plain cloth over another one of the rest.
     /// let double = Drawdown::from_fn(8, 8, |end, pick| match (end % 2, pick % 2) {
     ///     (0, 0) | (1, 1) => (end / 2 + pick / 2) % 2 == 0,
     ///     (face, _) => face == 0,
     /// })?;
-    /// assert_eq!(double.levels(), [[1, 0, 1, 0, 1, 0, 1, 0]; 2]);
+    /// assert_eq!(double.levels().weft, [1, 0, 1, 0, 1, 0, 1, 0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     #[must_use]
-    pub fn levels(&self) -> [Vec<u32>; 2] {
+    pub fn levels(&self) -> BySet<Vec<u32>> {
         let [ends, picks] = [self.ends(), self.picks()];
-        let mut counts = [vec![[0_u64; 2]; ends], vec![[0_u64; 2]; picks]];
+        let mut counts = BySet { warp: vec![[0_u64; 2]; ends], weft: vec![[0_u64; 2]; picks] };
         for (end, pick) in (0..picks).flat_map(|pick| (0..ends).map(move |end| (end, pick))) {
             let up = self.up(end, pick);
             match [up, self.up((end + 1) % ends, pick)] {
-                [true, false] => counts[0][end][0] += 1,
-                [false, true] => counts[0][end][1] += 1,
+                [true, false] => counts.warp[end][0] += 1,
+                [false, true] => counts.warp[end][1] += 1,
                 _ => {}
             }
             match [up, self.up(end, (pick + 1) % picks)] {
-                [false, true] => counts[1][pick][0] += 1,
-                [true, false] => counts[1][pick][1] += 1,
+                [false, true] => counts.weft[pick][0] += 1,
+                [true, false] => counts.weft[pick][1] += 1,
                 _ => {}
             }
         }

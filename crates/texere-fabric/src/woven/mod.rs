@@ -1,6 +1,7 @@
 //! Woven cloth: warp and weft that cross at right angles.
 
 mod bend;
+mod by_set;
 mod cloth;
 mod crimp;
 mod crossing;
@@ -26,6 +27,7 @@ mod thread;
 mod weave;
 mod yarns;
 
+pub use by_set::BySet;
 pub use cloth::{POINTS_MAX, Woven};
 pub use crimp::Crimp;
 pub use design::WovenDesign;

@@ -35,7 +35,7 @@ impl Woven {
     }
 
     fn whole_of(&self, repeat: [usize; 2]) -> [(usize, f64); 2] {
-        let (middles, size) = (self.middles_mm(), self.size_mm());
+        let (middles, size) = (self.middles_mm().into_array(), self.size_mm());
         [0, 1].map(|set| {
             let count = middles[set].len();
             let whole = if count < repeat[set] { count } else { count / repeat[set] * repeat[set] };
@@ -66,11 +66,12 @@ impl<'a> Sample<'a> {
             let warp = (0..more[0]).map(|end| warp[place(0, end)]).collect();
             let weft = (0..more[1]).map(|pick| weft[place(1, pick)]).collect();
             let cloth = cloth.like(drawdown, warp, weft)?;
-            let (yarns, middles) = (cloth.yarns()?.with_tension(yarns.tension())?, cloth.middles_mm());
+            let (yarns, middles) =
+                (cloth.yarns()?.with_tension(yarns.tension())?, cloth.middles_mm().into_array());
             return Ok(Self { cloth: Cow::Owned(cloth), yarns: Cow::Owned(yarns), repeat, middles });
         }
         Ok(Self {
-            middles: cloth.middles_mm(),
+            middles: cloth.middles_mm().into_array(),
             cloth: Cow::Borrowed(cloth),
             yarns: Cow::Borrowed(yarns),
             repeat,

@@ -2,9 +2,9 @@
 
 use texere_core::Origin;
 
-use super::Woven;
 use super::jam::{Gap, ROUNDING};
 use super::thread::pitches;
+use super::{BySet, Woven};
 
 /// How far a thread lies from the one before it, and how far it should.
 ///
@@ -14,10 +14,11 @@ use super::thread::pitches;
 /// let plain = Weave::parse("plain")?.drawdown(3, 3)?;
 /// let (warp, weft) = (vec![Thread::new(0.3, 0.1); 3], vec![Thread::new(0.6, 0.1); 3]);
 /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-/// let [ends, picks] = cloth.pitches();
+/// let pitches = cloth.pitches();
 /// // Round threads alike need √3 diameters for those that cross to pass in between.
-/// assert!((ends[0].passing_mm - 3f64.sqrt() * 0.2).abs() < 1e-6);
-/// assert!(ends[0].is_jammed() && !ends[0].is_crowded() && !picks[0].is_jammed());
+/// assert!((pitches.warp[0].passing_mm - 3f64.sqrt() * 0.2).abs() < 1e-6);
+/// assert!(pitches.warp[0].is_jammed() && !pitches.warp[0].is_crowded());
+/// assert!(!pitches.weft[0].is_jammed());
 /// # Ok::<(), texere_fabric::FabricError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +57,7 @@ impl Woven {
     /// 1937, for [`Shape::Round`](crate::Shape::Round); measured, for
     /// [`Shape::Crossing`](crate::Shape::Crossing).
     #[must_use]
-    pub fn pitches(&self) -> [Vec<Pitch>; 2] {
+    pub fn pitches(&self) -> BySet<Vec<Pitch>> {
         let [warp, weft] = self.gaps();
         // What passes between ends is the weft, with its own share of the crimp.
         let share = self.warp_share();
@@ -69,7 +70,7 @@ impl Woven {
             };
             gaps.iter().map(pitch).collect()
         };
-        [all(&warp, 1.0 - share, Origin::End), all(&weft, share, Origin::Pick)]
+        BySet { warp: all(&warp, 1.0 - share, Origin::End), weft: all(&weft, share, Origin::Pick) }
     }
 
     /// The distance of an end or a pick to the thread before, mm; of the first one to the next.

@@ -5,7 +5,7 @@ use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN};
 
 use super::crimp::{Crimp, SHARE_MIN};
 use super::jam::{Gap, ROUNDING, reach};
-use super::{FLATNESS_MAX, Shape, Thread, Woven};
+use super::{BySet, FLATNESS_MAX, Shape, Thread, Woven};
 use crate::{FabricError, ThreadError, WovenError};
 
 /// What to do where threads lie closer together than those that cross them can pass between.
@@ -43,14 +43,14 @@ pub struct Tightness {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JamReport {
     /// Ends and picks as they were.
-    pub before: [Tightness; 2],
+    pub before: BySet<Tightness>,
     /// Ends and picks as they are now.
-    pub after: [Tightness; 2],
+    pub after: BySet<Tightness>,
     /// The warp's share of the crimp, before and now.
     pub warp_share: [f32; 2],
     /// By how much ends and picks grew wider, 1 for not at all; their height fell in the same
     /// ratio.
-    pub widened: [f32; 2],
+    pub widened: BySet<f32>,
     /// By how much all diameters were scaled.
     pub scaled: f32,
 }
@@ -132,14 +132,14 @@ impl Woven {
     ///
     /// ```
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{Relief, Thread, Weave, Woven};
+    /// use texere_fabric::{BySet, Relief, Thread, Weave, Woven};
     /// // Denim: ends 1.3 diameters apart.
     /// let twill = Weave::parse("3/1")?.drawdown(20, 20)?;
     /// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
     /// let mut cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let report = cloth.relieve(Relief::Flatten)?;
-    /// assert_eq!(report.before.map(|set| set.jammed), [19, 0]);
-    /// assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
+    /// assert_eq!(report.before.map(|set| set.jammed), BySet { warp: 19, weft: 0 });
+    /// assert_eq!(report.after.map(|set| set.jammed), BySet { warp: 0, weft: 0 });
     /// assert!(report.warp_share[1] > report.warp_share[0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
@@ -171,7 +171,13 @@ impl Woven {
 
         let [warp, weft] = self.gaps();
         let after = tightness(&warp, &weft, self.warp_share());
-        Ok(JamReport { before, after, warp_share: [share, change.share], widened: change.widened, scaled })
+        Ok(JamReport {
+            before,
+            after,
+            warp_share: [share, change.share],
+            widened: BySet::of(change.widened),
+            scaled,
+        })
     }
 
     /// The shares that may be tried beside `share`.
@@ -247,7 +253,7 @@ fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn
 }
 
 /// How close ends and picks lie; `share` is the warp's.
-fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> [Tightness; 2] {
+fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> BySet<Tightness> {
     let set = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
         let mut found = Tightness { jammed: 0, tightest: None, pitch_min_mm: 0.0, pitch_mm: 0.0 };
         for gap in gaps.iter().filter(|gap| gap.between.is_some()) {
@@ -260,5 +266,5 @@ fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> [Tightness; 2] {
         }
         found
     };
-    [set(warp, 1.0 - share, Origin::End), set(weft, share, Origin::Pick)]
+    BySet { warp: set(warp, 1.0 - share, Origin::End), weft: set(weft, share, Origin::Pick) }
 }

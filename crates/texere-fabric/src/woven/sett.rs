@@ -1,6 +1,6 @@
 //! The greatest sett of a weave and its yarns.
 
-use super::{Thread, Woven};
+use super::{BySet, Thread, Woven};
 
 /// How close the threads of a set lie, and how close they may lie in their weave, threads to the
 /// cm.
@@ -12,7 +12,7 @@ use super::{Thread, Woven};
 /// let threads = vec![Thread::new(25.4 / 30.0, 0.5 * 25.4 / 52.0); 16];
 /// let twill = Weave::parse("2/2")?.drawdown(16, 16)?;
 /// let cloth = Woven::new(twill, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
-/// let [ends, _] = cloth.setts();
+/// let ends = cloth.setts().warp;
 /// assert!((2.54 * ends.per_cm - 30.0).abs() < 1e-6);
 /// // Ashenhurst has 34 ends to the inch for it.
 /// assert_eq!((2.54 * ends.greatest_per_cm) as u32, 34);
@@ -57,7 +57,7 @@ impl Sett {
 impl Woven {
     /// The setts of warp and weft. Diameters are those of the round yarns.
     #[must_use]
-    pub fn setts(&self) -> [Sett; 2] {
+    pub fn setts(&self) -> BySet<Sett> {
         let whole = self.whole();
         let sets = [self.warp(), self.weft()];
         let diameters = sets.map(|threads| {
@@ -67,7 +67,7 @@ impl Woven {
         let levels = self.interlacings();
         let is_plain = levels.iter().all(|levels| matches!(levels[..], [Level { interlacings: 1.0, .. }]));
         let pitches = [0, 1].map(|set| whole[set].1 / whole[set].0 as f64);
-        [0, 1].map(|set| {
+        BySet { warp: 0, weft: 1 }.map(|set: usize| {
             // Each level has its share of the threads.
             let greatest = levels[set]
                 .iter()

@@ -12,7 +12,7 @@ use super::problem::{Problem, gaps};
 use super::stop::{CHANGE_POINTS, Stop};
 use crate::woven::selvedge::{self, TURN_POINTS};
 use crate::woven::yarns::{Pass, Pen};
-use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
+use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
 /// Crossings of a repeat at rest, mm.
 pub(super) struct Lies {
@@ -56,8 +56,8 @@ impl Lies {
     }
 
     /// The share of its area that each set keeps, in the mean and at its worst place.
-    pub(super) fn area(&self, cloth: &Woven) -> [[f64; 2]; 2] {
-        [0, 1].map(|set| {
+    pub(super) fn area(&self, cloth: &Woven) -> BySet<[f64; 2]> {
+        BySet { warp: 0, weft: 1 }.map(|set: usize| {
             let threads = [cloth.warp(), cloth.weft()][set];
             let keeps = self.drawn.iter().enumerate().map(|(number, drawn)| {
                 let thread = [number % self.repeat[0], number / self.repeat[0]][set] % threads.len();
@@ -127,7 +127,7 @@ type Of = (usize, usize);
 
 impl<'a> Loom<'a> {
     fn new(lies: &'a Lies, cloth: &'a Woven) -> Self {
-        let (middles, size) = (cloth.middles_mm(), cloth.size_mm());
+        let (middles, size) = (cloth.middles_mm().into_array(), cloth.size_mm());
         let sets = [0, 1].map(|set| {
             let gaps = gaps([cloth.warp(), cloth.weft()][set]);
             let (count, repeat) = (middles[set].len(), lies.repeat[set]);

@@ -20,7 +20,7 @@ use self::certificate::certify;
 use self::lay::Lies;
 use self::problem::Problem;
 pub use self::stretch::Stretch;
-use crate::{FabricError, Finish, FinishError, Woven};
+use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
 /// The share of the progress at which crossings have settled, and at which surfaces are clear.
 const SETTLED: f64 = 0.5;
@@ -33,7 +33,7 @@ pub struct WovenRest {
     pub yarns: Yarns,
     /// Ends and picks of what has settled: the smallest repeat of threads and crossings, or all of
     /// a cloth that has none.
-    pub repeat: [usize; 2],
+    pub repeat: BySet<usize>,
     /// Passes, and what the last one has seen.
     pub crossings: CrossingsRest,
     /// The least clearance of surfaces as drawn, before any thread was made thinner for it and
@@ -44,11 +44,12 @@ pub struct WovenRest {
     pub bend: f64,
     /// How many times threads were made thinner where they lacked clearance.
     pub rounds: u32,
-    /// The share of its area that each set keeps, in the mean and at its worst place: warp, then
-    /// weft.
-    pub area: [[f64; 2]; 2],
-    /// What of that was lost for the sake of clearance, in the mean.
-    pub area_lost: [f64; 2],
+    /// The share of its area that each set keeps, in the mean.
+    pub area: BySet<f64>,
+    /// The share of its area that each set keeps at its worst place.
+    pub area_least: BySet<f64>,
+    /// The share of its area that each set lost for the sake of clearance, in the mean.
+    pub area_lost: BySet<f64>,
 }
 
 impl Woven {
@@ -75,13 +76,13 @@ impl Woven {
     /// use std::ops::ControlFlow;
     /// use texere_core::{Material, Section};
     /// use texere_cpu::SerialBackend;
-    /// use texere_fabric::{Finish, Thread, Weave, Woven};
+    /// use texere_fabric::{BySet, Finish, Thread, Weave, Woven};
     /// // Plain weave at 1.8 diameters, where round threads would pierce one another.
     /// let plain = Weave::parse("plain")?.drawdown(6, 6)?;
     /// let threads = vec![Thread::new(0.36, 0.1); 6];
     /// let cloth = Woven::new(plain, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
     /// let rest = cloth.at_rest(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
-    /// assert_eq!(rest.repeat, [2, 2]);
+    /// assert_eq!(rest.repeat, BySet { warp: 2, weft: 2 });
     /// assert!(rest.crossings.at_rest && rest.clearance[1] > 0.98);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -111,13 +112,14 @@ impl Woven {
         }
         Ok(WovenRest {
             yarns,
-            repeat,
+            repeat: BySet::of(repeat),
             crossings: rest,
             clearance,
             bend,
             rounds,
-            area,
-            area_lost: [0, 1].map(|set| at_first[set][0] - area[set][0]),
+            area: area.map(|[mean, _]| mean),
+            area_least: area.map(|[_, least]| least),
+            area_lost: BySet { warp: at_first.warp[0] - area.warp[0], weft: at_first.weft[0] - area.weft[0] },
         })
     }
 
@@ -131,7 +133,7 @@ impl Woven {
     ) -> Result<(Lies, CrossingsRest), FinishError> {
         check_tension(tension).map_err(FabricError::from)?;
         let mut problem = Problem::new(self);
-        let [warp, weft] = finish.taut;
+        let BySet { warp, weft } = finish.taut;
         problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
         let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
         let mut settler = backend.crossings_settler(Arc::clone(&plan))?;

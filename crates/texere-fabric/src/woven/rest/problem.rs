@@ -67,7 +67,7 @@ impl Woven {
     pub(in crate::woven) fn levels(&self, [across, along]: [usize; 2]) -> [Vec<u32>; 2] {
         let (ends, picks) = (self.warp().len(), self.weft().len());
         Drawdown::from_fn(across, along, |end, pick| self.drawdown().up(end % ends, pick % picks))
-            .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels())
+            .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels().into_array())
     }
 
     /// After how many ends and picks all threads lie and cross as those before; all of them where

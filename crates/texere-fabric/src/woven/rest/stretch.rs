@@ -8,7 +8,7 @@ use texere_core::Backend;
 use texere_core::crossings::Set;
 
 use super::certificate::crop;
-use crate::{Finish, FinishError, Woven};
+use crate::{BySet, Finish, FinishError, Woven};
 
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;
@@ -71,7 +71,7 @@ impl Woven {
         mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
-        let [pulled, crossed] = [along as usize, along.other() as usize];
+        let across = along.other();
         // Of each course of settling its own share, so that the first says something, too, and each
         // pass hears that it is to end.
         let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
@@ -81,32 +81,33 @@ impl Woven {
             crimps
         };
         let first = crimps_of(self, finish)?;
-        let wanted = (1.0 + first[pulled]) / by - 1.0;
-        let most = (1.0 + first[pulled]) / (1.0 + STRAIGHT);
-        let refused = || FinishError::Stretch { along: ["warp", "weft"][pulled], by, most };
+        let wanted = (1.0 + first[along]) / by - 1.0;
+        let most = (1.0 + first[along]) / (1.0 + STRAIGHT);
+        let refused = || FinishError::Stretch { along: ["warp", "weft"][along as usize], by, most };
         if !(wanted >= STRAIGHT && (0.5..=2.0).contains(&by)) {
             return Err(refused());
         }
         let (mut narrower, mut range) = (1.0, [-TAUTER, TAUTER]);
         for _ in 0..HALVINGS {
             let tauter = f64::midpoint(range[0], range[1]);
-            let pull = |set: usize, by: f64| (f64::from(finish.taut[set]) * by.exp()).clamp(0.0, 10.0) as f32;
+            let pull = |set: Set, by: f64| (f64::from(finish.taut[set]) * by.exp()).clamp(0.0, 10.0) as f32;
             let mut taut = finish.taut;
-            taut[pulled] = pull(pulled, tauter / 2.0);
-            taut[crossed] = pull(crossed, -tauter / 2.0);
+            taut[along] = pull(along, tauter / 2.0);
+            taut[across] = pull(across, -tauter / 2.0);
             let finish = Finish { taut, ..*finish };
             let (mut cloth, mut crimps) = (self.clone(), first);
             for _ in 0..GIVES {
-                let mut times = [by; 2];
-                times[crossed] = narrower;
-                cloth = self.spaced([times[1], times[0]])?;
+                let mut times = BySet { warp: by, weft: by };
+                times[across] = narrower;
+                // Cloth that is longer along one set has the other set's threads further apart.
+                cloth = self.spaced([times.weft, times.warp])?;
                 crimps = crimps_of(&cloth, &finish)?;
-                narrower = (1.0 + first[crossed]) / (1.0 + crimps[crossed]);
+                narrower = (1.0 + first[across]) / (1.0 + crimps[across]);
             }
-            if (crimps[pulled] - wanted).abs() < NEAR {
+            if (crimps[along] - wanted).abs() < NEAR {
                 return Ok((cloth, finish));
             }
-            range[usize::from(crimps[pulled] < wanted)] = tauter;
+            range[usize::from(crimps[along] < wanted)] = tauter;
         }
         Err(refused())
     }
@@ -118,12 +119,15 @@ impl Woven {
         tension: f32,
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<[f64; 2], FinishError> {
+    ) -> Result<BySet<f64>, FinishError> {
         let (lies, _) = self.lies(finish, tension, backend, progress)?;
         let piece = crop(self, lies.repeat())?;
         let lengths = lengths_mm(&lies.yarns(&piece)?);
         let (size, ends) = (piece.size_mm(), piece.warp().len());
         let [warp, weft]: [f64; 2] = [&lengths[..ends], &lengths[ends..]].map(|lengths| lengths.iter().sum());
-        Ok([warp / (ends as f64 * size[1]) - 1.0, weft / (piece.weft().len() as f64 * size[0]) - 1.0])
+        Ok(BySet {
+            warp: warp / (ends as f64 * size[1]) - 1.0,
+            weft: weft / (piece.weft().len() as f64 * size[0]) - 1.0,
+        })
     }
 }

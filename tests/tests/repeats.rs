@@ -48,7 +48,7 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     for each in [&one, &whole] {
         assert!(each.rest.start.clearance < 0.85 && each.rest.at_rest && each.is_linked(), "{:?}", each.rest);
     }
-    let copied = repeat.laid(&one.yarns).expect("copies");
+    let copied = repeat.placed(&one.yarns).expect("copies");
     assert_eq!(copied.layout().offsets(), whole.yarns.layout().offsets());
     // At rest is whatever is clear and not too tight, so nothing draws the two to one place. Points
     // start up to 0.01 diameters off along each axis, each in a direction of its own: up to 0.035

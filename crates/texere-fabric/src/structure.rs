@@ -93,12 +93,12 @@ impl Structure {
     /// The fabric's yarns from those of its `repeat`, settled or not: copies side by side, cut off
     /// as [`Structure::settle`] has them.
     ///
-    /// **Errors**: those of [`Repeat::laid`].
-    pub fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    /// **Errors**: those of [`Repeat::placed`].
+    pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         match self {
-            Self::Woven(_) => repeat.laid(yarns),
-            Self::Weft(knit) => knit.laid(repeat, yarns),
-            Self::Warp(knit) => knit.laid(repeat, yarns),
+            Self::Woven(_) => repeat.placed(yarns),
+            Self::Weft(knit) => knit.placed(repeat, yarns),
+            Self::Warp(knit) => knit.placed(repeat, yarns),
         }
     }
 

@@ -117,25 +117,26 @@ const SETTLED: f64 = 0.8;
 /// them.
 pub(crate) fn settle_repeat(
     repeat: &Repeat,
-    laid: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
+    placed: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
     finish: &Finish,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
     let mut settled = settle(&repeat.piece, finish, backend, |done| progress(SETTLED * done))?;
-    let yarns = laid(&settled.yarns)?;
+    let yarns = placed(&settled.yarns)?;
     let settings = Settings::default();
     settled.clearance =
         clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
     for passage in &mut settled.linking.worst {
-        passage.places = passage.places.map(|place| laid_at(&place, settled.yarns.layout(), yarns.layout()));
+        passage.places =
+            passage.places.map(|place| placed_at(&place, settled.yarns.layout(), yarns.layout()));
     }
     Ok(Settled { yarns, ..settled })
 }
 
 /// A place on a yarn of the repeat, on that yarn's first copy.
-fn laid_at(place: &YarnPlace, repeat: &Layout, laid: &Layout) -> YarnPlace {
+fn placed_at(place: &YarnPlace, repeat: &Layout, placed: &Layout) -> YarnPlace {
     let origin = repeat.yarns()[place.yarn].origin;
-    let yarn = laid.yarns().iter().position(|yarn| yarn.origin == origin);
+    let yarn = placed.yarns().iter().position(|yarn| yarn.origin == origin);
     YarnPlace { yarn: yarn.unwrap_or(place.yarn), ..*place }
 }

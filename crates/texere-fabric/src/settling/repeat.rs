@@ -24,7 +24,7 @@ const SETTLED: u32 = 4;
 /// let boundary = Boundary::new(yarns.layout(), [2.0, 0.5], vec![Ends::Repeats([1, 0])])?;
 /// let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 2] };
 /// // Three repeats of it are one yarn, and there are two such yarns, half a millimetre apart.
-/// let cloth = repeat.laid(&repeat.piece.yarns)?;
+/// let cloth = repeat.placed(&repeat.piece.yarns)?;
 /// assert_eq!(cloth.layout().offsets(), [0, 12, 24]);
 /// assert_eq!((cloth.points()[11].x, cloth.points()[23].y), (5.5, 0.5));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -60,22 +60,22 @@ impl Repeat {
     /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's,
     /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where there is no copy, or
     /// coordinates would lie too far out.
-    pub fn laid(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        self.laid_beyond(yarns, [0, 0])
+    pub fn placed(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        self.placed_beyond(yarns, [0, 0])
     }
 
-    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control
+    /// As [`Repeat::placed`], but a yarn that is cut off where the copies end goes so many control
     /// points further at its beginning and at its end, so that all of it within the copies bends as
     /// in the repeat.
     ///
-    /// **Errors**: those of [`Repeat::laid`].
-    pub fn laid_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
-        self.laid_as(yarns, beyond, |origin, _| origin, |source, _| source)
+    /// **Errors**: those of [`Repeat::placed`].
+    pub fn placed_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
+        self.placed_as(yarns, beyond, |origin, _| origin, |source, _| source)
     }
 
-    /// As [`Repeat::laid_beyond`], but copies get origins and sources of their own, from those of
+    /// As [`Repeat::placed_beyond`], but copies get origins and sources of their own, from those of
     /// the repeat and by how many repeats they lie along x and y.
-    pub(crate) fn laid_as(
+    pub(crate) fn placed_as(
         &self,
         yarns: &Yarns,
         beyond: [u32; 2],
@@ -144,9 +144,10 @@ impl Repeat {
             table.push(Yarn { origin: origin(own.origin, cell), ..own });
             offsets.push(points.len() as u64);
         }
-        let laid = Layout::new(table, offsets, layout.sections().to_vec())?.with_tension(layout.tension())?;
-        let laid = Yarns::new(laid, yarns.materials().to_vec(), points)?;
-        Ok(if yarns.sources().is_some() { laid.with_sources(sources)? } else { laid })
+        let placed =
+            Layout::new(table, offsets, layout.sections().to_vec())?.with_tension(layout.tension())?;
+        let placed = Yarns::new(placed, yarns.materials().to_vec(), points)?;
+        Ok(if yarns.sources().is_some() { placed.with_sources(sources)? } else { placed })
     }
 
     /// All copies, by how many repeats they lie along x and along y.

@@ -7,7 +7,7 @@ use texere_contact::{Contact, bends_up_to, clearance_up_to};
 use texere_core::crossings::Set;
 use texere_core::{Origin, Settings, YarnPlace, Yarns};
 
-use super::lay::Lies;
+use super::resting::RestingRepeat;
 use crate::{Drawdown, FabricError, NO_CROSSING, Woven};
 
 /// What every pair of surfaces is brought to.
@@ -52,12 +52,12 @@ struct Round {
 /// threads were thinned. Where no round makes surfaces clear, threads stay as in the best one.
 pub(super) fn certify(
     cloth: &Woven,
-    lies: &mut Lies,
+    resting: &mut RestingRepeat,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<([f64; 2], f64, u32), FabricError> {
-    let (piece, settings) = (crop(cloth, lies.repeat())?, &Settings::default());
-    let mut yarns = lies.yarns(&piece)?;
-    let (mut round, once) = (0, once(&piece, &yarns, lies.repeat()));
+    let (piece, settings) = (crop(cloth, resting.repeat())?, &Settings::default());
+    let mut yarns = resting.yarns(&piece)?;
+    let (mut round, once) = (0, once(&piece, &yarns, resting.repeat()));
     let mut fresh = once.clone();
     let (mut known, mut least) = (Vec::new(), [f64::INFINITY; 2]);
     let mut tight: Vec<(f64, YarnPlace)> = Vec::new();
@@ -80,14 +80,14 @@ pub(super) fn certify(
         }
         let measured = [now.min(ENOUGH), bends];
         if best.as_ref().is_none_or(|best| best.measured < measured) {
-            best = Some(Round { measured, clearance: now, number: round, drawn: lies.drawn.clone() });
+            best = Some(Round { measured, clearance: now, number: round, drawn: resting.drawn.clone() });
         }
         if let Some(best) = best.take_if(|_| round == ROUNDS) {
-            lies.drawn = best.drawn;
+            resting.drawn = best.drawn;
             return Ok(([least[0], best.clearance], best.measured[1], best.number));
         }
-        thin(lies, &piece, &yarns, &known, &tight);
-        let thinner = lies.yarns(&piece)?;
+        thin(resting, &piece, &yarns, &known, &tight);
+        let thinner = resting.yarns(&piece)?;
         fresh = changed(&yarns, &thinner);
         fresh.iter_mut().zip(&once).for_each(|(fresh, once)| *fresh &= once);
         yarns = thinner;
@@ -135,12 +135,18 @@ pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricErr
 
 /// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts
 /// at a crossing, and less high where they bend more tightly than they reach.
-fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tight: &[(f64, YarnPlace)]) {
-    let mut shares = vec![[[1.0_f64; 2]; 2]; lies.drawn.len()];
+fn thin(
+    resting: &mut RestingRepeat,
+    piece: &Woven,
+    yarns: &Yarns,
+    contacts: &[Contact],
+    tight: &[(f64, YarnPlace)],
+) {
+    let mut shares = vec![[[1.0_f64; 2]; 2]; resting.drawn.len()];
     let mut keep = |place: &YarnPlace, kept: [f64; 2]| {
         let set = usize::from(!is_end(yarns, place));
         for crossing in crossings(yarns, place, piece.warp().len()) {
-            let share = &mut shares[lies.number(crossing[0], crossing[1])][set];
+            let share = &mut shares[resting.number(crossing[0], crossing[1])][set];
             *share = [share[0].min(kept[0]), share[1].min(kept[1])];
         }
     };
@@ -167,7 +173,7 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
     for (bend, place) in tight {
         keep(place, [1.0, (bend / BENDS_WANTED).max(1.0 - BENT_MOST)]);
     }
-    for ((drawn, rest), shares) in lies.drawn.iter_mut().zip(&lies.rest).zip(shares) {
+    for ((drawn, rest), shares) in resting.drawn.iter_mut().zip(&resting.rest).zip(shares) {
         for (set, share) in Set::BOTH.into_iter().zip(shares) {
             let (halves, lie) = (&mut drawn[set as usize], rest.thread(set));
             let least = [lie.half_width, lie.half_height].map(|half| KEPT_LEAST * half);

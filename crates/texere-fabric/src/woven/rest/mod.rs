@@ -3,9 +3,9 @@
 
 mod certificate;
 mod ease;
-mod lay;
 mod path;
 mod problem;
+mod resting;
 mod stop;
 mod stretch;
 
@@ -17,8 +17,8 @@ use texere_core::crossings::{self, CrossingState, Crossings, CrossingsPlan, Cros
 use texere_core::{Backend, Yarns, check_tension};
 
 use self::certificate::certify;
-use self::lay::Lies;
 use self::problem::Problem;
+use self::resting::RestingRepeat;
 pub use self::stretch::Stretch;
 use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
@@ -101,12 +101,12 @@ impl Woven {
         if let Some((asked, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) {
             return Err(FinishError::Woven { asked });
         }
-        let (mut lies, rest) = self.lies(finish, tension, backend, |done| progress(SETTLED * done))?;
-        let repeat = lies.repeat();
-        let at_first = lies.area(self);
+        let (mut resting, rest) = self.resting(finish, tension, backend, |done| progress(SETTLED * done))?;
+        let repeat = resting.repeat();
+        let at_first = resting.area(self);
         let (clearance, bend, rounds) =
-            certify(self, &mut lies, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
-        let (area, yarns) = (lies.area(self), lies.yarns(self)?);
+            certify(self, &mut resting, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
+        let (area, yarns) = (resting.area(self), resting.yarns(self)?);
         if progress(1.0).is_break() {
             return Err(FabricError::Cancelled.into());
         }
@@ -124,13 +124,13 @@ impl Woven {
     }
 
     /// How its crossings lie at rest, before surfaces are measured.
-    fn lies(
+    fn resting(
         &self,
         finish: &Finish,
         tension: f32,
         backend: &dyn Backend,
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(Lies, CrossingsRest), FinishError> {
+    ) -> Result<(RestingRepeat, CrossingsRest), FinishError> {
         check_tension(tension).map_err(FabricError::from)?;
         let mut problem = Problem::new(self);
         let BySet { warp, weft } = finish.taut;
@@ -149,6 +149,6 @@ impl Woven {
         }
         let mut all: Vec<CrossingState> = zeroed("crossings", plan.crossings() as u64)?;
         settler.read(&mut all)?;
-        Ok((Lies::new(problem, &plan, all, tension), rest))
+        Ok((RestingRepeat::new(problem, &plan, all, tension), rest))
     }
 }

@@ -120,9 +120,9 @@ impl Woven {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<BySet<f64>, FinishError> {
-        let (lies, _) = self.lies(finish, tension, backend, progress)?;
-        let piece = crop(self, lies.repeat())?;
-        let lengths = lengths_mm(&lies.yarns(&piece)?);
+        let (resting, _) = self.resting(finish, tension, backend, progress)?;
+        let piece = crop(self, resting.repeat())?;
+        let lengths = lengths_mm(&resting.yarns(&piece)?);
         let (size, ends) = (piece.size_mm(), piece.warp().len());
         let [warp, weft]: [f64; 2] = [&lengths[..ends], &lengths[ends..]].map(|lengths| lengths.iter().sum());
         Ok(BySet {

@@ -15,7 +15,7 @@ use crate::woven::yarns::{Pass, Pen};
 use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
 /// Crossings of a repeat at rest, mm.
-pub(super) struct Lies {
+pub(super) struct RestingRepeat {
     repeat: [usize; 2],
     pub(super) rest: Vec<CrossingState>,
     /// As they are drawn: half width and half height of the end, then of the pick.
@@ -28,7 +28,7 @@ pub(super) struct Lies {
     tension: f32,
 }
 
-impl Lies {
+impl RestingRepeat {
     /// `rest` is in the plan's unit.
     pub(super) fn new(
         problem: Problem,
@@ -77,9 +77,9 @@ impl Lies {
 
     /// The yarns of a cloth that has these crossings, as [`Woven::yarns`] lays them.
     pub(super) fn yarns(&self, cloth: &Woven) -> Result<Yarns, FabricError> {
-        let loom = Loom::new(self, cloth);
+        let placing = Placing::new(self, cloth);
         let passes = cloth.passes();
-        let counts: Vec<usize> = passes.par_iter().map(|pass| loom.count(*pass)).collect();
+        let counts: Vec<usize> = passes.par_iter().map(|pass| placing.count(*pass)).collect();
         let (mut table, mut offsets, mut total) = (Vec::new(), Vec::new(), 0);
         for (pass, &count) in passes.iter().zip(&counts) {
             if let Some(yarn) = cloth.yarn(pass) {
@@ -97,7 +97,7 @@ impl Lies {
         let mut sources: Vec<u32> = zeroed("sources", total)?;
         let pens = Pen::all(&mut points, &mut sources, counts);
         passes.into_par_iter().zip(pens).for_each(|(pass, mut pen)| {
-            loom.lay(pass, &mut |point, source| pen.write(point, source));
+            placing.lay(pass, &mut |point, source| pen.write(point, source));
         });
         let layout = Layout::new(table, offsets, cloth.sections().to_vec())?.with_tension(self.tension)?;
         Ok(Yarns::new(layout, cloth.materials().to_vec(), points)?.with_sources(sources)?)
@@ -116,8 +116,8 @@ struct Threads {
 }
 
 /// A cloth's threads and how they lie.
-struct Loom<'a> {
-    lies: &'a Lies,
+struct Placing<'a> {
+    resting: &'a RestingRepeat,
     cloth: &'a Woven,
     sets: [Threads; 2],
 }
@@ -125,12 +125,12 @@ struct Loom<'a> {
 /// A thread: its set, 0 or 1, and its number.
 type Of = (usize, usize);
 
-impl<'a> Loom<'a> {
-    fn new(lies: &'a Lies, cloth: &'a Woven) -> Self {
+impl<'a> Placing<'a> {
+    fn new(resting: &'a RestingRepeat, cloth: &'a Woven) -> Self {
         let (middles, size) = (cloth.middles_mm().into_array(), cloth.size_mm());
         let sets = [0, 1].map(|set| {
             let gaps = gaps([cloth.warp(), cloth.weft()][set]);
-            let (count, repeat) = (middles[set].len(), lies.repeat[set]);
+            let (count, repeat) = (middles[set].len(), resting.repeat[set]);
             let gap = |thread: usize| gaps[thread % repeat % count];
             let mut at = middles[set].clone();
             for beyond in 0..BEYOND {
@@ -139,20 +139,20 @@ impl<'a> Loom<'a> {
             }
             Threads { at, extent: size[set] }
         });
-        Self { lies, cloth, sets }
+        Self { resting, cloth, sets }
     }
 
     /// A thread where it crosses another. Crossed threads count from the first one beyond the edge,
     /// [`BEYOND`] of them.
     fn station(&self, (set, thread): Of, crossed: usize) -> Station {
         let other = 1 - set;
-        let repeat = self.lies.repeat[other];
+        let repeat = self.resting.repeat[other];
         let within = (crossed + BEYOND * (repeat - 1)) % repeat;
         let number =
-            if set == 0 { self.lies.number(thread, within) } else { self.lies.number(within, thread) };
-        let (rest, drawn) = (&self.lies.rest[number], &self.lies.drawn[number]);
+            if set == 0 { self.resting.number(thread, within) } else { self.resting.number(within, thread) };
+        let (rest, drawn) = (&self.resting.rest[number], &self.resting.drawn[number]);
         let [own, under] = if set == 0 { [&rest.warp, &rest.weft] } else { [&rest.weft, &rest.warp] };
-        let room = self.lies.rooms[set][thread];
+        let room = self.resting.rooms[set][thread];
         Station {
             number: crossed.wrapping_sub(BEYOND),
             at: self.sets[other].at[crossed] + f64::from(under.shift),
@@ -168,7 +168,7 @@ impl<'a> Loom<'a> {
 
     /// Whether the end lies on top at a crossing of the repeat.
     fn up(&self, number: usize) -> bool {
-        let (end, pick) = (number % self.lies.repeat[0], number / self.lies.repeat[0]);
+        let (end, pick) = (number % self.resting.repeat[0], number / self.resting.repeat[0]);
         self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
     }
 
@@ -187,9 +187,10 @@ impl<'a> Loom<'a> {
     /// Whether a thread bends round one that it crosses. A thread of a layer passes those of
     /// another one that lie above or below it as their layers do.
     fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
-        let [own, others] = [set, 1 - set].map(|set| &self.lies.layers[set]);
+        let [own, others] = [set, 1 - set].map(|set| &self.resting.layers[set]);
         let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
-        let number = if set == 0 { self.lies.number(thread, other) } else { self.lies.number(other, thread) };
+        let number =
+            if set == 0 { self.resting.number(thread, other) } else { self.resting.number(other, thread) };
         match own[thread % own.len()].cmp(&others[other]) {
             Ordering::Equal => true,
             apart => (self.up(number) == (set == 0)) != apart.is_gt(),

@@ -49,19 +49,20 @@ mod yarn_check;
 mod yarn_size;
 
 pub use diagnosis::{
-    ClothClearance, ClothFault, Crossing, Cure, Diagnosis, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
-    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
+    ClothClearance, ClothFault, Crossing, Cure, Diagnosis, Faults, Jams, Pieces, Remedy, StitchPlace,
+    ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use error::FabricError;
-pub use look_alike::{hyphen_look_alike, slash_look_alike};
+pub use look_alike::hyphen_look_alike;
+pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled, settle};
 pub use structure::Structure;
 pub use warning::FabricWarning;
+pub(crate) use woven::POINTS_MAX;
 pub use woven::{
-    BySet, CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
-    POINTS_MAX, Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett,
-    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
+    BySet, Crimp, Draft, Drawdown, JamReport, Loom, NO_CROSSING, Pitch, Relief, SPACING_MAX, SPACING_MIN,
+    Sett, Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
     WovenRest,
 };
 pub use yarn_check::ThreadError;

@@ -14,13 +14,7 @@ pub fn hyphen_look_alike(text: &str) -> Option<&'static str> {
 
 /// What the first sign of a text is called that looks like a slash and is none, with its number in
 /// Unicode.
-///
-/// ```
-/// assert_eq!(texere_fabric::slash_look_alike("2\u{2044}2"), Some("a fraction slash (U+2044)"));
-/// assert_eq!(texere_fabric::slash_look_alike("2/2"), None);
-/// ```
-#[must_use]
-pub fn slash_look_alike(text: &str) -> Option<&'static str> {
+pub(crate) fn slash_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(slash)
 }
 

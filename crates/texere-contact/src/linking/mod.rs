@@ -16,10 +16,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use texere_core::{Boundary, Yarns};
 
-pub use self::passage::{
-    LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
-    WINDOW_REACH,
-};
+pub use self::passage::{LINKING_CHANGE, Linking, Passage};
 
 use self::found::Found;
 use self::images::Images;
@@ -43,7 +40,7 @@ const TASK: usize = 1024;
 /// most; an end that changes sides, a dropped stitch and a pulled one by 0.86 to 1.03 (0.8 half a
 /// pitch from an edge).
 ///
-/// A window has [`WINDOW_INTERVALS`] control intervals, or reaches [`WINDOW_REACH`] diameters each
+/// A window has eight control intervals, or reaches five diameters each
 /// way where that is more: so much that it holds a crossing and what leads to it, and less than
 /// what cancels out. A loop that slips off another does so on both its sides, and windows of more
 /// than 1.3 loops don't see that.

@@ -14,25 +14,25 @@ pub const LINKING_CHANGE: f64 = 0.6;
 /// of 5 to 11 see every passage; shorter ones see too little of it, and those of 13 miss stitches
 /// of 9-point loops. Where loops have more than 24 control points it is the reach in diameters that
 /// counts.
-pub const WINDOW_INTERVALS: usize = 8;
+pub(super) const WINDOW_INTERVALS: usize = 8;
 
 /// How far a window reaches each way from its middle at least, in diameters: the mean of those of
 /// both yarns.
 ///
 /// It counts where control points are dense. With 3 diameters dropped stitches of a loose knit
 /// change the integral by 0.6 alone, with 5 by 0.85, whether a loop has 12 control points or 96.
-pub const WINDOW_REACH: f64 = 5.0;
+pub(super) const WINDOW_REACH: f64 = 5.0;
 
 /// The most control intervals beside one that are looked at in a cell of the search. Of cloth that
 /// is some 20, and 300 where a radius has four control points.
-pub const LINKING_BESIDE: usize = 512;
+pub(super) const LINKING_BESIDE: usize = 512;
 
 /// The most windows that one is compared with in a cell. Of cloth that is a few where something has
 /// passed, and 30 where the whole cloth has been turned over.
-pub const LINKING_COMPARED: usize = 128;
+pub(super) const LINKING_COMPARED: usize = 128;
 
 /// The most passages that are listed one by one.
-pub const PASSAGES_LISTED: usize = 100;
+pub(super) const PASSAGES_LISTED: usize = 100;
 
 /// What has become of the way in which yarns are linked.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,12 +43,12 @@ pub struct Linking {
     /// Pairs of windows whose integral has changed by more than [`LINKING_CHANGE`]. One passage
     /// shows in several pairs beside one another.
     pub passages: u64,
-    /// The worst of these, [`PASSAGES_LISTED`] at most, worst first.
+    /// The worst of these, 100 at most, worst first.
     pub worst: Vec<Passage>,
     /// Pairs of windows whose integral was worked out.
     pub compared: u64,
-    /// Pairs of control intervals that were left out because of [`LINKING_BESIDE`] and
-    /// [`LINKING_COMPARED`]: 0 but for yarns of which far too much lies in one place.
+    /// Pairs of control intervals that were left out: more than 512 lay beside one, or more than
+    /// 128 could have passed through it. 0 but for yarns of which far too much lies in one place.
     pub left_out: u64,
 }
 

@@ -9,7 +9,7 @@ use super::{BySet, Crimp, Drawdown, Shape};
 use crate::{FabricError, ThreadError, WovenError, yarn_check};
 
 /// The most control points of a cloth: 64 GiB of them.
-pub const POINTS_MAX: u64 = 1 << 32;
+pub(crate) const POINTS_MAX: u64 = 1 << 32;
 
 /// A woven cloth, checked: how its threads interlace, and what each of them is like.
 ///
@@ -52,7 +52,7 @@ impl Woven {
     /// sections that they refer to.
     ///
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
-    /// points than [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii
+    /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii
     /// outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], twists beyond
     /// [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections that are
     /// not sound, and cloth wider or longer than [`COORDINATE_LIMIT`].
@@ -260,7 +260,7 @@ impl Woven {
 
     /// Flattens all threads alike: width over height of each, with its area.
     ///
-    /// **Errors**: [`WovenError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and
+    /// **Errors**: [`WovenError::Flatness`] outside \[0.1, 10\], and
     /// [`WovenError::Half`] for a thread that would be too thin or too wide; the cloth is then as
     /// it was.
     pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {

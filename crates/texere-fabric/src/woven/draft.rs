@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use texere_core::backend::zeroed;
 
-use super::drawdown::WORD;
-use crate::{CROSSINGS_MAX, Drawdown, FabricError, WovenError};
+use super::drawdown::{CROSSINGS_MAX, WORD};
+use crate::{Drawdown, FabricError, WovenError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
 ///
@@ -81,7 +81,7 @@ impl Draft {
     /// those that the pick lifts.
     ///
     /// **Errors**: the errors of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
-    /// exceed [`CROSSINGS_MAX`].
+    /// exceed 2³².
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
         let shafts = self.shafts()?;

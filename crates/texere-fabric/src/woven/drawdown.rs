@@ -13,7 +13,7 @@ use crate::{FabricError, WovenError};
 pub const THREADS_MAX: usize = 1_000_000;
 
 /// The most crossings of a drawdown: what a `u32` numbers, and half a gigabyte of bits.
-pub const CROSSINGS_MAX: u64 = 1 << 32;
+pub(super) const CROSSINGS_MAX: u64 = 1 << 32;
 
 /// Bits in a word.
 pub(super) const WORD: usize = u64::BITS as usize;
@@ -52,7 +52,7 @@ impl Drawdown {
     /// A drawdown with every warp down.
     ///
     /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of
-    /// either; [`WovenError::Crossings`] for more than [`CROSSINGS_MAX`];
+    /// either; [`WovenError::Crossings`] for more than 2³²;
     /// [`FabricError::OutOfMemory`].
     pub fn new(ends: usize, picks: usize) -> Result<Self, FabricError> {
         if !(1..=THREADS_MAX).contains(&ends) || !(1..=THREADS_MAX).contains(&picks) {

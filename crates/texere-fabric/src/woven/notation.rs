@@ -7,7 +7,7 @@ use crate::{WovenError, hyphen_look_alike, slash_look_alike};
 ///
 /// Notation is for weaves that a weaver can name; what repeats over more threads than this is a
 /// picture.
-pub const REPEAT_MAX: usize = 4096;
+pub(super) const REPEAT_MAX: usize = 4096;
 
 /// A weave as it is written.
 #[derive(Clone)]

@@ -9,16 +9,16 @@ pub const SPACING_MIN: f64 = 1e-6;
 pub const SPACING_MAX: f64 = 1e6;
 
 /// The least flatness of a thread: ten times as high as wide.
-pub const FLATNESS_MIN: f32 = 0.1;
+pub(super) const FLATNESS_MIN: f32 = 0.1;
 
 /// The most flatness of a thread: ten times as wide as high.
-pub const FLATNESS_MAX: f32 = 10.0;
+pub(super) const FLATNESS_MAX: f32 = 10.0;
 
 /// The least stiffness of a thread, in that of cotton.
-pub const STIFFNESS_MIN: f32 = 0.01;
+pub(super) const STIFFNESS_MIN: f32 = 0.01;
 
-/// The most stiffness of a thread, likewise.
-pub const STIFFNESS_MAX: f32 = 100.0;
+/// The most stiffness of a thread, in that of cotton.
+pub(super) const STIFFNESS_MAX: f32 = 100.0;
 
 /// One end or one pick: what it is like, and how wide a column of the cloth it has.
 ///
@@ -34,11 +34,12 @@ pub struct Thread {
     pub spacing_mm: f64,
     /// Radius of the yarn where it is round, mm.
     pub radius_mm: f32,
-    /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one. The
-    /// section, and what turns with the twist, is inside that outline.
+    /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one, 0.1
+    /// to
+    /// 10. The section, and what turns with the twist, is inside that outline.
     pub flatness: f32,
     /// How stiff it is against bending where the cloth comes to rest: 1 for a cotton yarn of its
-    /// diameter.
+    /// diameter, 0.01 to 100.
     pub stiffness: f32,
     /// Index into the materials.
     pub material: u32,

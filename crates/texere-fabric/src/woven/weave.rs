@@ -91,7 +91,7 @@ impl Eq for Weave {}
 impl Weave {
     /// The weave that repeats `repeat`.
     ///
-    /// **Errors**: [`WovenError::Repeat`] for more than [`REPEAT_MAX`] ends or picks.
+    /// **Errors**: [`WovenError::Repeat`] for more than 4096 ends or picks.
     pub fn new(repeat: Drawdown) -> Result<Self, WovenError> {
         Self { repeat: Repeat::Woven(repeat) }.checked()
     }

@@ -62,7 +62,7 @@ impl Woven {
     /// section and twist are one yarn, whose origin is its first pick. Odd picks run along +x, even
     /// ones back.
     ///
-    /// **Errors**: [`WovenError::Points`] for more than [`POINTS_MAX`] control points,
+    /// **Errors**: [`WovenError::Points`] for more than 2³² control points,
     /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for what only the whole shows.
     ///
     /// **Source**: one control point a crossing is the paper's count; the height of a crossing and

@@ -3,7 +3,7 @@
 use crate::weft::check::MOVED_MAX;
 
 /// The most needles by which a chart moves a loop.
-pub const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
+pub(super) const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
 
 /// The stitch in one cell of a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub enum Cell {
     /// The front needle knits, and its loop then moves to another needle. `<` and `>` move it to
     /// the next needle, for lace. `RRrr` and `llLL` exchange two groups of loops, for cables.
     Moved {
-        /// Needles to the right, negative to the left; [`CHART_MOVED_MAX`] at most either way.
+        /// Needles to the right, negative to the left; 256 at most either way.
         by: i32,
         /// Whether it goes behind the others: the half of a cable that lies below.
         behind: bool,

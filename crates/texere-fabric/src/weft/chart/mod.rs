@@ -8,7 +8,8 @@ mod symbols;
 #[cfg(test)]
 mod tests;
 
-pub use cell::{Beds, CHART_MOVED_MAX, Cell};
+use cell::CHART_MOVED_MAX;
+pub use cell::{Beds, Cell};
 pub use error::ChartError;
 pub use jacquard::Backing;
 
@@ -17,14 +18,14 @@ use texere_core::backend::{filled, room_for};
 use super::machine::CARRIERS_MAX;
 
 /// The most wales or rows of a chart.
-pub const CHART_SIDE_MAX: usize = 1 << 16;
+const CHART_SIDE_MAX: usize = 1 << 16;
 
 /// The most cells in all courses of a chart. Only knitting shows how many loops they make. It takes
 /// up to 160 bytes for each cell before a repeat of more than a million loops is refused.
-pub const CHART_CELLS_MAX: usize = 1 << 22;
+const CHART_CELLS_MAX: usize = 1 << 22;
 
 /// The most yarns of a chart. Each has a carrier of its own.
-pub const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
+const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
 
 /// One course: a pass of one yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,7 +127,7 @@ impl Chart {
     /// evenly into the courses, the chart is repeated upwards until they do.
     ///
     /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where the repeated chart is too
-    /// large, [`ChartError::Yarn`] for a yarn beyond [`CHART_YARNS_MAX`].
+    /// large, [`ChartError::Yarn`] for a yarn beyond 65534.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};

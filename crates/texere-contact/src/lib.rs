@@ -1,5 +1,5 @@
-//! How yarns lie against one another and against themselves, measured on the yarns alone: no
-//! structure is known here.
+//! How yarns lie against one another and against themselves. Everything here is measured on the
+//! yarns alone, whatever structure they come from.
 //!
 //! - [`clearance()`]: how near surfaces come to one another, where they pierce, and how tightly
 //!   yarns bend.

@@ -30,8 +30,8 @@ use super::tubes;
 use crate::ContactError;
 use crate::watch::Watch;
 
-/// How many times as far as its interval is long a section reaches that counts by its hull alone,
-/// untwisted.
+/// The reach of a section, in lengths of its interval, from which the section counts by its hull
+/// alone, untwisted.
 const DISC: f64 = 64.0;
 
 /// Two places, in intervals along both curves, that are at least this near are one.
@@ -43,7 +43,7 @@ pub(super) struct Pair<'a> {
     met: [&'a Met; 2],
     curves: [&'a Curve; 2],
     sides: [Side<'a>; 2],
-    /// Contacts beyond this are not looked for.
+    /// The greatest ratio of a contact that is looked for.
     near: f64,
     /// How far both surfaces may lie from their centrelines, together, mm.
     reach: f64,
@@ -96,12 +96,12 @@ impl<'a> Pair<'a> {
                 ratio,
             });
         };
-        // Of yarns so much thicker than their control points lie apart each interval is a disc: its
-        // tube is all there is to it.
+        // The intervals of yarns so much thicker than their control points lie apart are discs.
+        // Their tubes are all there is to them.
         let discs = self.curves.into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && self.surfaces().iter().any(|surface| !surface.is_simple()) {
             self.touching(add);
-            // Each takes as long as thousands of other pairs.
+            // Each such pair takes as long as thousands of others.
             return watch.advance(0);
         }
         let round = self.curves[0].round && self.curves[1].round;
@@ -194,10 +194,9 @@ impl<'a> Pair<'a> {
                 add(place, ratio);
             }
         };
-        // Of a yarn with itself, what lies beside the knot that two intervals share hides an
-        // approach further along.
+        // On one yarn, the knot that two intervals share hides an approach further along.
         self.chords(self.same && round, |starts| {
-            // The first may lead out of the interval to an approach beside this one's own.
+            // The first start may lead out of the interval to an approach beside this one's own.
             let reached = starts.into_iter().find_map(|start| match round {
                 true => refined(start),
                 false if discs => {
@@ -212,7 +211,7 @@ impl<'a> Pair<'a> {
                 keep(approach);
             }
         });
-        // Approaches that lie in one valley may be one to the chords.
+        // The chords may see two approaches in one valley as one.
         while !discs && valley.get() {
             let known = least.get();
             let nearer = nearer(&a.cubic, &b.cubic, known.min(self.near) - CLEARANCE_ACCURACY);

@@ -21,25 +21,26 @@ use crate::ContactError;
 use crate::grid::{Bounds, Grid};
 use crate::watch::Watch;
 
-/// The most intervals of a cell that are simply compared with one another. Threads that are clear
-/// of one another come to some 60, with one control point a crossing or several.
+/// The most intervals of a cell that are compared in all pairs. Threads that are clear of one
+/// another come to some 60, with one control point a crossing or several.
 pub(super) const FULL: usize = 256;
 
 /// Pairs between two reports of progress.
 const REPORT_EVERY: u64 = 1 << 14;
 
-/// Pairs that are looked at in a cell of so many intervals, at most.
+/// Upper bound of the pairs that are compared in a cell of this many intervals.
 pub(super) const fn cell_work(intervals: usize) -> u64 {
     let half = if intervals < 2 * CLEARANCE_BESIDE { intervals } else { 2 * CLEARANCE_BESIDE };
     intervals as u64 * half as u64 / 2
 }
 
-/// The yarns, and how far their sections reach.
+/// The yarns, with the reach of their sections.
 pub(super) struct Probe<'a> {
     yarns: &'a Yarns,
     supports: Vec<Support>,
     ways: Vec<f64>,
-    /// Contacts beyond this are not looked for: [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR) at most.
+    /// The greatest ratio of a contact that is looked for:
+    /// [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR) at most.
     near: f64,
     /// The factor of the spline's tangents.
     s: f64,
@@ -68,12 +69,13 @@ impl<'a> Probe<'a> {
         self.line(offsets.partition_point(|&start| start <= point as u64).saturating_sub(1))
     }
 
-    /// All intervals in order, `most` at a time at most.
+    /// All intervals in order, in spans of `most` at most.
     pub(super) fn spans(&self, most: usize) -> Vec<Span<'_>> {
         (0..self.yarns.layout().yarns().len()).flat_map(|yarn| self.line(yarn).spans(most)).collect()
     }
 
-    /// All contacts of intervals that meet in `cells`, one of them at least `fresh`.
+    /// Adds to `found` all contacts of intervals that meet in `cells`, where `fresh` holds for at
+    /// least one of the two.
     ///
     /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says
     /// so.
@@ -105,7 +107,8 @@ impl<'a> Probe<'a> {
                 let bounds = line.bounds(point, self.near);
                 parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
             }
-            // Two may meet in several cells: where what they share begins they count.
+            // Two intervals may meet in several cells. They count in the first cell that both reach
+            // into.
             let counts = |one: &Part<'_>, other: &Part<'_>| {
                 (fresh(one.point) || fresh(other.point))
                     && one.bounds.meets(&other.bounds)
@@ -135,10 +138,10 @@ impl<'a> Probe<'a> {
         Ok(found)
     }
 
-    /// All contacts of many intervals, or that they are a crowd.
+    /// Adds all contacts of many intervals, or that they are a crowd.
     ///
-    /// A plane is moved over them, and each is compared with those that the plane meets when it
-    /// comes to it.
+    /// A plane sweeps over them, and each interval is compared with those that the plane meets when
+    /// it reaches it.
     fn sweep(
         &self,
         parts: &mut [Part<'_>],
@@ -152,7 +155,7 @@ impl<'a> Probe<'a> {
             found.add_crowd(crowd);
             return Ok(());
         }
-        // Along the axis on which boxes are shortest beside all of them.
+        // The sweep goes along the axis on which boxes are shortest against the whole.
         let (whole, sides) = parts.iter().fold((Bounds::NOTHING, Vec3A::ZERO), |(whole, sides), part| {
             (whole.joined(part.bounds), sides + (part.bounds.high - part.bounds.low))
         });

@@ -7,19 +7,19 @@
 //! ```
 //!
 //! A [`Drawdown`] says at each crossing whether the warp lies on top. It comes from a weaver's
-//! [`Draft`], from a [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds
-//! what each thread is like and where it lies, and turns all into [`texere_core::Yarns`].
+//! [`Draft`], from a [`Weave`] in its usual notation, or straight from a function. A [`Woven`]
+//! cloth adds what each thread is like and where it lies, and makes [`texere_core::Yarns`] of all.
 //!
 //! A [`Structure`] is the fabric of any design: a [`WovenDesign`], a weft knit ([`weft::Knitted`])
 //! or a warp knit ([`warp::WarpKnitted`]). It says what is wrong with the fabric
 //! ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
-//! Yarns are about where they belong then. [`settle`] lets them come to rest on a device,
-//! [`Structure::settle`] those of a structure; a [`Repeat`] settles once and is copied.
+//! These yarns are about where they belong. [`settle`] lets yarns come to rest on a device,
+//! [`Structure::settle`] the yarns of a structure. A [`Repeat`] settles once and is copied.
 //!
-//! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption,
-//! crimp, cover, weight, thickness), and the diameter of a yarn of known weight ([`diameter_mm`]).
-//! What is measured on yarns alone, whatever their structure, is in [`texere_contact`].
+//! [`Measures`] are what designers ask for: yarn consumption, crimp, cover, weight, thickness.
+//! [`diameter_mm`] gives the diameter of a yarn of known weight. [`texere_contact`] measures yarns
+//! alone, whatever their structure.
 //!
 //! ```
 //! use texere_core::{Material, Section};

@@ -1,4 +1,4 @@
-//! The room that each thread has beside the one before it, and what it needs.
+//! The room that each thread has beside the one before it, and the room that it needs.
 
 use texere_core::Origin;
 
@@ -6,7 +6,7 @@ use super::jam::{Gap, ROUNDING};
 use super::thread::pitches;
 use super::{BySet, Woven};
 
-/// How far a thread lies from the one before it, and how far it should.
+/// Distance of a thread from the one before it, and the least distances that it needs.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -30,8 +30,8 @@ pub struct Pitch {
     /// The least distance at which the two lie side by side without piercing: half their widths
     /// together, mm.
     pub beside_mm: f64,
-    /// The least distance at which those that change sides between them can pass, mm; 0 where none
-    /// does.
+    /// The least distance at which crossing threads that change sides between the two can pass, mm;
+    /// 0 where none does.
     pub passing_mm: f64,
 }
 
@@ -50,8 +50,8 @@ impl Pitch {
 }
 
 impl Woven {
-    /// The pitches of the ends from the second one on, and those of the picks, in the cloth's
-    /// present shape.
+    /// The pitches of the ends from the second one on, and of the picks, in the cloth's present
+    /// shape.
     ///
     /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
     /// 1937, for [`Shape::Round`](crate::Shape::Round); measured, for
@@ -59,7 +59,7 @@ impl Woven {
     #[must_use]
     pub fn pitches(&self) -> BySet<Vec<Pitch>> {
         let [warp, weft] = self.gaps();
-        // What passes between ends is the weft, with its own share of the crimp.
+        // The weft passes between ends, with its own share of the crimp.
         let share = self.warp_share();
         let all = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
             let pitch = |gap: &Gap| Pitch {
@@ -73,7 +73,8 @@ impl Woven {
         BySet { warp: all(&warp, 1.0 - share, Origin::End), weft: all(&weft, share, Origin::Pick) }
     }
 
-    /// The distance of an end or a pick to the thread before, mm; of the first one to the next.
+    /// Distance of an end or a pick to the thread before, mm. The first thread has its distance to
+    /// the next.
     pub(crate) fn pitch_mm(&self, thread: Origin) -> Option<f64> {
         let (set, number) = match thread {
             Origin::End(number) => (self.warp(), number),

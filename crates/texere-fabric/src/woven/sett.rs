@@ -55,7 +55,7 @@ impl Sett {
 }
 
 impl Woven {
-    /// The setts of warp and weft. Diameters are those of the round yarns.
+    /// The setts of warp and weft, with the diameters of the round yarns.
     #[must_use]
     pub fn setts(&self) -> BySet<Sett> {
         let whole = self.whole();
@@ -81,8 +81,8 @@ impl Woven {
         })
     }
 
-    /// How often picks change sides between one end and the next of its level, and ends between
-    /// picks, for each level. Where a level of both sets is a layer, within it.
+    /// The interlacings of each level of each set: how often threads of the other set change sides
+    /// between neighbours. Where a level of both sets is a layer, only threads within it count.
     fn interlacings(&self) -> [Vec<Level>; 2] {
         let repeat = self.repeat();
         let levels = self.levels(repeat);
@@ -116,16 +116,16 @@ impl Woven {
     }
 }
 
-/// A level of a set: its share of the threads, and how often those of the other set change sides
-/// between them.
+/// A level of a set: its share of the threads, and how often threads of the other set change sides
+/// between its neighbours.
 struct Level {
     share: f64,
     interlacings: f64,
 }
 
-/// The pitch at which threads of plain weave jam between those of the other set, mm: cos θ₁ + cos
-/// θ₂ = 1, where each set's pitch is the sum of both heights times sin θ, and what it is wider than
-/// high.
+/// The pitch at which threads of plain weave jam between those of the other set, mm. It solves cos
+/// θ₁ + cos θ₂ = 1, where each set's pitch is the sum of both heights times sin θ, and the excess
+/// of its width over its height.
 fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
     let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
         let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));

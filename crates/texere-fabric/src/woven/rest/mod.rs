@@ -1,5 +1,4 @@
-//! Woven cloth at rest: its crossings settle on a device, and its yarns are drawn from how they
-//! lie.
+//! Woven cloth at rest: its crossings settle on a device, and its yarns follow from them.
 
 mod certificate;
 mod ease;
@@ -22,27 +21,27 @@ use self::resting::RestingRepeat;
 pub use self::stretch::Stretch;
 use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
-/// The share of the progress at which crossings have settled, and at which surfaces are clear.
+/// The shares of the progress at which crossings have settled, and at which surfaces are clear.
 const SETTLED: f64 = 0.5;
 const CERTIFIED: f64 = 0.95;
 
 /// Woven cloth that has come to rest.
 #[derive(Debug, Clone)]
 pub struct WovenRest {
-    /// Its yarns, as [`Woven::yarns`] orders them.
+    /// Its yarns, in the order of [`Woven::yarns`].
     pub yarns: Yarns,
-    /// Ends and picks of what has settled: the smallest repeat of threads and crossings, or all of
-    /// a cloth that has none.
+    /// Ends and picks that have settled: the smallest repeat of threads and crossings, or the whole
+    /// cloth where nothing repeats.
     pub repeat: BySet<usize>,
-    /// Passes, and what the last one has seen.
+    /// Passes of the crossings, and what the last one has seen.
     pub crossings: CrossingsRest,
-    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and
-    /// after: 0.99 at most, contacts beyond are not looked for.
+    /// The least clearance of surfaces, before any thread was made thinner for it and after; 0.99
+    /// at most, contacts beyond are not looked for.
     pub clearance: [f64; 2],
-    /// The least radius of curvature over how far the thread reaches into the bend, 1 at most:
+    /// The least radius of curvature over how far the thread reaches into the bend; 1 at most,
     /// wider bends are not looked for.
     pub bend: f64,
-    /// How many times threads were made thinner where they lacked clearance.
+    /// Rounds in which threads were made thinner where they lacked clearance.
     pub rounds: u32,
     /// The share of its area that each set keeps, in the mean.
     pub area: BySet<f64>,
@@ -53,19 +52,19 @@ pub struct WovenRest {
 }
 
 impl Woven {
-    /// The problem that the cloth's crossings are: of its smallest repeat, or of all of it where it
-    /// has none. The last threads lie beside the first ones, so that something holds every edge.
+    /// The problem of the cloth's crossings: its smallest repeat, or all of it where nothing
+    /// repeats. The last threads lie beside the first ones, so that something holds every edge.
     #[must_use]
     pub fn crossings(&self) -> Crossings {
         Problem::new(self).crossings
     }
 
-    /// Lets the cloth come to rest on `backend` as `finish` has it: threads flatten, shift and
-    /// share the crimp as the energy of their crossings has it ([`texere_core::crossings`]), and
-    /// are drawn along arcs round one another. Where surfaces as drawn, with splines of `tension`
-    /// (from 0 to below 1), lack clearance, threads are made thinner. What a thread is wide over
-    /// its height before ([`Thread::flatness`](crate::Thread)) does not count, nor [`Woven::crimp`]
-    /// and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
+    /// Lets the cloth come to rest on `backend` as `finish` asks. Threads flatten, shift and share
+    /// the crimp so that the energy of their crossings is least ([`texere_core::crossings`]), and
+    /// are drawn along arcs round one another. Threads are made thinner where surfaces lack
+    /// clearance. `tension` is that of the yarns' splines, from 0 to below 1. A thread's given
+    /// [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
+    /// [`Woven::shape`]. `progress` gets the share of the work done; `Break` ends it.
     ///
     /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course,
     /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a
@@ -123,7 +122,7 @@ impl Woven {
         })
     }
 
-    /// How its crossings lie at rest, before surfaces are measured.
+    /// The cloth's crossings at rest, before surfaces are measured.
     fn resting(
         &self,
         finish: &Finish,

@@ -14,22 +14,23 @@ use crate::woven::selvedge::{self, TURN_POINTS};
 use crate::woven::yarns::{Pass, Pen};
 use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
-/// Crossings of a repeat at rest, mm.
+/// A repeat's crossings at rest, mm.
 pub(super) struct RestingRepeat {
     repeat: [usize; 2],
     pub(super) rest: Vec<CrossingState>,
-    /// As they are drawn: half width and half height of the end, then of the pick.
+    /// Sizes that are drawn at each crossing: half width and half height of the end, then of the
+    /// pick.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
-    /// The layer of each thread of the repeat, 0 for the lowest one. All have 0 where warp and weft
-    /// have not as many levels.
+    /// The layer of each thread of the repeat, 0 for the lowest. All are 0 where warp and weft have
+    /// different numbers of levels.
     layers: [Vec<u32>; 2],
     /// Tension of the yarns' splines.
     tension: f32,
 }
 
 impl RestingRepeat {
-    /// `rest` is in the plan's unit.
+    /// The crossings `rest`, in the plan's unit.
     pub(super) fn new(
         problem: Problem,
         plan: &CrossingsPlan,
@@ -55,7 +56,7 @@ impl RestingRepeat {
         self.repeat
     }
 
-    /// The share of its area that each set keeps, in the mean and at its worst place.
+    /// The shares of its area that each set keeps: the mean, and the least.
     pub(super) fn area(&self, cloth: &Woven) -> BySet<[f64; 2]> {
         BySet { warp: 0, weft: 1 }.map(|set: usize| {
             let threads = [cloth.warp(), cloth.weft()][set];
@@ -70,12 +71,12 @@ impl RestingRepeat {
         })
     }
 
-    /// The number of a crossing of the cloth within the repeat.
+    /// Number, within the repeat, of a crossing of the cloth.
     pub(super) const fn number(&self, end: usize, pick: usize) -> usize {
         pick % self.repeat[1] * self.repeat[0] + end % self.repeat[0]
     }
 
-    /// The yarns of a cloth that has these crossings, as [`Woven::yarns`] lays them.
+    /// The yarns of a cloth with these crossings, in the order of [`Woven::yarns`].
     pub(super) fn yarns(&self, cloth: &Woven) -> Result<Yarns, FabricError> {
         let placing = Placing::new(self, cloth);
         let passes = cloth.passes();
@@ -104,18 +105,18 @@ impl RestingRepeat {
     }
 }
 
-/// So many threads beyond either edge are where the repeat goes on. A thread bends round the next
-/// one that it meets there.
+/// Threads beyond either edge, where the repeat goes on. A thread bends round the next one that it
+/// meets there.
 const BEYOND: usize = 8;
 
 /// One set of threads, measured.
 struct Threads {
-    /// Where they lie, mm, and those beyond both edges.
+    /// Middles of its threads and of those beyond both edges, mm.
     at: Vec<f64>,
     extent: f64,
 }
 
-/// A cloth's threads and how they lie.
+/// A cloth's threads on their way from crossings to control points.
 struct Placing<'a> {
     resting: &'a RestingRepeat,
     cloth: &'a Woven,
@@ -142,8 +143,8 @@ impl<'a> Placing<'a> {
         Self { resting, cloth, sets }
     }
 
-    /// A thread where it crosses another. Crossed threads count from the first one beyond the edge,
-    /// [`BEYOND`] of them.
+    /// A thread where it crosses another. Crossed threads count from the first of the [`BEYOND`]
+    /// ones beyond the edge.
     fn station(&self, (set, thread): Of, crossed: usize) -> Station {
         let other = 1 - set;
         let repeat = self.resting.repeat[other];
@@ -172,8 +173,8 @@ impl<'a> Placing<'a> {
         self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
     }
 
-    /// A pass's thread, where it is cut off, whether it runs against the order of the threads that
-    /// it crosses, and how many these are.
+    /// A pass's thread, whether each end of the pass is cut off, whether it runs against the order
+    /// of the threads that it crosses, and their number.
     fn order(&self, pass: Pass) -> (Of, [bool; 2], bool, usize) {
         match pass {
             Pass::End(end) => ((0, end), [true; 2], false, self.cloth.weft().len()),
@@ -184,8 +185,8 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Whether a thread bends round one that it crosses. A thread of a layer passes those of
-    /// another one that lie above or below it as their layers do.
+    /// Whether a thread bends round a thread that it crosses. Threads of different layers pass one
+    /// another where the higher one lies on top.
     fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
         let [own, others] = [set, 1 - set].map(|set| &self.resting.layers[set]);
         let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
@@ -265,8 +266,8 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// The points from a thread's outermost crossing, at its upper end or its lower one, to where
-    /// it is cut off.
+    /// Calls `stop` with the points from a thread's outermost crossing, at its upper end or its
+    /// lower one, to where it is cut off.
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
@@ -281,7 +282,8 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// The turn from the pick before to `pick`, as far beyond the edge end as both are wide.
+    /// The turn from the pick before to `pick`, which stands out beyond the edge end by the widths
+    /// of both.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let right = selvedge::runs_left(pick, self.cloth.selvedge());
         let ends = self.cloth.warp().len();

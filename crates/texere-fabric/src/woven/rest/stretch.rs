@@ -1,5 +1,4 @@
-//! Cloth that is stretched one way: it gives the other way, since its threads stay as long as they
-//! are.
+//! Cloth that is stretched one way. It gives the other way, since its threads keep their lengths.
 
 use std::ops::ControlFlow;
 
@@ -13,33 +12,33 @@ use crate::{BySet, Finish, FinishError, Woven};
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;
 
-/// How near the crimp of the pulled threads comes to what keeps their length.
+/// How near the crimp of the pulled threads comes to the crimp that keeps their length.
 const NEAR: f64 = 2e-4;
 
-/// How much tauter one set may become over the other one, as a natural logarithm: what
-/// [`Finish::taut`] allows.
+/// The greatest tautness of one set over the other's, as a natural logarithm: what [`Finish::taut`]
+/// allows.
 const TAUTER: f64 = 4.6;
 
-/// Halvings of that, and how often the cloth gives the other way in each.
+/// Halvings of the tautness, and how often the cloth gives the other way in each.
 const HALVINGS: u32 = 16;
 const GIVES: u32 = 3;
 
-/// What is asked of cloth that is pulled.
+/// The stretch that is asked of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// The threads along which it is pulled.
+    /// The set along which it is pulled.
     pub along: Set,
-    /// How many times as long it becomes, 0.5 to 2; less than 1 lets it draw in.
+    /// Factor of its length along that set, 0.5 to 2. Less than 1 lets it draw in.
     pub by: f64,
 }
 
 impl Woven {
-    /// The cloth stretched along one set of its threads, and `finish` with tensions such that all
-    /// threads keep the length that they have where the cloth comes to rest as `finish` has it:
-    /// those that are pulled straighten, those that cross them take their crimp, and the cloth
-    /// becomes narrower. Then [`Woven::at_rest`] lets it come to rest. `tension` is that of the
-    /// yarns' splines, from 0 to below 1; `progress` gets the share of the work that is done, and
-    /// `Break` ends it within one pass.
+    /// The cloth stretched along one set of its threads, with a `finish` whose tensions go with the
+    /// stretch. All threads keep the length that they have where this cloth comes to rest with the
+    /// given `finish`: threads that are pulled straighten, the threads that cross them take their
+    /// crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to rest.
+    /// `tension` is that of the yarns' splines, from 0 to below 1. `progress` gets the share of the
+    /// work done, and `Break` ends it within one pass.
     ///
     /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or
     /// jammed, and those of [`Woven::at_rest`].
@@ -72,8 +71,8 @@ impl Woven {
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
         let across = along.other();
-        // Of each course of settling its own share, so that the first says something, too, and each
-        // pass hears that it is to end.
+        // Each settling reports its own share of the progress, so that the first one shows, too,
+        // and each pass hears a wish to stop.
         let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
         let mut crimps_of = |cloth: &Self, finish: &Finish| {
             let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));
@@ -112,7 +111,7 @@ impl Woven {
         Err(refused())
     }
 
-    /// The crimp of warp and weft where the cloth comes to rest.
+    /// The crimp of the cloth at rest.
     fn crimps(
         &self,
         finish: &Finish,

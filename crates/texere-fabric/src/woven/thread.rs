@@ -37,8 +37,8 @@ pub struct Thread {
     /// Width over height in the cloth, from 0.1 to 10, 1 for a round thread. The area stays that of
     /// the round yarn. The section, and what turns with the twist, is inside that outline.
     pub flatness: f32,
-    /// Stiffness against bending where the cloth comes to rest, from 0.01 to 100: 1 for a cotton yarn
-    /// of its diameter.
+    /// Stiffness against bending where the cloth comes to rest, from 0.01 to 100: 1 for a cotton
+    /// yarn of its diameter.
     pub stiffness: f32,
     /// Index into the materials.
     pub material: u32,

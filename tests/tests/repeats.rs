@@ -48,7 +48,7 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     for each in [&one, &whole] {
         assert!(each.rest.start.clearance < 0.85 && each.rest.at_rest && each.is_linked(), "{:?}", each.rest);
     }
-    let copied = repeat.laid(&one.yarns).expect("copies");
+    let copied = repeat.placed(&one.yarns).expect("copies");
     assert_eq!(copied.layout().offsets(), whole.yarns.layout().offsets());
     // Any clear cloth without tight bends is at rest, so that both need not end in one place. Each
     // point starts up to 0.01 diameters off along each axis, in its own direction, which puts it up

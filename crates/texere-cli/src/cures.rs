@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 use texere::check::{ClothFault, Cure, Diagnosis, Remedy};
-use texere::woven::{JamReport, Relief, Shape};
+use texere::woven::{BySet, JamReport, Relief, Shape};
 
 use crate::clearance::{as_near_as_looked, least};
 
@@ -91,12 +91,14 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
         Remedy::Flatness(flatness) => {
             ("flatness of every yarn", flatness.to_string(), "flatter yarns of the same area".into())
         }
-        Remedy::Spacing { spacing_mm, factor } if spacing_mm.iter().all(|mm| LENGTHS_MM.contains(mm)) => {
-            let ([warp, weft], [ends, picks]) = (*spacing_mm, spacing_mm.map(|mm| 10.0 / mm));
+        Remedy::Spacing { spacing_mm, factor }
+            if spacing_mm.into_array().iter().all(|mm| LENGTHS_MM.contains(mm)) =>
+        {
+            let (BySet { warp, weft }, per_cm) = (*spacing_mm, spacing_mm.map(|mm| 10.0 / mm));
             (
                 "warp.spacing_mm, weft.spacing_mm",
                 format!("{warp:.4}, {weft:.4}"),
-                format!("{factor:.2} times as wide, {ends:.2} and {picks:.2} threads a cm"),
+                format!("{factor:.2} times as wide, {:.2} and {:.2} threads a cm", per_cm.warp, per_cm.weft),
             )
         }
         Remedy::Diameter { thickest_mm: [before, after] } if LENGTHS_MM.contains(after) => (
@@ -115,7 +117,7 @@ fn relieved(report: &JamReport, [before, after]: [f64; 2]) -> String {
     if share != new_share {
         effects.push(format!("the warp takes {new_share:.2} of the crimp instead of {share:.2}"));
     }
-    for (set, wider) in ["ends", "picks"].into_iter().zip(report.widened) {
+    for (set, wider) in [("ends", report.widened.warp), ("picks", report.widened.weft)] {
         if wider != 1.0 {
             effects.push(format!("{set} {wider:.2} times as wide and as much flatter"));
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use texere::check::{KnitMeasures, Measures};
-use texere::woven::{JamReport, Tightness};
+use texere::woven::{BySet, JamReport, Tightness};
 use texere::yarn::Material;
 
 /// A number for the warp, and one for the weft.
@@ -14,8 +14,8 @@ pub(crate) struct Sets<T> {
     pub(crate) weft: T,
 }
 
-impl<T> From<[T; 2]> for Sets<T> {
-    fn from([warp, weft]: [T; 2]) -> Self {
+impl<T> From<BySet<T>> for Sets<T> {
+    fn from(BySet { warp, weft }: BySet<T>) -> Self {
         Self { warp, weft }
     }
 }

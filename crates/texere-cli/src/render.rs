@@ -73,7 +73,8 @@ impl Shown {
         // Yarns at rest have that tension already.
         let yarns = yarns.with_tension(args.settings.tension())?;
         let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
-        let middles = design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default();
+        let middles =
+            design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default().into_array();
         Ok(Self { outputs, yarns, lies_close, middles, settling })
     }
 }

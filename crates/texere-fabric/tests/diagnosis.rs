@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use texere_core::{Material, Origin, Section, Settings};
 use texere_fabric::{
-    ClothFault, Crossing, Diagnosis, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
+    BySet, ClothFault, Crossing, Diagnosis, Relief, Remedy, Shape, Structure, Thread, Weave, Woven,
+    WovenDesign,
 };
 
 /// Yarns of 0.3 mm at these spacings of ends and picks.
@@ -47,7 +48,7 @@ fn faults_are_named_by_thread_and_crossing() {
     };
     let [on_end, on_pick] = contact.places.map(|place| place.crossing.unwrap());
     assert!(on_end.end == end && on_pick.pick == pick, "{contact:?}");
-    let [middles_x, middles_y] = jammed.middles_mm();
+    let BySet { warp: middles_x, weft: middles_y } = jammed.middles_mm();
     let Crossing { end, pick } = on_end;
     let [x, y, _] = contact.middle_mm();
     assert!((x - middles_x[end as usize - 1]).abs() < 0.4 && (y - middles_y[pick as usize - 1]).abs() < 0.66);
@@ -64,7 +65,7 @@ fn a_weft_that_turns_round_is_named_by_its_picks() {
         place if matches!(place.thread, Origin::Pick(_)) => Some(place),
         _ => None,
     });
-    let middles = &dense.middles_mm()[1];
+    let middles = &dense.middles_mm().weft;
     let mut others = 0;
     for place in picks {
         let Origin::Pick(pick) = place.thread else { continue };
@@ -84,7 +85,7 @@ fn each_cure_leaves_what_it_says() {
     for cure in cures {
         let mut changed = jammed.clone();
         match &cure.remedy {
-            Remedy::Spacing { spacing_mm, .. } => changed = cloth("3/1", *spacing_mm),
+            Remedy::Spacing { spacing_mm, .. } => changed = cloth("3/1", spacing_mm.into_array()),
             Remedy::Relief { relief, .. } => drop(changed.relieve(*relief).unwrap()),
             Remedy::Circle => changed.set_section(Section::Circle).unwrap(),
             Remedy::Flatness(flatness) => changed.set_flatness(*flatness).unwrap(),

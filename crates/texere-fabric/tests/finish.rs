@@ -212,7 +212,7 @@ fn repeat(copies: [u32; 2]) -> Repeat {
 #[test]
 fn copies_join_what_goes_on() {
     let repeat = repeat([3, 2]);
-    let laid = repeat.laid(&repeat.piece.yarns).unwrap();
+    let laid = repeat.placed(&repeat.piece.yarns).unwrap();
     let of = |origin| {
         let yarns = laid.layout().yarns().iter().enumerate().filter(move |(_, yarn)| yarn.origin == origin);
         yarns.map(|(yarn, _)| yarn).collect::<Vec<_>>()
@@ -235,13 +235,13 @@ fn copies_join_what_goes_on() {
 #[test]
 fn copies_that_can_not_be_are_refused() {
     let one = repeat([1, 1]);
-    assert_eq!(one.laid(&one.piece.yarns).unwrap().points(), one.piece.yarns.points());
+    assert_eq!(one.placed(&one.piece.yarns).unwrap().points(), one.piece.yarns.points());
     let none = repeat([0, 4]);
-    assert!(matches!(none.laid(&none.piece.yarns), Err(FabricError::Yarns(_))));
+    assert!(matches!(none.placed(&none.piece.yarns), Err(FabricError::Yarns(_))));
     let all = repeat([u32::MAX; 2]);
-    assert!(matches!(all.laid(&all.piece.yarns), Err(FabricError::OutOfMemory(_))));
+    assert!(matches!(all.placed(&all.piece.yarns), Err(FabricError::OutOfMemory(_))));
     let others = plain(2.0).yarns().unwrap();
-    assert!(matches!(one.laid(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
+    assert!(matches!(one.placed(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
 }
 
 /// A settled repeat makes settled cloth: copies of a plain weave's repeat have its clearance at
@@ -272,7 +272,7 @@ fn a_settled_repeat_fits_its_copies() {
     let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 3] };
     let finish = Finish { length: Some(FREE), ..Finish::default() };
     let settled = settle(&repeat.piece, &finish, &cpu(), |_| ControlFlow::Continue(())).unwrap();
-    let cloth = repeat.laid(&settled.yarns).unwrap();
+    let cloth = repeat.placed(&settled.yarns).unwrap();
     let found = clearance(&cloth, &Settings::default()).unwrap();
     assert!(settled.rest.start.clearance < 0.9 && settled.rest.at_rest, "{:?}", settled.rest);
     // The first and the last interval of a cut yarn lack a neighbour, and lie differently from

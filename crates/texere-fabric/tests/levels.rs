@@ -23,7 +23,7 @@ const SINGLE: [&str; 14] = [
 ];
 
 fn highest(drawdown: &Drawdown) -> [u32; 2] {
-    drawdown.levels().map(|levels| levels.into_iter().max().unwrap())
+    drawdown.levels().map(|levels| levels.into_iter().max().unwrap()).into_array()
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn layers_are_found_in_any_order() {
             })
             .unwrap();
             let expected: Vec<u32> = (0..96).map(layer).collect();
-            assert_eq!(cloth.levels(), [expected.clone(), expected], "{order:?}");
+            assert_eq!(cloth.levels().into_array(), [expected.clone(), expected], "{order:?}");
         }
     }
 }

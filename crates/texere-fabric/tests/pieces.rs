@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use texere_core::{Material, Section};
-use texere_fabric::warp::{Bar, Chain, Laid, LapKind, Threading, WarpKnitted};
+use texere_fabric::warp::{Bar, Chain, LapKind, PlacedLap, Threading, WarpKnitted};
 use texere_fabric::weft::{
     CarrierSet, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle, Operation, Program,
 };
@@ -150,8 +150,8 @@ fn weft_knits_fall_into_what_no_loop_joins() {
 
 /// Pieces and loose yarns of a whole warp knit that goes on to both sides. Every loop is painted
 /// with the colour of its yarn.
-fn painted(cloth: &WarpKnitted, laid: &[Laid]) -> (u64, u64) {
-    let [wales, courses] = cloth.laid_size();
+fn painted(cloth: &WarpKnitted, laid: &[PlacedLap]) -> (u64, u64) {
+    let [wales, courses] = cloth.lapped_size();
     let copies = i64::from(cloth.copies()[0]) + 40;
     let mut yarns = Vec::new();
     for copy in -20..copies {
@@ -159,7 +159,7 @@ fn painted(cloth: &WarpKnitted, laid: &[Laid]) -> (u64, u64) {
             yarns.push((copy, laps.iter().map(move |lap| lap.lap).collect::<Vec<_>>(), laps[0]));
         }
     }
-    let needles = |yarn: &(i64, Vec<texere_fabric::warp::Lap>, Laid), course: usize| -> Vec<i64> {
+    let needles = |yarn: &(i64, Vec<texere_fabric::warp::Lap>, PlacedLap), course: usize| -> Vec<i64> {
         let lap = yarn.1[course % courses as usize];
         if lap.kind() == LapKind::Inlay {
             return Vec::new();
@@ -240,7 +240,7 @@ proptest! {
         }
         let cloth = warp(bars, wales, courses, [copies, 1]);
         let pieces = cloth.pieces();
-        let laid: Vec<Laid> = cloth.laps().collect();
+        let laid: Vec<PlacedLap> = cloth.laps().collect();
         prop_assert_eq!((pieces.count, pieces.loose), painted(&cloth, &laid));
     }
 }

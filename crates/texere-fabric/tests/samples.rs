@@ -5,6 +5,7 @@
 use std::ops::ControlFlow;
 
 use proptest::prelude::*;
+use texere_core::crossings::Set;
 use texere_core::{Material, Section};
 use texere_cpu::ParallelBackend;
 use texere_fabric::warp::{Bar, Chain, WarpKnitted};
@@ -12,7 +13,7 @@ use texere_fabric::weft::{
     Beds, CarrierSet, Chart, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle, Operation,
     Program,
 };
-use texere_fabric::{Drawdown, Finish, Measures, Structure, Thread, Weave, Woven};
+use texere_fabric::{BySet, Drawdown, Finish, Measures, Structure, Thread, Weave, Woven};
 
 fn materials() -> Vec<Material> {
     [20.0, 30.0].map(|tex| Material { tex: Some(tex), ..Material::default() }).to_vec()
@@ -36,8 +37,8 @@ fn close(one: f64, other: f64, within: f64) -> bool {
 
 /// Weight, cover, crimp, and threads per cm.
 fn numbers(cloth: &Woven, measures: &Measures) -> [f64; 6] {
-    let [warp, weft] = measures.crimp.unwrap();
-    let [ends, picks] = cloth.setts().map(|sett| sett.per_cm);
+    let BySet { warp, weft } = measures.crimp.unwrap();
+    let BySet { warp: ends, weft: picks } = cloth.setts().map(|sett| sett.per_cm);
     [measures.areal_weight.unwrap(), 1.0 + warp, 1.0 + weft, 1.0 + measures.cover.unwrap().cloth, ends, picks]
 }
 
@@ -64,9 +65,9 @@ fn a_small_cloth_has_the_crimp_of_a_large_one_at_any_tension() {
     };
     for tension in [0.0, 0.3, 0.9] {
         let (small, large) = (crimp(4, tension), crimp(200, tension));
-        assert!([0, 1].into_iter().all(|set| close(small[set], large[set], 1e-2)), "{small:?} {large:?}");
+        assert!(Set::BOTH.into_iter().all(|set| close(small[set], large[set], 1e-2)), "{small:?} {large:?}");
     }
-    assert!(!close(crimp(4, 0.0)[0], crimp(4, 0.9)[0], 1e-1));
+    assert!(!close(crimp(4, 0.0).warp, crimp(4, 0.9).warp, 1e-1));
 }
 
 #[test]
@@ -126,7 +127,7 @@ fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat(
             let measures = straight(&[10.0, 30.0, 80.0], order, ends);
             let weight = measures.areal_weight.unwrap();
             assert!(close(weight, 2.0 * tex + 20.0, 1e-6), "{order:?} on {ends} ends: {weight}");
-            let found = measures.cover.unwrap().factor.unwrap()[0];
+            let found = measures.cover.unwrap().factor.unwrap().warp;
             assert!(close(found, factor, 1e-3), "{order:?} on {ends} ends: {found} for {factor}");
         }
     }

@@ -140,7 +140,7 @@ proptest! {
                 prop_assert!((a.x + b.x - width).abs() < 1e-5 && a.y == b.y, "end {}: {:?} {:?}", end, a, b);
             }
         }
-        let [gaps, mut back] = [&cloth, &mirrored].map(|cloth| cloth.pitches()[0].clone());
+        let [gaps, mut back] = [&cloth, &mirrored].map(|cloth| cloth.pitches().warp);
         back.reverse();
         for (gap, back) in gaps.iter().zip(&back) {
             prop_assert!((gap.pitch_mm - back.pitch_mm).abs() < 1e-12 && gap.beside_mm == back.beside_mm);
@@ -155,8 +155,8 @@ fn thick_and_thin_ends_lie_in_the_middle_of_their_columns() {
     let cloth = woven(plain(12, 2), warp, vec![Thread::new(3.0, 0.15); 2]).unwrap();
     assert_eq!(cloth.size_mm(), [18.0, 6.0]);
     let middles: Vec<_> = (0..12).map(|end| 0.5 + 1.5 * f64::from(end)).collect();
-    assert_eq!(cloth.middles_mm()[0], middles);
-    assert!(cloth.pitches()[0].iter().all(|gap| gap.pitch_mm == 1.5));
+    assert_eq!(cloth.middles_mm().warp, middles);
+    assert!(cloth.pitches().warp.iter().all(|gap| gap.pitch_mm == 1.5));
     // Side by side the two need half their diameters together, 0.85 mm, and room for the weft
     // between them.
     assert_eq!(cloth.warnings(), []);

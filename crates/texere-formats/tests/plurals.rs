@@ -67,7 +67,7 @@ fn errors_say_one_of_one() {
         WovenError::Size { ends: 1, picks: 1, limit: 9 }.to_string(),
         WovenError::Crossings { ends: 1, picks: 1, crossings: 2, limit: 1 }.to_string(),
         WovenError::Points { ends: 1, picks: 1, points: 1, limit: 0 }.to_string(),
-        WeftError::KnitRuns { passed: 9, loops: 1, limit: 2, told: None }.to_string(),
+        WeftError::KnitRuns { passed: 9, loops: 1, limit: 2, operation: None }.to_string(),
         Fabric::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }).to_string(),
         WovenError::NoCrossing { end: 2, pick: 2, ends: 1, picks: 1 }.to_string(),
         WovenError::TieUp { treadles: 1, ends: 1, limit: 0 }.to_string(),

@@ -4,7 +4,7 @@
 use texere_core::Section;
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{Crimp, Finish, JamReport, Shape, Stretch, Woven};
+use texere_fabric::{BySet, Crimp, Finish, JamReport, Shape, Stretch, Woven};
 use texere_formats::{Design, ReadError, read};
 
 const DENIM: &str = r##"name = "Denim"
@@ -151,7 +151,7 @@ fn yarns_settle_as_the_finish_table_says() {
     assert_eq!(finished(JERSEY, &format!("{free}tension = 0.05\n")).1, tension);
     assert_eq!(finished(JERSEY, "length = 1.25\n").1, of(Length::Given(1.25)));
     assert_eq!(finished(JERSEY, "length = 2\n").1, of(Length::Given(2.0)));
-    let woven = Finish { taut: [3.0, 0.5], calender: 2.0, ..Finish::default() };
+    let woven = Finish { taut: BySet { warp: 3.0, weft: 0.5 }, calender: 2.0, ..Finish::default() };
     assert_eq!(finished(DENIM, "warp_tension = 3\nweft_tension = 0.5\ncalender = 2\n"), (true, woven));
     assert!(!finished(DENIM, "settle = false\n").0);
     let stretch = |table: &str| read_text(&format!("{DENIM}[finish]\n{table}")).unwrap().stretch;
@@ -258,7 +258,7 @@ fn jammed_threads_are_relieved_as_the_design_says() {
     let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
     let read = |jam: &str| read_text(&format!("{dense}[finish]\nsettle = false\n[cloth]\n{jam}")).unwrap();
     let report = read("");
-    assert!(jams(&report).before[0].jammed > 0 && jams(&report).after == jams(&report).before);
+    assert!(jams(&report).before.warp.jammed > 0 && jams(&report).after == jams(&report).before);
     let told = report.warnings().join("\n");
     assert!(
         told.contains("threads that cross pierce one another") && told.contains("has 0.4000 mm"),
@@ -268,7 +268,12 @@ fn jammed_threads_are_relieved_as_the_design_says() {
     for jam in ["jam = \"flatten\"\n", "jam = \"shrink\"\n"] {
         let relieved = read(jam);
         assert_eq!(jams(&relieved).before, jams(&report).before);
-        assert_eq!(jams(&relieved).after.map(|set| set.jammed), [0, 0], "{:?}", jams(&relieved));
+        assert_eq!(
+            jams(&relieved).after.map(|set| set.jammed),
+            BySet { warp: 0, weft: 0 },
+            "{:?}",
+            jams(&relieved)
+        );
         assert!(relieved.warnings().is_empty());
     }
     // A share of the crimp that is given stays, so that threads have to flatten.

@@ -375,7 +375,7 @@ fn threads_lie_in_the_middle_of_their_columns() {
     let text = text.replace("Spacing=0.3\nThickness=0.1", "Spacing=0.3\nThickness=0.03") + own;
     let woven = cloth(&text);
     assert!((woven.size_mm()[0] - 7.0).abs() < 1e-12);
-    for (end, at) in woven.middles_mm()[0].iter().enumerate() {
+    for (end, at) in woven.middles_mm().warp.iter().enumerate() {
         assert!((at - (0.5 + 1.5 * end as f64)).abs() < 1e-12, "{at}");
     }
     assert!(woven.warnings().is_empty());

@@ -2,7 +2,7 @@
 
 use texere_conformance::cases;
 use texere_core::{Origin, Ray, Settings, YarnPlace};
-use texere_fabric::{Crossing, StitchPlace, ThreadPlace};
+use texere_fabric::{BySet, Crossing, StitchPlace, ThreadPlace};
 use texere_formats::Design;
 
 use super::judge::{mesh_of, picker_of};
@@ -23,7 +23,7 @@ fn named(design: &Design, points: &[[f64; 2]]) -> Vec<Option<(ThreadPlace, Strin
 fn crossings_of_a_weave_are_named_by_the_thread_on_top() {
     let design = cases::design("plain.toml");
     let cloth = design.structure.woven().unwrap().cloth();
-    let [ends, picks] = cloth.middles_mm();
+    let BySet { warp: ends, weft: picks } = cloth.middles_mm();
     let all: Vec<_> = (0..ends.len()).flat_map(|end| (0..picks.len()).map(move |pick| (end, pick))).collect();
     let points: Vec<_> = all.iter().map(|&(end, pick)| [ends[end], picks[pick]]).collect();
     for ((end, pick), found) in all.into_iter().zip(named(&design, &points)) {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 use texere::rest::{Verdict, WovenRest};
+use texere::woven::{BySet, Set};
 
 use crate::clearance::as_near_as_looked;
 use crate::measures::Sets;
@@ -41,9 +42,10 @@ struct AreaReport {
 
 impl WovenRestReport {
     pub(super) fn new(rest: &WovenRest, device: &str) -> Self {
-        let area = [0, 1].map(|set| {
-            let [mean, least] = rest.area[set];
-            AreaReport { mean, least, lost: rest.area_lost[set] }
+        let area = BySet { warp: Set::Warp, weft: Set::Weft }.map(|set| AreaReport {
+            mean: rest.area[set],
+            least: rest.area_least[set],
+            lost: rest.area_lost[set],
         });
         Self {
             device: device.to_owned(),

@@ -6,7 +6,7 @@ use texere_core::{Origin, Section};
 
 use super::faults::{ClothFault, Diagnosis, Faults};
 use super::places::Crossing;
-use crate::{Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
+use crate::{BySet, Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
 
 /// Threads to each side of a worst place that are measured with it: more than the longest floats of
 /// common weaves.
@@ -67,7 +67,7 @@ pub enum Remedy {
     /// All threads further apart.
     Spacing {
         /// Mean spacing of ends and of picks with the change, mm.
-        spacing_mm: [f64; 2],
+        spacing_mm: BySet<f64>,
         /// Factor by which all spacings are wider.
         factor: f64,
     },
@@ -262,7 +262,8 @@ impl Trial<'_> {
         let Some((factor, Outcome { clearance, curvature, .. })) = found else { return Vec::new() };
         let mean =
             |set: &[Thread]| set.iter().map(|thread| thread.spacing_mm).sum::<f64>() / set.len() as f64;
-        let spacing_mm = [self.cloth.warp(), self.cloth.weft()].map(|set| factor * mean(set));
+        let spacing_mm =
+            BySet { warp: self.cloth.warp(), weft: self.cloth.weft() }.map(|set| factor * mean(set));
         let thickest = thickest_mm(self.cloth);
         let thickest_mm = [thickest, thickest / factor];
         [Remedy::Spacing { spacing_mm, factor }, Remedy::Diameter { thickest_mm }]

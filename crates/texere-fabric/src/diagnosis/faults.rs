@@ -11,7 +11,7 @@ use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd, Thre
 use crate::{FabricError, Pitch, Woven};
 
 /// The most jammed threads that are listed one by one.
-pub const JAMS_LISTED: usize = 100;
+const JAMS_LISTED: usize = 100;
 
 /// The diagnosis of a cloth: its measured clearance, and its faults.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +86,7 @@ pub struct Jams {
     pub ends: usize,
     /// Number of jammed picks.
     pub picks: usize,
-    /// The worst of them, worst first; [`JAMS_LISTED`] at most.
+    /// The worst of them, worst first; 100 at most.
     pub threads: Vec<Pitch>,
 }
 
@@ -173,7 +173,7 @@ impl Woven {
     /// The jammed threads; `None` if there are none.
     #[must_use]
     pub fn jams(&self) -> Option<Jams> {
-        let [mut threads, picks] = self.pitches().map(|mut pitches| {
+        let [mut threads, picks] = self.pitches().into_array().map(|mut pitches| {
             pitches.retain(Pitch::is_jammed);
             pitches
         });

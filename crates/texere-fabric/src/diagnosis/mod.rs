@@ -8,7 +8,7 @@ mod places;
 mod verdict;
 
 pub use cures::{Cure, Remedy};
-pub use faults::{ClothFault, Diagnosis, Faults, JAMS_LISTED, Jams};
+pub use faults::{ClothFault, Diagnosis, Faults, Jams};
 pub(crate) use joined::Joined;
 pub use pieces::Pieces;
 pub use places::{

@@ -5,7 +5,7 @@ use std::fmt;
 use texere_core::{Origin, counted};
 
 use super::joined::Joined;
-use crate::Drawdown;
+use crate::{BySet, Drawdown};
 
 /// The most pieces, loose yarns and needles that are listed one by one.
 const LISTED: usize = 4;
@@ -73,7 +73,7 @@ impl Pieces {
     /// The layers of woven cloth, and its loose threads.
     pub(crate) fn of_woven(drawdown: &Drawdown) -> Self {
         let layers = drawdown.layers();
-        let size = |[ends, picks]: &[usize; 2]| match [*ends, *picks] {
+        let size = |layer: &BySet<usize>| match layer.into_array() {
             [1, 0] => "a loose end".to_owned(),
             [0, 1] => "a loose pick".to_owned(),
             [ends, 0] => counted(ends, "loose end"),

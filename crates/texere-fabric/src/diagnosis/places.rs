@@ -272,7 +272,7 @@ impl Names<'_> {
 
 /// The pick of `cloth` that lies nearest to the height `y`, mm.
 fn pick_at(cloth: &Woven, y: f64) -> u32 {
-    let [_, middles] = cloth.middles_mm();
+    let middles = cloth.middles_mm().weft;
     let distances = middles.into_iter().map(|middle| (middle - y).abs());
     (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
 }

@@ -3,7 +3,7 @@
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Bar, Laid, LapKind, NEEDLES_MOST, WarpError};
+use super::{Bar, LapKind, NEEDLES_MOST, PlacedLap, WarpError};
 use crate::settling::settled_together;
 use crate::weft::WeftError;
 use crate::weft::check::{passed_max, repeat_points, tiled};
@@ -19,7 +19,7 @@ const OFFSET_MAX: i32 = 1 << 16;
 const SIDE_MAX: u64 = 1 << 30;
 
 /// The most laps of a cloth before it is copied.
-const LAID_MAX: u64 = 1 << 26;
+const LAPS_MAX: u64 = 1 << 26;
 
 /// The fewest control points of a lap.
 const LAP_POINTS: u64 = 2;
@@ -94,11 +94,11 @@ pub(super) fn size(
     copies: [u32; 2],
 ) -> Result<(), FabricError> {
     let area = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
-    let laid = area(piece).saturating_mul(bars.len() as u64);
-    let points = laid.saturating_mul(LAP_POINTS).saturating_mul(area(copies));
+    let placed = area(piece).saturating_mul(bars.len() as u64);
+    let points = placed.saturating_mul(LAP_POINTS).saturating_mul(area(copies));
     let far = (0..2).any(|axis| u64::from(piece[axis]) * u64::from(copies[axis]) > SIDE_MAX);
-    if laid > LAID_MAX {
-        return Err(WarpError::Laps { laps: laid, limit: LAID_MAX }.into());
+    if placed > LAPS_MAX {
+        return Err(WarpError::Laps { laps: placed, limit: LAPS_MAX }.into());
     }
     if points > POINTS_MAX {
         return Err(WeftError::KnitPoints { points, limit: POINTS_MAX }.into());
@@ -110,11 +110,11 @@ pub(super) fn size(
         return Err(WeftError::Stitches { what: "no copy of the repeat" }.into());
     }
     let (mut loops, mut inlays, mut passed, mut points) = (0_u64, 0_u64, 0_u64, 0_u64);
-    for laid in laps(bars, repeat[0], repeat[1]) {
-        loops += u64::from(laid.lap.overlap().unsigned_abs());
-        inlays += u64::from(laid.kind() == LapKind::Inlay);
-        passed += u64::from(laid.underlap.unsigned_abs());
-        points += lap_points(&laid);
+    for placed in laps(bars, repeat[0], repeat[1]) {
+        loops += u64::from(placed.lap.overlap().unsigned_abs());
+        inlays += u64::from(placed.kind() == LapKind::Inlay);
+        passed += u64::from(placed.underlap.unsigned_abs());
+        points += lap_points(&placed);
         repeat_points(points)?;
     }
     if loops == 0 {
@@ -123,7 +123,7 @@ pub(super) fn size(
     let laps = loops + inlays;
     let limit = passed_max(laps);
     if passed > limit {
-        return Err(WeftError::KnitRuns { passed, loops: laps, limit, told: None }.into());
+        return Err(WeftError::KnitRuns { passed, loops: laps, limit, operation: None }.into());
     }
     let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
     let tiles = settled_together(repeat, whole);
@@ -132,10 +132,10 @@ pub(super) fn size(
 
 /// The number of control points of a lap with its underlap, about. Pieces of underlaps are 0.4
 /// wales long.
-fn lap_points(laid: &Laid) -> u64 {
+fn lap_points(placed: &PlacedLap) -> u64 {
     let [needles, underlap] =
-        [laid.lap.overlap(), laid.underlap].map(|count| u64::from(count.unsigned_abs()));
-    match laid.kind() {
+        [placed.lap.overlap(), placed.underlap].map(|count| u64::from(count.unsigned_abs()));
+    match placed.kind() {
         LapKind::Inlay => 1 + underlap,
         LapKind::Overlap | LapKind::TwoNeedle => {
             LOOP_POINTS * needles + (5 * underlap).div_ceil(2).saturating_sub(1)
@@ -163,7 +163,7 @@ mod tests {
         ] {
             let bars: Vec<_> = bars.iter().map(|chain| Bar::new(Chain::parse(chain, 1).unwrap())).collect();
             let courses = bars.iter().map(|bar| bar.chain.courses()).max().unwrap() as u32;
-            let laps = laps(&bars, 8, courses).map(|laid| lap_points(&laid)).sum::<u64>();
+            let laps = laps(&bars, 8, courses).map(|placed| lap_points(&placed)).sum::<u64>();
             let (yarns, sections) = (vec![KnitYarn::new(0.04)], vec![Section::Circle]);
             let gauge = Gauge::new(1.0, 0.75);
             let materials = vec![Material::default()];

@@ -6,7 +6,7 @@ use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Sectio
 
 use super::laps::laps;
 use super::path::{Cloth, Thread};
-use super::{Bar, Laid, check};
+use super::{Bar, PlacedLap, check};
 use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
 use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
@@ -35,7 +35,7 @@ pub struct WarpKnitted {
     bars: Vec<Bar>,
     gauge: Gauge,
     /// Wales and courses of one copy, where `copies` counts them.
-    laid: [u32; 2],
+    lapped: [u32; 2],
     /// Wales and courses after which all bars begin again.
     repeat: [u32; 2],
     yarns: Vec<KnitYarn>,
@@ -77,14 +77,14 @@ impl WarpKnitted {
         weft::check::gauge(&gauge)?;
         weft::check::yarns(&yarns, |number| check::first_guide(&bars, number), &materials, &sections)?;
         check::bars(&bars, yarns.len())?;
-        let laid = [wales, courses];
-        let repeat = check::repeat(&bars, laid)?;
-        check::size(&bars, repeat, laid, copies)?;
-        Ok(Self { bars, gauge, laid, repeat, yarns, materials, sections, copies, cells: Cells::Round })
+        let lapped = [wales, courses];
+        let repeat = check::repeat(&bars, lapped)?;
+        check::size(&bars, repeat, lapped, copies)?;
+        Ok(Self { bars, gauge, lapped, repeat, yarns, materials, sections, copies, cells: Cells::Round })
     }
 
     /// The laps of all threaded guides, bar by bar, guide by guide and course by course. They are
-    /// those of one copy, [`WarpKnitted::laid_size`], and repeat beyond its edges.
+    /// those of one copy, [`WarpKnitted::lapped_size`], and repeat beyond its edges.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -94,12 +94,12 @@ impl WarpKnitted {
     /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
     /// let yarns = vec![KnitYarn::new(0.05)];
     /// let cloth = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [1, 1])?;
-    /// let laps: Vec<_> = cloth.laps().map(|laid| (laid.guide, laid.course, laid.lap.needle())).collect();
+    /// let laps: Vec<_> = cloth.laps().map(|placed| (placed.guide, placed.course, placed.lap.needle())).collect();
     /// assert_eq!(laps[..4], [(0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 2)]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn laps(&self) -> impl Iterator<Item = Laid> + '_ {
-        let [wales, courses] = self.laid_size();
+    pub fn laps(&self) -> impl Iterator<Item = PlacedLap> + '_ {
+        let [wales, courses] = self.lapped_size();
         laps(self.bars(), wales, courses)
     }
 
@@ -155,8 +155,8 @@ impl WarpKnitted {
 
     /// Wales and courses of one of the [`WarpKnitted::copies`].
     #[must_use]
-    pub const fn laid_size(&self) -> [u32; 2] {
-        self.laid
+    pub const fn lapped_size(&self) -> [u32; 2] {
+        self.lapped
     }
 
     /// Wales and courses after which all bars begin again.
@@ -167,7 +167,7 @@ impl WarpKnitted {
     /// Number of wales and of courses in the whole cloth.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
-        [0, 1].map(|axis| self.laid[axis] * self.copies[axis])
+        [0, 1].map(|axis| self.lapped[axis] * self.copies[axis])
     }
 
     /// Width and height of the cloth, mm: wales and courses times their distances. Guides at the
@@ -181,7 +181,7 @@ impl WarpKnitted {
     #[must_use]
     pub fn loops(&self) -> u64 {
         let [across, along] = [0, 1].map(|axis| u64::from(self.size()[axis] / self.repeat[axis]));
-        let loops = |laid: Laid| u64::from(laid.lap.overlap().unsigned_abs());
+        let loops = |placed: PlacedLap| u64::from(placed.lap.overlap().unsigned_abs());
         laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
     }
 
@@ -197,12 +197,12 @@ impl WarpKnitted {
     /// and [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        self.laid(&repeat, &repeat.piece.yarns)
+        self.placed(&repeat, &repeat.piece.yarns)
     }
 
     /// All copies of a repeat, settled or not. Origins and sources count guides and courses of the
     /// whole cloth.
-    pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
         let origin = |origin, [x, _]: [i64; 2]| match origin {
             Origin::Guide { bar, guide } => Origin::Guide { bar, guide: guide + x as u32 * wales },
@@ -211,7 +211,7 @@ impl WarpKnitted {
         let last = i64::from(self.size()[1]);
         let source =
             |own: u32, [_, y]: [i64; 2]| (i64::from(own) + y * i64::from(courses)).clamp(1, last) as u32;
-        self.ended(repeat.laid_as(yarns, self.beyond(), origin, source)?)
+        self.ended(repeat.placed_as(yarns, self.beyond(), origin, source)?)
     }
 
     /// One repeat of the cloth, with its boundary. See [`WarpKnitted::repeat`].

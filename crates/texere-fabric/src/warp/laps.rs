@@ -5,7 +5,7 @@ use super::{Bar, Lap, LapKind};
 
 /// A lap in its place in the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Laid {
+pub struct PlacedLap {
     /// The guide bar, from 0 at the front.
     pub bar: u32,
     /// The guide within it, from 0.
@@ -22,7 +22,7 @@ pub struct Laid {
     pub underlap: i32,
 }
 
-impl Laid {
+impl PlacedLap {
     /// The kind of the lap.
     #[must_use]
     pub const fn kind(&self) -> LapKind {
@@ -37,14 +37,14 @@ impl Laid {
 }
 
 /// The laps of `wales` guides of each bar, at `courses` courses.
-pub(super) fn laps(bars: &[Bar], wales: u32, courses: u32) -> impl Iterator<Item = Laid> + '_ {
+pub(super) fn laps(bars: &[Bar], wales: u32, courses: u32) -> impl Iterator<Item = PlacedLap> + '_ {
     (0..).zip(bars).flat_map(move |(number, bar)| {
         (0..wales).filter_map(move |guide| Some((guide, bar.threading.yarn(guide)?))).flat_map(
             move |(guide, yarn)| {
                 (0..courses).map(move |course| {
                     let lap = bar.lap(guide, course);
                     let next = bar.lap(guide, (course + 1) % courses);
-                    Laid { bar: number, guide, course, yarn, lap, underlap: next.from - lap.to }
+                    PlacedLap { bar: number, guide, course, yarn, lap, underlap: next.from - lap.to }
                 })
             },
         )

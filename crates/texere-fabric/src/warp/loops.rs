@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use texere_core::OutOfMemory;
 use texere_core::backend::room_for;
 
-use super::{Bar, Laid, Lap, LapKind};
+use super::{Bar, Lap, LapKind, PlacedLap};
 
 /// The rank of a loop among the loops on its needle. They are ordered by bar from the front, and
 /// within a bar by guide.
@@ -37,7 +37,7 @@ impl Share {
 /// The laps of a repeat, and the ranks of their loops on the needles.
 pub(super) struct Loops {
     /// All laps, bar by bar, guide by guide, course by course.
-    pub(super) laid: Vec<Laid>,
+    pub(super) placed: Vec<PlacedLap>,
     /// For each lap, the ranks of its loops; a lap makes two at most.
     shares: Vec<[Share; 2]>,
     /// The most loops on one needle in a course.
@@ -52,33 +52,34 @@ pub(super) struct Loops {
 impl Loops {
     /// Ranks the loops of `laid`, all laps of a repeat in order. `size` is the number of wales and
     /// of courses.
-    pub(super) fn new(laid: Vec<Laid>, bars: &[Bar], size: [u32; 2]) -> Result<Self, OutOfMemory> {
+    pub(super) fn new(placed: Vec<PlacedLap>, bars: &[Bar], size: [u32; 2]) -> Result<Self, OutOfMemory> {
         let needles = size[0] as usize * size[1] as usize;
         let (mut shares, mut all, mut own) = (Vec::new(), Vec::new(), Vec::new());
-        room_for(&mut shares, laid.len(), "loops")?;
+        room_for(&mut shares, placed.len(), "loops")?;
         room_for(&mut all, needles, "needles")?;
         room_for(&mut own, needles, "needles")?;
-        let longest = laid.chunk_by(|one, other| one.bar == other.bar).map(<[Laid]>::len).max().unwrap_or(0);
+        let longest =
+            placed.chunk_by(|one, other| one.bar == other.bar).map(<[PlacedLap]>::len).max().unwrap_or(0);
         let mut order: Vec<(Reverse<i32>, usize, usize, usize)> = Vec::new();
         room_for(&mut order, 2 * longest, "loops")?;
-        shares.resize(laid.len(), [Share::default(); 2]);
+        shares.resize(placed.len(), [Share::default(); 2]);
         all.resize(needles, 0_u16);
         own.resize(needles, 0_u16);
-        let place = |laid: &Laid, needle: i32| {
-            needle.rem_euclid(size[0] as i32) as usize + laid.course as usize * size[0] as usize
+        let place = |placed: &PlacedLap, needle: i32| {
+            needle.rem_euclid(size[0] as i32) as usize + placed.course as usize * size[0] as usize
         };
         let mut start = 0;
-        for bar in laid.chunk_by(|one, other| one.bar == other.bar) {
+        for bar in placed.chunk_by(|one, other| one.bar == other.bar) {
             let shares = &mut shares[start..start + bar.len()];
             own.fill(0);
             order.clear();
-            let parts = |lap: &Laid| lap.lap.needles().enumerate();
-            for (number, laid) in bar.iter().enumerate() {
+            let parts = |lap: &PlacedLap| lap.lap.needles().enumerate();
+            for (number, placed) in bar.iter().enumerate() {
                 // A yarn that comes round the edge of the repeat comes from the left of all yarns
                 // in it.
                 let round = |needle: i32| Reverse(needle.div_euclid(size[0] as i32));
                 order.extend(
-                    parts(laid).map(|(part, needle)| (round(needle), number, part, place(laid, needle))),
+                    parts(placed).map(|(part, needle)| (round(needle), number, part, place(placed, needle))),
                 );
             }
             order.sort_unstable();
@@ -92,9 +93,9 @@ impl Loops {
             }
             start += bar.len();
         }
-        for (laid, shares) in laid.iter().zip(&mut shares) {
-            for (needle, share) in laid.lap.needles().zip(shares) {
-                share.all = all[place(laid, needle)];
+        for (placed, shares) in placed.iter().zip(&mut shares) {
+            for (needle, share) in placed.lap.needles().zip(shares) {
+                share.all = all[place(placed, needle)];
             }
         }
         let most = all.into_iter().max().unwrap_or(1).max(1);
@@ -103,7 +104,7 @@ impl Loops {
             let others = bars.iter().enumerate().filter(|(other, _)| *other != number);
             others.into_iter().any(|(_, other)| laps_alike(bar, other))
         });
-        Ok(Self { alike: alike.collect(), laid, shares, most, steep })
+        Ok(Self { alike: alike.collect(), placed, shares, most, steep })
     }
 
     /// The rank of a loop: `part` is 0, or 1 for the second loop of a lap round two needles.

@@ -35,7 +35,7 @@ pub use bar::{Bar, Displacements, Threading};
 pub use chain::{CHAIN_COURSES, Chain, Lap, LapKind, NEEDLES_MOST, SPACE_MAX};
 pub use error::WarpError;
 pub use knitted::WarpKnitted;
-pub use laps::Laid;
+pub use laps::PlacedLap;
 pub use library::LAPPINGS;
 pub use notation::ChainError;
 pub use settle::RunIn;

@@ -32,7 +32,7 @@ use texere_core::{ControlPoint, OutOfMemory};
 use super::bar::RACK;
 use super::laps::laps;
 use super::loops::Loops;
-use super::{Bar, Laid, LapKind};
+use super::{Bar, LapKind, PlacedLap};
 use crate::weft::{Cells, Gauge};
 
 /// Height of a loop from foot to head, in courses, where its bar has no run-in. By trial with
@@ -101,7 +101,7 @@ const CROSSES: [f64; 2] = [0.3, 0.8];
 /// A yarn of a repeat, as laid: its first lap, its points in mm, and the course of each point, from
 /// 0.
 pub(super) struct Thread {
-    pub(super) first: Laid,
+    pub(super) first: PlacedLap,
     pub(super) points: Vec<DVec3>,
     pub(super) courses: Vec<u32>,
 }
@@ -129,10 +129,10 @@ impl<'a> Cloth<'a> {
         size: [u32; 2],
         cells: Cells,
     ) -> Result<Self, OutOfMemory> {
-        let mut laid = Vec::new();
-        room_for(&mut laid, size[0] as usize * size[1] as usize * bars.len(), "laps")?;
-        laid.extend(laps(bars, size[0], size[1]));
-        let loops = Loops::new(laid, bars, size)?;
+        let mut placed = Vec::new();
+        room_for(&mut placed, size[0] as usize * size[1] as usize * bars.len(), "laps")?;
+        placed.extend(laps(bars, size[0], size[1]));
+        let loops = Loops::new(placed, bars, size)?;
         let mut cloth = Self { bars, gauge, cells, size, diameter, loops, heights: vec![HEIGHT; bars.len()] };
         for (number, bar) in bars.iter().enumerate() {
             if let Some(run_in_mm) = bar.run_in_mm {
@@ -157,8 +157,8 @@ impl<'a> Cloth<'a> {
     /// Mean length of a bar's yarns in the repeat, mm; `None` for a bar without yarns.
     fn mean_length_mm(&self, bar: usize) -> Result<Option<f64>, OutOfMemory> {
         let height = f64::from(self.size[1]) * self.gauge.course_mm;
-        let own = (0..self.loops.laid.len()).step_by(self.size[1] as usize);
-        let own: Vec<_> = own.filter(|lap| self.loops.laid[*lap].bar as usize == bar).collect();
+        let own = (0..self.loops.placed.len()).step_by(self.size[1] as usize);
+        let own: Vec<_> = own.filter(|lap| self.loops.placed[*lap].bar as usize == bar).collect();
         let length = |lap: &usize| {
             let point = |at: DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, 1.0);
             let thread = self.thread(*lap)?.points;
@@ -176,22 +176,25 @@ impl<'a> Cloth<'a> {
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn lay(&self) -> Result<Vec<Thread>, OutOfMemory> {
         let courses = self.size[1] as usize;
-        (0..self.loops.laid.len() / courses).into_par_iter().map(|yarn| self.thread(yarn * courses)).collect()
+        (0..self.loops.placed.len() / courses)
+            .into_par_iter()
+            .map(|yarn| self.thread(yarn * courses))
+            .collect()
     }
 
     /// Lays the yarn whose first lap has the number `first`.
     fn thread(&self, first: usize) -> Result<Thread, OutOfMemory> {
         let laps = first..first + self.size[1] as usize;
-        let mut laid: Vec<Vec<DVec3>> = Vec::new();
-        room_for(&mut laid, laps.len(), "laps of a yarn")?;
-        laid.extend(laps.map(|lap| self.lap(lap)));
+        let mut placed: Vec<Vec<DVec3>> = Vec::new();
+        room_for(&mut placed, laps.len(), "laps of a yarn")?;
+        placed.extend(laps.map(|lap| self.lap(lap)));
         let on = DVec3::Y * f64::from(self.size[1]) * self.gauge.course_mm;
         let (mut points, mut courses) = (Vec::new(), Vec::new());
-        for (course, own) in (0..).zip(&laid) {
+        for (course, own) in (0..).zip(&placed) {
             room_for(&mut points, own.len(), "points of a yarn")?;
             points.extend(own);
-            let next = laid.get(course as usize + 1).map_or_else(|| laid[0][0] + on, |next| next[0]);
-            let behind = match self.loops.laid[first + course as usize].kind() {
+            let next = placed.get(course as usize + 1).map_or_else(|| placed[0][0] + on, |next| next[0]);
+            let behind = match self.loops.placed[first + course as usize].kind() {
                 LapKind::Inlay => 0.0,
                 LapKind::Overlap | LapKind::TwoNeedle => UNDERLAP * self.diameter,
             };
@@ -204,7 +207,7 @@ impl<'a> Cloth<'a> {
             room_for(&mut courses, more, "courses of a yarn's points")?;
             courses.resize(points.len(), course);
         }
-        Ok(Thread { first: self.loops.laid[first], points, courses })
+        Ok(Thread { first: self.loops.placed[first], points, courses })
     }
 
     /// The points of an underlap between its two ends, mm. They divide it into pieces about as long
@@ -222,12 +225,12 @@ impl<'a> Cloth<'a> {
     /// The points of one lap without its underlap, mm. An inlay has a point at each wale that it
     /// crosses.
     fn lap(&self, number: usize) -> Vec<DVec3> {
-        let laid = &self.loops.laid[number];
-        if laid.kind() == LapKind::Inlay {
-            return self.inlay(laid);
+        let placed = &self.loops.placed[number];
+        if placed.kind() == LapKind::Inlay {
+            return self.inlay(placed);
         }
         let mut points: Vec<DVec3> = Vec::new();
-        for (part, needle) in laid.lap.needles().enumerate() {
+        for (part, needle) in placed.lap.needles().enumerate() {
             let own = self.loop_points(number, part, needle);
             if let Some(last) = points.last().copied() {
                 points.extend(self.between(last, own[0], UNDERLAP * self.diameter));
@@ -237,15 +240,15 @@ impl<'a> Cloth<'a> {
         points
     }
 
-    fn inlay(&self, laid: &Laid) -> Vec<DVec3> {
+    fn inlay(&self, placed: &PlacedLap) -> Vec<DVec3> {
         let Gauge { wale_mm, course_mm, .. } = self.gauge;
-        let behind = self.behind(laid.bar as usize) * self.diameter;
+        let behind = self.behind(placed.bar as usize) * self.diameter;
         let at = |space: f64, above: f64| {
-            DVec3::new(space * wale_mm, (f64::from(laid.course) + above) * course_mm, -behind)
+            DVec3::new(space * wale_mm, (f64::from(placed.course) + above) * course_mm, -behind)
         };
-        let space = f64::from(laid.lap.to);
-        let hand = f64::from(laid.underlap.signum());
-        let count = laid.underlap.unsigned_abs();
+        let space = f64::from(placed.lap.to);
+        let hand = f64::from(placed.underlap.signum());
+        let count = placed.underlap.unsigned_abs();
         let wales = (0..count).map(|wale| {
             let passed = f64::from(wale) + 0.5;
             let [first, last] = CROSSES;
@@ -271,7 +274,7 @@ impl<'a> Cloth<'a> {
     /// quarter of a wale, heads in the middle. What follows shifts them, so that loops on one
     /// needle do not lie in one another.
     fn loop_points(&self, number: usize, part: usize, needle: i32) -> [DVec3; 9] {
-        let (laid, share) = (&self.loops.laid[number], self.loops.share(number, part));
+        let (placed, share) = (&self.loops.placed[number], self.loops.share(number, part));
         let (Gauge { wale_mm, course_mm, .. }, diameter) = (self.gauge, self.diameter);
         let apart = f64::from(self.loops.most - 1);
         // Legs of each loop lie in front of heads of all. That takes more depth than the loops on a
@@ -279,13 +282,13 @@ impl<'a> Cloth<'a> {
         let (forward, tilt) = if apart > 0.0 { (0.65 + 0.35 * apart, 0.3) } else { (0.9, 0.0) };
         let front_most = share.front_most();
         let layer = LAYER * front_most;
-        let behind = self.behind(laid.bar as usize) + BESIDE * f64::from(share.own_rank);
-        let slant = if self.loops.steep[laid.bar as usize] { SLANT_STEEP } else { SLANT };
+        let behind = self.behind(placed.bar as usize) + BESIDE * f64::from(share.own_rank);
+        let slant = if self.loops.steep[placed.bar as usize] { SLANT_STEEP } else { SLANT };
         let bulge = (BULGE * diameter).min(BULGE_MOST * wale_mm);
         // Loops of bars that lap alike would lie in one another, and are shifted sideways. Of other
         // bars, a loop that is further forward at its legs is further back at its feet. Its legs
         // begin wider or narrower, so that yarns pass beside one another on the way.
-        let (beside, aside) = if self.loops.alike[laid.bar as usize] {
+        let (beside, aside) = if self.loops.alike[placed.bar as usize] {
             (front_most, 0.0)
         } else {
             (share.own_middle(), ASIDE * diameter)
@@ -294,10 +297,10 @@ impl<'a> Cloth<'a> {
         // Loops of one bar are equally wide. Each lies beside the next one all the way but at the
         // head, where they cross once.
         let wider = front_most + share.own_middle();
-        let height = self.heights[laid.bar as usize];
-        let side = f64::from(laid.lap.overlap().signum());
+        let height = self.heights[placed.bar as usize];
+        let side = f64::from(placed.lap.overlap().signum());
         let middle = (f64::from(needle) + 0.5) * wale_mm + beside * diameter;
-        let course = f64::from(laid.course) * course_mm;
+        let course = f64::from(placed.course) * course_mm;
         let place = |x: f64, y: f64, z: f64| DVec3::new(x, course + y * course_mm, z * diameter);
         let leg = |hand: f64| {
             let at =

@@ -4,7 +4,7 @@
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Laid, LapKind, WarpKnitted};
+use super::{LapKind, PlacedLap, WarpKnitted};
 use crate::Pieces;
 use crate::diagnosis::Joined;
 
@@ -23,8 +23,8 @@ impl WarpKnitted {
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let [wales, courses] = self.repeat_size();
-        let laid: Vec<Laid> = laps(self.bars(), wales, courses).collect();
-        let guides: Vec<&[Laid]> = laid.chunks(courses as usize).collect();
+        let placed: Vec<PlacedLap> = laps(self.bars(), wales, courses).collect();
+        let guides: Vec<&[PlacedLap]> = placed.chunks(courses as usize).collect();
         let needle =
             |number: i32| (number.rem_euclid(wales as i32), i64::from(number.div_euclid(wales as i32)));
         let place =
@@ -78,7 +78,7 @@ impl WarpKnitted {
             .filter(|own| (0..courses as usize).all(|course| hanging[place(*own, course)].is_empty()));
         let empty: Vec<u64> = empty.map(|own| own as u64).collect();
         let origin = |number: usize, copy: u32| {
-            let Laid { bar, guide, .. } = guides[number][0];
+            let PlacedLap { bar, guide, .. } = guides[number][0];
             Origin::Guide { bar: bar + 1, guide: guide + 1 + copy * wales }
         };
         let copies = [0, 1].map(|axis| self.size()[axis] / self.repeat_size()[axis]);
@@ -88,7 +88,7 @@ impl WarpKnitted {
 }
 
 /// The needles that a yarn crosses on its way to its next lap, except the needles of its own loops.
-fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
+fn crossed(lap: &PlacedLap, next: &PlacedLap) -> std::ops::Range<i32> {
     let [from, to] = [lap.lap.to, lap.lap.to + lap.underlap];
     let [low, high] = [from.min(to), from.max(to)];
     let own = |needle: i32| lap.lap.needles().chain(next.lap.needles()).any(|own| own == needle);
@@ -97,7 +97,7 @@ fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
 
 /// The spaces that a yarn passes behind the needles on its way from a loop to the next one. Space n
 /// lies between the needles n - 1 and n.
-fn spaces(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
+fn spaces(lap: &PlacedLap, next: &PlacedLap) -> std::ops::Range<i32> {
     let [one, other] = [lap, next].map(|lap| lap.lap.needle());
     if lap.kind() == LapKind::Inlay || next.kind() == LapKind::Inlay {
         return 0..0;

@@ -57,7 +57,8 @@ impl WarpKnitted {
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?.with_tension(tension).map_err(FabricError::from)?;
         let finish = self.finish_of(&repeat, finish);
-        let settled = settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, backend, progress)?;
+        let settled =
+            settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)?;
         Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
     }
 

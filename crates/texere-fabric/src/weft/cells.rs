@@ -46,7 +46,7 @@ pub(super) fn cells(
     strand: usize,
 ) -> Result<(Vec<Cell>, Option<[i64; 2]>), OutOfMemory> {
     let steps = stitches.strands[strand].steps.iter().enumerate();
-    let told = steps.map(|(index, step)| told(stitches, layers, [strand, index], step));
+    let made = steps.map(|(index, step)| cell_of(stitches, layers, [strand, index], step));
     let onward = match (stitches.strands[strand].onward, stitches.repeat) {
         (Some(repeats), Some(size)) => {
             Some([0, 1].map(|axis| i64::from(repeats[axis]) * i64::from(size[axis])))
@@ -54,7 +54,7 @@ pub(super) fn cells(
         _ => None,
     };
     let mut cells: Vec<Cell> = Vec::new();
-    for cell in told {
+    for cell in made {
         if let Some(last) = cells.last().copied() {
             pass(&mut cells, &last, &cell)?;
         }
@@ -77,7 +77,7 @@ pub(super) fn cells(
 }
 
 /// A step of the program as a cell. `at` is the number of its strand, and its number in that.
-fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Cell {
+fn cell_of(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Cell {
     let (rank, visit) = (layers.rank(at), stitches.visit(step));
     Cell {
         number: visit.number,

@@ -122,7 +122,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftErro
     let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
     let limit = passed_max(loops);
     if passed > limit {
-        return Err(WeftError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
+        return Err(WeftError::KnitRuns { passed, loops, limit, operation: furthest(stitches) });
     }
     let points = repeat_points(points(stitches))?;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
@@ -259,9 +259,9 @@ mod tests {
             let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
             let estimate = points(&stitches);
             let knit = Knitted::new(stitches, gauge, yarns, materials, sections, [1, 1]).unwrap();
-            let laid = knit.piece().unwrap().yarns.points().len();
-            let share = estimate as f64 / laid as f64;
-            assert!((0.9..1.1).contains(&share), "{name}: {estimate} for {laid}");
+            let placed = knit.piece().unwrap().yarns.points().len();
+            let share = estimate as f64 / placed as f64;
+            assert!((0.9..1.1).contains(&share), "{name}: {estimate} for {placed}");
         }
     }
 }

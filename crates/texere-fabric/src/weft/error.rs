@@ -34,7 +34,7 @@ pub enum WeftError {
         limit: u64,
         /// The [source](crate::weft::Operation::source) of the operation at which the longest way
         /// of a yarn between two loops ends; none for a warp knit.
-        told: Option<u32>,
+        operation: Option<u32>,
     },
     /// A needle beyond those of any machine, as numbered or as the beds are racked.
     #[error("needle {needle}; needles {} to {limit} are taken", -i64::from(*.limit))]

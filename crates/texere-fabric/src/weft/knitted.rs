@@ -6,7 +6,7 @@ use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Sectio
 
 use super::layers::Layers;
 use super::path::Cloth;
-use super::pen::Laid;
+use super::pen::YarnPoints;
 use super::shape::Shape;
 use super::{Cells, Gauge, KnitYarn, Stitches, Strand, WeftError, check};
 use crate::reach::Reach;
@@ -136,14 +136,14 @@ impl Knitted {
     /// [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        self.laid(&repeat, &repeat.piece.yarns)
+        self.placed(&repeat, &repeat.piece.yarns)
     }
 
     /// All copies of a repeat, settled or not. Yarns are cut three control points beyond their last
     /// loop, unless all cells have to have equally many points. A leg runs straight there. The cut
     /// end therefore bends as it does in the repeat, and touches nothing.
-    pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        repeat.laid_beyond(yarns, self.beyond())
+    pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        repeat.placed_beyond(yarns, self.beyond())
     }
 
     /// Number of control points by which a repeat's yarns go on beyond all copies, at their
@@ -183,17 +183,17 @@ impl Knitted {
         let layers = Layers::new(stitches)?;
         let left = if stitches.repeat.is_some() { 0.0 } else { extent(stitches).0 };
         let cloth = Cloth { stitches, layers: &layers, shape: &self.shape, left, kind: self.cells };
-        let laid: Vec<Laid> = (0..stitches.strands.len())
+        let placed: Vec<YarnPoints> = (0..stitches.strands.len())
             .into_par_iter()
             .map(|strand| cloth.lay(strand))
             .collect::<Result<_, _>>()?;
-        let total = laid.iter().map(|laid| laid.points.len()).sum();
+        let total = placed.iter().map(|placed| placed.points.len()).sum();
         let (mut table, mut offsets, mut ends) = (Vec::new(), vec![0], Vec::new());
         let (mut points, mut sources, mut pinned) = (Vec::new(), Vec::new(), Vec::new());
         room_for(&mut points, total, "control points")?;
         room_for(&mut sources, total, "sources")?;
-        for (strand, laid) in stitches.strands.iter().zip(laid) {
-            if laid.points.is_empty() {
+        for (strand, placed) in stitches.strands.iter().zip(placed) {
+            if placed.points.is_empty() {
                 continue;
             }
             let yarn = &self.yarns[strand.carrier as usize];
@@ -204,11 +204,11 @@ impl Knitted {
             let KnitYarn { radius_mm, material, section, twist } = *yarn;
             table.push(Yarn { material, section, closed: false, twist, origin });
             ends.push(strand.onward.map_or(Ends::Open, Ends::Repeats));
-            pinned.extend(laid.pinned.iter().map(|pin| pin + points.len() as u64));
+            pinned.extend(placed.pinned.iter().map(|pin| pin + points.len() as u64));
             let point =
                 |at: &glam::DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, radius_mm);
-            points.extend(laid.points.iter().map(point));
-            sources.extend(laid.sources);
+            points.extend(placed.points.iter().map(point));
+            sources.extend(placed.sources);
             offsets.push(points.len() as u64);
         }
         if points.len() as u64 > POINTS_MAX {

@@ -37,13 +37,11 @@ mod stitches;
 mod tile;
 mod yarn;
 
-pub use chart::{
-    Backing, Beds, CHART_CELLS_MAX, CHART_MOVED_MAX, CHART_SIDE_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError,
-};
+pub use chart::{Backing, Beds, Cell, Chart, ChartError};
 pub use error::WeftError;
 pub use gauge::Gauge;
 pub use knitted::Knitted;
-pub use machine::{FAULTS_LISTED, Fault, FaultKind, Knit, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};
+pub use machine::{Fault, FaultKind, Knit, Machine, NEEDLE_MAX, STACK_MAX};
 pub use program::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 pub use stitches::{Fate, Head, LoopKind, LoopRef, Parent, Step, Stitch, Stitches, Strand, Visit};
 pub use yarn::{Cells, KnitYarn};

@@ -16,7 +16,7 @@ use texere_core::OutOfMemory;
 use super::cells::{Cell, cells};
 use super::form::{Form, side};
 use super::layers::{Behind, Layers};
-use super::pen::{Laid, Pen};
+use super::pen::{Pen, YarnPoints};
 use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
 
@@ -52,9 +52,11 @@ impl Cloth<'_> {
     /// Lays a yarn. Of one that goes on in the next repeat it lays one round.
     ///
     /// **Errors**: [`OutOfMemory`].
-    pub(super) fn lay(&self, strand: usize) -> Result<Laid, OutOfMemory> {
+    pub(super) fn lay(&self, strand: usize) -> Result<YarnPoints, OutOfMemory> {
         let (cells, onward) = cells(self.stitches, self.layers, strand)?;
-        let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return Ok(Laid::default()) };
+        let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
+            return Ok(YarnPoints::default());
+        };
         let mut pen = Pen::default();
         match onward {
             Some([right, up]) => {
@@ -77,7 +79,7 @@ impl Cloth<'_> {
             DVec3::new(right as f64 * self.shape.wale, up as f64 * self.shape.course, 0.0)
         });
         match self.kind {
-            Cells::Round => Ok(pen.laid()),
+            Cells::Round => Ok(pen.into_points()),
             Cells::Even => pen.even(onward),
         }
     }

@@ -12,7 +12,7 @@ const EVEN: usize = 12;
 
 /// The control points of a yarn that has been laid.
 #[derive(Debug, Default)]
-pub(super) struct Laid {
+pub(super) struct YarnPoints {
     pub(super) points: Vec<DVec3>,
     /// The source of each point: see [`Operation::source`](super::Operation::source).
     pub(super) sources: Vec<u32>,
@@ -24,7 +24,7 @@ pub(super) struct Laid {
 /// Records the control points of one yarn.
 #[derive(Debug, Default)]
 pub(super) struct Pen {
-    laid: Laid,
+    placed: YarnPoints,
     source: u32,
     /// Index of the first point of each cell.
     cells: Vec<usize>,
@@ -37,19 +37,19 @@ impl Pen {
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn room(&mut self, points: usize) -> Result<(), OutOfMemory> {
-        room_for(&mut self.laid.points, points, "points of a yarn")?;
-        room_for(&mut self.laid.sources, points, "sources of a yarn's points")
+        room_for(&mut self.placed.points, points, "points of a yarn")?;
+        room_for(&mut self.placed.sources, points, "sources of a yarn's points")
     }
 
     /// Begins a cell whose points have this source.
     pub(super) fn cell(&mut self, source: u32) {
         self.source = source;
-        self.cells.push(self.laid.points.len());
+        self.cells.push(self.placed.points.len());
     }
 
     /// Ends the last cell.
     pub(super) fn tail(&mut self) {
-        self.tail = Some(self.laid.points.len());
+        self.tail = Some(self.placed.points.len());
     }
 
     /// Sets the source of the points that follow.
@@ -58,18 +58,18 @@ impl Pen {
     }
 
     pub(super) fn point(&mut self, point: DVec3) {
-        self.laid.points.push(point);
-        self.laid.sources.push(self.source);
+        self.placed.points.push(point);
+        self.placed.sources.push(self.source);
     }
 
     /// Pins the point that was recorded last.
     pub(super) fn pin(&mut self) {
-        self.laid.pinned.push(self.laid.points.len() as u64 - 1);
+        self.placed.pinned.push(self.placed.points.len() as u64 - 1);
     }
 
     /// The points as they were recorded.
-    pub(super) fn laid(self) -> Laid {
-        self.laid
+    pub(super) fn into_points(self) -> YarnPoints {
+        self.placed
     }
 
     /// Equally many points for each cell, on the curve through the recorded points. `onward` is the
@@ -77,8 +77,8 @@ impl Pen {
     /// the last one stay unchanged.
     ///
     /// **Errors**: [`OutOfMemory`].
-    pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, OutOfMemory> {
-        let Laid { points, sources, pinned } = &self.laid;
+    pub(super) fn even(self, onward: Option<DVec3>) -> Result<YarnPoints, OutOfMemory> {
+        let YarnPoints { points, sources, pinned } = &self.placed;
         let count = points.len() as isize;
         let at = |number: isize| match onward {
             Some(shift) => {
@@ -87,11 +87,11 @@ impl Pen {
             None => points[number.clamp(0, count - 1) as usize],
         };
         let end = self.tail.unwrap_or(points.len());
-        let mut even = Laid::default();
+        let mut even = YarnPoints::default();
         let total = self.cells.len() * EVEN + points.len();
         room_for(&mut even.points, total, "points of a yarn")?;
         room_for(&mut even.sources, total, "sources of a yarn's points")?;
-        let keep = |range: std::ops::Range<usize>, even: &mut Laid| {
+        let keep = |range: std::ops::Range<usize>, even: &mut YarnPoints| {
             for number in range {
                 if pinned.binary_search(&(number as u64)).is_ok() {
                     even.pinned.push(even.points.len() as u64);

@@ -1,5 +1,6 @@
 //! Cloths of several layers at rest.
 
+use texere_core::crossings::Set;
 use texere_core::{Material, Origin, Section};
 use texere_fabric::{Drawdown, Thread, Woven, WovenRest};
 
@@ -38,11 +39,18 @@ fn weft_backed(end: usize, pick: usize) -> bool {
 /// A cloth whose layers have threads every `pitch` diameters.
 fn cloth(drawdown: Drawdown, pitch: f64) -> Woven {
     let levels = drawdown.levels().map(|levels| levels.into_iter().max().unwrap_or(0) + 1);
-    let threads = |set: usize| {
+    let threads = |set: Set| {
         let spacing = pitch * DIAMETER / f64::from(levels[set]);
         vec![Thread::new(spacing, (DIAMETER / 2.0) as f32); THREADS]
     };
-    Woven::new(drawdown, threads(0), threads(1), vec![Material::default()], vec![Section::Circle]).unwrap()
+    Woven::new(
+        drawdown,
+        threads(Set::Warp),
+        threads(Set::Weft),
+        vec![Material::default()],
+        vec![Section::Circle],
+    )
+    .unwrap()
 }
 
 #[test]
@@ -65,16 +73,16 @@ fn layers_lie_on_one_another() {
             rest.crossings.passes,
             rest.clearance[0],
             rest.clearance[1],
-            rest.area[0][0],
-            rest.area[1][0],
-            rest.area[0][1],
-            rest.area[1][1],
+            rest.area.warp,
+            rest.area.weft,
+            rest.area_least.warp,
+            rest.area_least.weft,
             surfaces.thickness(),
         );
         assert!(clearance >= 0.98, "{name}: {clearance}");
         assert!(folds >= 1.0, "{name} folds: {folds}");
-        for set in 0..2 {
-            assert!(rest.area[set][0] >= area, "{name}: area {:?}", rest.area);
+        for set in Set::BOTH {
+            assert!(rest.area[set] >= area, "{name}: area {:?}", rest.area);
         }
         threads_cross_as_they_are_woven(&woven, &rest);
     }
@@ -103,8 +111,8 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
         assert!(matches!(rest.yarns.layout().yarns()[end].origin, Origin::End(_)));
         for pick in 0..THREADS {
             let (warp, weft) = (&paths[end], &paths[THREADS + pick]);
-            let x = place(warp, 0, 1, middles[1][pick]);
-            let y = place(weft, 1, 0, middles[0][end]);
+            let x = place(warp, 0, 1, middles.weft[pick]);
+            let y = place(weft, 1, 0, middles.warp[end]);
             let over = height(warp, 1, y) - height(weft, 0, x);
             let up = woven.drawdown().up(end, pick);
             assert!((over > 0.0) == up, "end {end}, pick {pick}: {over}, {up}");

@@ -10,11 +10,12 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 use texere_contact::clearance;
+use texere_core::crossings::Set;
 use texere_core::settling::Length;
 use texere_core::{Material, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{
-    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
+    BySet, Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
 };
 
 use surfaces::Surfaces;
@@ -154,7 +155,7 @@ fn cloths_of_the_mills_come_to_rest() {
         let spacing = [0, 1].map(|set| sets[set][0].spacing_mm);
         // One repeat in the middle, seen from above.
         let middle = DVec2::from(woven.size_mm()) / 2.0;
-        let repeat = DVec2::new(spacing[0] * rest.repeat[0] as f64, spacing[1] * rest.repeat[1] as f64);
+        let repeat = DVec2::new(spacing[0] * rest.repeat.warp as f64, spacing[1] * rest.repeat.weft as f64);
         let [ground, weft] = surfaces.seen([middle - repeat / 2.0, middle + repeat / 2.0], 200);
         let widths = surfaces.widths();
         let bare = [0, 1].map(|set| (1.0 - widths[set] / spacing[set]).max(0.0));
@@ -167,12 +168,12 @@ fn cloths_of_the_mills_come_to_rest() {
             rest.clearance[0],
             rest.clearance[1],
             rest.rounds,
-            rest.area[0][0],
-            rest.area[1][0],
-            rest.area[0][1],
-            rest.area[1][1],
-            rest.area_lost[0],
-            rest.area_lost[1],
+            rest.area.warp,
+            rest.area.weft,
+            rest.area_least.warp,
+            rest.area_least.weft,
+            rest.area_lost.warp,
+            rest.area_lost.weft,
             crimp[0] * 100.0,
             crimp[1] * 100.0,
             (1.0 - ground) * 100.0,
@@ -188,8 +189,9 @@ fn cloths_of_the_mills_come_to_rest() {
             "{name}: {} and {clearance}",
             rest.clearance[1]
         );
+        let areas = rest.area.into_array();
         for set in 0..2 {
-            assert!(rest.area[set][0] >= cloth.area[set], "{name}: area {:?}", rest.area);
+            assert!(areas[set] >= cloth.area[set], "{name}: area {:?}", rest.area);
             let off = cloth.crimp[set].map_or(0.0, |published| 100.0 * crimp[set] - published);
             assert!(off.abs() < 4.0, "{name}: crimp {crimp:?}");
         }
@@ -221,8 +223,8 @@ fn cloth_without_room_is_no_worse() {
         let rest = at_rest(&woven.unwrap());
         let [before, after] = rest.clearance;
         assert!(before < 0.98 && after >= before, "{:?}", rest.clearance);
-        for set in 0..2 {
-            let [kept, lost] = [rest.area[set][0], rest.area_lost[set]];
+        for set in Set::BOTH {
+            let [kept, lost] = [rest.area[set], rest.area_lost[set]];
             assert!(kept >= 0.35 * (kept + lost), "{:?} {:?}", rest.area, rest.area_lost);
         }
     }
@@ -258,7 +260,7 @@ fn uneven_cloth_comes_to_rest_whole() {
     let drawdown = Drawdown::from_fn(14, 12, |_, _| chance(&mut seed) > 0.5).unwrap();
     let woven = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
     let rest = at_rest(&woven);
-    assert_eq!(rest.repeat, [14, 12]);
+    assert_eq!(rest.repeat, BySet { warp: 14, weft: 12 });
     let clearance = Surfaces::new(&rest.yarns).clearance();
     assert!(tightest(&rest.yarns) >= 1.0);
     println!("uneven: {:?} (by sections {clearance:.3}), area {:?}", rest.clearance, rest.area);
@@ -308,8 +310,10 @@ fn a_woven_structure_comes_to_rest() {
     let measures = structure.measures(finished.yarns()).unwrap();
     let surfaces = Surfaces::new(finished.yarns());
     let (widths, crimp) = (surfaces.widths(), surfaces.crimp());
+    let (fractions, own) =
+        (measures.cover.unwrap().fraction.into_array(), measures.crimp.unwrap().into_array());
     for set in 0..2 {
-        let [fraction, waves] = [measures.cover.unwrap().fraction[set], measures.crimp.unwrap()[set]];
+        let [fraction, waves] = [fractions[set], own[set]];
         assert!((fraction * 25.4 / 60.0 / widths[set] - 1.0).abs() < 0.02, "{fraction} {widths:?}");
         assert!((waves - crimp[set]).abs() < 0.005, "{waves} {crimp:?}");
     }
@@ -359,8 +363,8 @@ fn a_finish_is_felt() {
         (surfaces.crimp(), surfaces.thickness())
     };
     let (relaxed, thick) = of(Finish::default());
-    let (taut, _) = of(Finish { taut: [8.0, 1.0], ..Finish::default() });
-    let (slack, _) = of(Finish { taut: [1.0, 8.0], ..Finish::default() });
+    let (taut, _) = of(Finish { taut: BySet { warp: 8.0, weft: 1.0 }, ..Finish::default() });
+    let (slack, _) = of(Finish { taut: BySet { warp: 1.0, weft: 8.0 }, ..Finish::default() });
     assert!((relaxed[0] / relaxed[1] - 1.0).abs() < 0.05, "{relaxed:?}");
     assert!(taut[0] < 0.7 * relaxed[0] && taut[1] > 1.2 * relaxed[1], "{taut:?} {relaxed:?}");
     assert!((taut[0] / slack[1] - 1.0).abs() < 0.05, "{taut:?} {slack:?}");

@@ -85,7 +85,7 @@ impl Knit {
             warnings.push(format!("{}: {more} of the kinds that are told", named(file)));
         }
         let refused = |error: FabricError| match (&error, &drawn) {
-            (FabricError::Weft(WeftError::KnitRuns { told: Some(source), .. }), Drawn::Lines { .. }) => {
+            (FabricError::Weft(WeftError::KnitRuns { operation: Some(source), .. }), Drawn::Lines { .. }) => {
                 ReadError::Operation { place: drawn.place(*source), source: error }
             }
             _ => fabric(error),

@@ -5,7 +5,8 @@ use texere_core::crossings::Set;
 use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_fabric::{
-    Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure, Thread, Woven, WovenDesign,
+    BySet, Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure, Thread, Woven,
+    WovenDesign,
 };
 use texere_formats::Design;
 
@@ -117,7 +118,7 @@ fn finish() -> impl Strategy<Value = (Finish, Option<Stretch>)> {
     let press = prop_oneof![4 => Just(None), 1 => Just(Some(0.3_f32))];
     (times(), times(), times(), length, press, stretch).prop_map(
         |(warp, weft, calender, length, press_mm, stretch)| {
-            (Finish { taut: [warp, weft], calender, length, press_mm, ..Finish::default() }, stretch)
+            (Finish { taut: BySet { warp, weft }, calender, length, press_mm, ..Finish::default() }, stretch)
         },
     )
 }

@@ -1,5 +1,6 @@
 //! Charts: the stitch in each wale of each course, as knitters draw it.
 
+mod cell;
 mod error;
 mod jacquard;
 mod program;
@@ -7,61 +8,24 @@ mod symbols;
 #[cfg(test)]
 mod tests;
 
+use cell::CHART_MOVED_MAX;
+pub use cell::{Beds, Cell};
 pub use error::ChartError;
 pub use jacquard::Backing;
 
 use texere_core::backend::{filled, room_for};
 
-use super::check::MOVED_MAX;
 use super::machine::CARRIERS_MAX;
 
 /// The most wales or rows of a chart.
-pub const CHART_SIDE_MAX: usize = 1 << 16;
+const CHART_SIDE_MAX: usize = 1 << 16;
 
 /// The most cells in all courses of a chart. Only knitting shows how many loops they make. It takes
 /// up to 160 bytes for each cell before a repeat of more than a million loops is refused.
-pub const CHART_CELLS_MAX: usize = 1 << 22;
+const CHART_CELLS_MAX: usize = 1 << 22;
 
 /// The most yarns of a chart. Each has a carrier of its own.
-pub const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
-
-/// The most needles by which a chart moves a loop.
-pub const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
-
-/// The stitch in one cell of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cell {
-    /// The front needle knits: `k`.
-    Knit,
-    /// The back needle knits: `p`. On one bed the loops are moved there first.
-    Purl,
-    /// Front and back needle both knit: `b`, on two beds. The beds are half a needle apart then.
-    Both,
-    /// The needle takes the yarn and keeps its loops: `t`. On two beds it is the front needle.
-    Tuck,
-    /// The back needle tucks: `u`, on two beds.
-    BackTuck,
-    /// The yarn floats past: `m`.
-    Miss,
-    /// The front needle knits, and its loop then moves to another needle. `<` and `>` move it to
-    /// the next needle, for lace. `RRrr` and `llLL` exchange two groups of loops, for cables.
-    Moved {
-        /// Needles to the right, negative to the left; [`CHART_MOVED_MAX`] at most either way.
-        by: i32,
-        /// Whether it goes behind the others: the half of a cable that lies below.
-        behind: bool,
-    },
-}
-
-/// The beds on which a chart is knitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Beds {
-    /// Each wale has loops on one needle, front or back.
-    #[default]
-    One,
-    /// Both needles of a wale may hold loops of their own.
-    Two,
-}
+const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
 
 /// One course: a pass of one yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,7 +127,7 @@ impl Chart {
     /// evenly into the courses, the chart is repeated upwards until they do.
     ///
     /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where the repeated chart is too
-    /// large, [`ChartError::Yarn`] for a yarn beyond [`CHART_YARNS_MAX`].
+    /// large, [`ChartError::Yarn`] for a yarn beyond 65534.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};

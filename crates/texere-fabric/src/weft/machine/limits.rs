@@ -4,13 +4,13 @@
 pub const NEEDLE_MAX: i32 = 1 << 16;
 
 /// The most loops of a program.
-pub const LOOPS_MAX: usize = 1 << 27;
+pub(super) const LOOPS_MAX: usize = 1 << 27;
 
 /// The most loops that one needle may hold.
 pub const STACK_MAX: usize = 256;
 
 /// The most faults that [`Knit::faults`](crate::weft::Knit::faults) lists.
-pub const FAULTS_LISTED: usize = 1000;
+pub(super) const FAULTS_LISTED: usize = 1000;
 
 /// The most entries of [`Stitches::parents`](crate::weft::Stitches::parents): splits can draw any
 /// number of loops through the same ones.

@@ -11,7 +11,8 @@ mod run;
 
 pub use fault::{Fault, FaultKind};
 pub(super) use limits::CARRIERS_MAX;
-pub use limits::{FAULTS_LISTED, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};
+use limits::{FAULTS_LISTED, LOOPS_MAX};
+pub use limits::{Machine, NEEDLE_MAX, STACK_MAX};
 
 use super::{Fate, Instruction, Operation, Program, Step, Stitches};
 use crate::FabricError;
@@ -29,7 +30,7 @@ const ROUNDS_MAX: u32 = 8;
 pub struct Knit {
     /// The loops and yarns of the cloth.
     pub stitches: Stitches,
-    /// Faults of the program in the order of its operations, [`FAULTS_LISTED`] at most. For a
+    /// Faults of the program in the order of its operations, 1000 at most. For a
     /// repeat they are the faults of its last round, which come back in every later one.
     pub faults: Vec<Fault>,
     /// Number of faults that are not listed.

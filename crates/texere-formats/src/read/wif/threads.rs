@@ -86,7 +86,7 @@ pub(super) fn roomy(
     warnings: &mut Vec<String>,
 ) -> Result<Woven, FabricError> {
     let woven = Woven::new(drawdown, warp, weft, materials, sections)?;
-    let sets = woven.pitches();
+    let sets = woven.pitches().into_array();
     let even = sets.iter().all(|set| are_alike(set.iter().map(|pitch| pitch.pitch_mm)))
         && [woven.warp(), woven.weft()]
             .iter()

@@ -15,8 +15,8 @@ use crate::buffer::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
-/// They run one after the other; the host waits for the extent of all chords, and for how many
-/// neighbours there are.
+/// The kernels of a list run one after the other. The host waits twice: for the extent of all
+/// chords, and for the number of neighbours.
 #[derive(Debug)]
 pub(super) struct ListKernels {
     extent: Kernel,

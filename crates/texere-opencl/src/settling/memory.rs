@@ -9,35 +9,36 @@ use crate::buffer::Buffer;
 use crate::opened::Opened;
 use crate::room::Room;
 
-/// Numbers that the block form writes for each place, the more of both forms.
+/// Numbers that a pass writes for each place: those of the block form, which writes more than the
+/// weighted form.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
-/// What kernels read and write.
+/// The buffers that the kernels read and write.
 #[derive(Debug)]
 pub(super) struct Memory {
     pub(super) place_rows: Buffer,
     pub(super) strands: Buffer,
     pub(super) chord_rows: Buffer,
     pub(super) places: Buffer,
-    /// The places that the last pass has seen, where the next one writes.
+    /// The places that the last pass has seen. The next pass writes here.
     pub(super) seen: Buffer,
     pub(super) kept: Buffer,
     /// The step that each point has taken last, mm.
     pub(super) steps: Buffer,
-    /// The length that each interval is to have, mm.
+    /// The length that each interval shall have, mm.
     pub(super) lengths: Buffer,
     /// Where all chords lie.
     pub(super) chords: Buffer,
     pub(super) pulls: Buffer,
-    /// What groups of places have seen, and what all of them have.
+    /// What workgroups have seen in a pass, and what all of them have.
     pub(super) rows: Buffer,
     pub(super) all: Buffer,
-    /// What groups have found of where chords lie.
+    /// The extents of chords that workgroups have found.
     pub(super) extents: Buffer,
-    /// Where each cell's chords begin, and chords cell by cell.
+    /// Where each cell's chords begin, and the chords cell by cell.
     pub(super) cells: Buffer,
     pub(super) sorted: Buffer,
-    /// Where each chord's neighbours begin, and the neighbours of all.
+    /// Where each chord's neighbours begin, and the neighbours of all chords.
     pub(super) starts: Buffer,
     pub(super) neighbours: Buffer,
     /// Sums of groups of a scan, level by level.

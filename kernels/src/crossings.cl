@@ -120,7 +120,7 @@ typedef struct {
     float clearance;
 } CrossingBlock;
 
-// The same block, seen from the other set.
+// The block, seen from the other set.
 CrossingBlock turned(const CrossingBlock *block) {
     const float4 *rows = block->own_crossed;
     CrossingBlock other;

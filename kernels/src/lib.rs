@@ -34,7 +34,7 @@ pub const TRAJECTORY: EntryPoint = EntryPoint { name: "trajectory", group: 64 };
 /// block table. It runs with any workgroup of at least 64 lanes; see [`UNINDEXED_GROUP`].
 pub const MESH: EntryPoint = EntryPoint { name: "mesh", group: 128 };
 
-/// The same for an odd number of sides.
+/// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: EntryPoint = EntryPoint { name: "mesh_odd", ..MESH };
 
 /// Lanes of a workgroup of [`MESH`] where it writes no indices. With less to write for each ring,
@@ -62,7 +62,7 @@ pub const ATTRIBUTES_OF_CAPS: EntryPoint = EntryPoint { name: "cap_attributes", 
 /// block table.
 pub const PACKED: EntryPoint = EntryPoint { name: "packed", group: 64 };
 
-/// The same for an odd number of sides.
+/// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: EntryPoint = EntryPoint { name: "packed_odd", group: 64 };
 
 /// Packed vertices of a chunk's caps, after [`PACKED`]. A lane for each cap vertex.
@@ -106,14 +106,14 @@ pub const SETTLING_SCAN_ADD: EntryPoint = EntryPoint { name: "settling_scan_add"
 /// Pulls at each interval's points, in the weighted form. A lane for each place.
 pub const SETTLING_PULL_WEIGHTED: EntryPoint = EntryPoint { name: "settling_pull_weighted", group: 64 };
 
-/// The same in the block form.
+/// [`SETTLING_PULL_WEIGHTED`] in the block form.
 pub const SETTLING_PULL_BLOCK: EntryPoint = EntryPoint { name: "settling_pull_block", group: 64 };
 
 /// The step of each point, in the weighted form. A lane for each place, in the workgroups of
 /// [`SETTLING_PULL_WEIGHTED`].
 pub const SETTLING_STEP_WEIGHTED: EntryPoint = EntryPoint { name: "settling_step_weighted", group: 64 };
 
-/// The same in the block form.
+/// [`SETTLING_STEP_WEIGHTED`] in the block form.
 pub const SETTLING_STEP_BLOCK: EntryPoint = EntryPoint { name: "settling_step_block", group: 64 };
 
 /// The places beyond yarns' ends. A lane for each yarn.

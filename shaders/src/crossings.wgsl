@@ -120,7 +120,7 @@ struct CrossingBlock {
     clearance: f32,
 }
 
-// The same block, seen from the other set.
+// The block, seen from the other set.
 fn turned(block: CrossingBlock) -> CrossingBlock {
     let rows = block.own_crossed;
     return CrossingBlock(

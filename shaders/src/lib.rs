@@ -251,7 +251,7 @@ const MESH_BINDINGS: &[Binding] = &[
 pub const MESH: Shader =
     Shader { entry_point: "mesh", source: MESH_SOURCE, workgroup: 128, bindings: MESH_BINDINGS };
 
-/// The same for an odd number of sides.
+/// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: Shader = Shader { entry_point: "mesh_odd", ..MESH };
 
 /// Vertices and indices of a chunk's caps. A lane for each vertex.
@@ -285,7 +285,7 @@ pub const PACKED: Shader = Shader {
     ],
 };
 
-/// The same for an odd number of sides.
+/// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: Shader = Shader { entry_point: "packed_odd", ..PACKED };
 
 /// Packed vertices of a chunk's caps. A lane for each vertex.

@@ -117,7 +117,7 @@ pub const PULL_WEIGHTED: Shader = Shader {
     ],
 };
 
-/// The same in the block form.
+/// [`PULL_WEIGHTED`] in the block form.
 pub const PULL_BLOCK: Shader = Shader { entry_point: "settling_pull_block", ..PULL_WEIGHTED };
 
 /// The step of each point, in the weighted form. A lane for each place; the longest step goes into
@@ -139,7 +139,7 @@ pub const STEP_WEIGHTED: Shader = Shader {
     ],
 };
 
-/// The same in the block form.
+/// [`STEP_WEIGHTED`] in the block form.
 pub const STEP_BLOCK: Shader = Shader { entry_point: "settling_step_block", ..STEP_WEIGHTED };
 
 /// The places beyond yarns' ends. A lane for each yarn.

@@ -133,7 +133,7 @@ impl CrossingsParams {
         }
     }
 
-    /// The same parameters for `pass`, number `number` since the last wait.
+    /// These parameters for `pass`, number `number` since the last wait.
     #[must_use]
     pub const fn with_pass(self, pass: &CrossingsPass, number: u32) -> Self {
         Self { penalty: pass.penalty, area: pass.area, pass_number: number, ..self }

@@ -270,7 +270,7 @@ impl SettlingParams {
         }
     }
 
-    /// The same parameters for `pass`, or for listing neighbours at its growth.
+    /// These parameters for `pass`, or for listing neighbours at its growth.
     #[must_use]
     pub fn with_pass(self, plan: &SettlingPlan, pass: &Pass) -> Self {
         let tension = if let Length::Free { tension } = plan.length() { tension * pass.ease } else { 0.0 };
@@ -278,7 +278,7 @@ impl SettlingParams {
         Self { growth, ease, momentum, tension, ..self }
     }
 
-    /// The same parameters with the cells that chords are sorted into at `growth`. `rows` say how
+    /// These parameters with the cells that chords are sorted into at `growth`. `rows` say how
     /// far chords reach. Cells are so large that a chord's neighbours lie in its own cell or one
     /// beside it, and there are no more cells than chords.
     #[must_use]

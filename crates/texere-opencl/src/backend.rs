@@ -154,7 +154,7 @@ impl OpenClBackend {
         Ok(Self { info, opened: Arc::new(opened) })
     }
 
-    /// The same device with `limits`, where its own are wider.
+    /// This device with `limits`, where its own are wider.
     #[must_use]
     pub fn with_limits(mut self, limits: Limits) -> Self {
         self.info.limits = self.info.limits.min(&limits);

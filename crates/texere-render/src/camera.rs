@@ -260,7 +260,7 @@ impl Camera {
         }
     }
 
-    /// The same view of the cloth turned over sideways, so that its back is seen and end 1 is at
+    /// This view of the cloth turned over sideways, so that its back is seen and end 1 is at
     /// the right.
     #[must_use]
     pub fn turned_over(self) -> Self {

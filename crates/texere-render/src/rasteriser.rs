@@ -77,7 +77,7 @@ impl Rasteriser {
         Self { keys, raster, hairs, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
     }
 
-    /// The same shaders, but for the one that says what samples show: a broken one, which a test
+    /// These shaders, but for the one that says what samples show: a broken one, which a test
     /// must find.
     #[cfg(test)]
     pub(crate) fn with_resolve(self, resolve: String) -> Self {

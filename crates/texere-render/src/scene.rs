@@ -218,7 +218,7 @@ impl Scene {
         &self.plan
     }
 
-    /// The same scene with chunks cut to `limits`, where the scene's own are wider.
+    /// This scene with chunks cut to `limits`, where the scene's own are wider.
     #[cfg(test)]
     pub(crate) fn with_limits(self, limits: &Limits) -> Self {
         let limits = self.limits.min(limits);

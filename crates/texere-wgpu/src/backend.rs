@@ -145,7 +145,7 @@ impl WgpuBackend {
         Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
     }
 
-    /// The same device with `limits`, where its own are wider. Use it for a device with less memory
+    /// This device with `limits`, where its own are wider. Use it for a device with less memory
     /// than its bindings could hold, or to test with many small chunks.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {

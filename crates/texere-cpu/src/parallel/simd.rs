@@ -177,7 +177,7 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     /// The first lane.
     fn first(self) -> u32;
 
-    /// The same vector with 0 in the first lane.
+    /// This vector with 0 in the first lane.
     fn without_first(self) -> Self;
 
     /// Each lane becomes the sum of itself and all lanes before it.

@@ -41,21 +41,21 @@ pub(super) struct Memory {
     /// Where each chord's neighbours begin, and the neighbours of all chords.
     pub(super) starts: Buffer,
     pub(super) neighbours: Buffer,
-    /// Sums of groups of a scan, level by level.
+    /// Sums of the workgroups of a scan, level by level.
     pub(super) sums: Vec<Buffer>,
     room: Room,
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
-    /// them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
+    /// may have.
     pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let groups = places.div_ceil(SETTLING_PULL_WEIGHTED.group as u64);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // As many cells as chords, or a few more.
+        // There are as many cells as chords, or a few more.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -86,7 +86,7 @@ impl Memory {
         })
     }
 
-    /// Makes room for `count` neighbours, and an eighth more where there is room.
+    /// Makes room for `count` neighbours, and for an eighth more where memory allows it.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, opened: &Opened, count: u32) -> Result<(), BackendError> {

@@ -16,7 +16,7 @@ use crate::faults::not_allocated;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// Device memory, which may be none.
+/// A buffer in device memory. An empty one takes none.
 #[derive(Debug, Default)]
 pub(crate) struct Buffer {
     memory: Option<Handle>,
@@ -24,7 +24,7 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// `bytes` of memory for `what`. Its first word is 0, the rest whatever was there.
+    /// Takes `bytes` of memory for `what`. The first word is 0, the rest undefined.
     pub(crate) fn new(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
         if bytes == 0 {
             return Ok(Self::default());
@@ -36,9 +36,9 @@ impl Buffer {
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
-        // Drivers may allocate at the first use only: a write makes them report now that there is
-        // no memory. Not clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads
-        // call that on one queue. SAFETY: a blocking write.
+        // Some drivers allocate only at the first use. This write makes them report now that there
+        // is no memory. clEnqueueMigrateMemObjects was tried for it: NVIDIA's driver (580) dies
+        // where two threads call that on one queue. SAFETY: a blocking write.
         let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
         claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)
@@ -51,7 +51,7 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// Makes all of it zeros, after what is in the queue of the kernels.
+    /// Fills it with zeros, after what is in the queue of the kernels.
     pub(crate) fn clear(&mut self, opened: &Opened) -> Result<(), BackendError> {
         if self.bytes > 0 {
             let zero = 0u32;
@@ -66,8 +66,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Takes on what `other`, another buffer of the same size, holds after what is in the queue of
-    /// the kernels.
+    /// Copies `other`, a buffer of the same size, after what is in the queue of the kernels.
     pub(crate) fn copy(&mut self, opened: &Opened, other: &Self) -> Result<(), BackendError> {
         debug_assert_eq!(self.bytes, other.bytes, "a copy of all of it");
         if self.bytes > 0 {
@@ -81,8 +80,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Reads from byte `offset` into `out`, after what is in the queue of the kernels, which is
-    /// waited for.
+    /// Waits for what is in the queue of the kernels, and reads from byte `offset` into `out`.
     pub(crate) fn read_now<T: Pod>(
         &self,
         opened: &Opened,
@@ -99,7 +97,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// `data` in memory of its own.
+    /// A buffer that holds `data`.
     pub(crate) fn holding<T: Pod>(
         opened: &Opened,
         what: &'static str,
@@ -110,8 +108,8 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// At least `bytes`, for a chunk that is larger than those before; what the buffer held is lost
-    /// then. Commands that still use the smaller memory keep it until they end.
+    /// Makes it at least `bytes` long. What it held is lost where it has to grow. Commands that
+    /// still use the smaller memory keep that until they end.
     pub(crate) fn reserve(
         &mut self,
         opened: &Opened,
@@ -119,7 +117,7 @@ impl Buffer {
         bytes: u64,
     ) -> Result<(), BackendError> {
         if bytes > self.bytes {
-            // First the old one goes, so that the two never need room together.
+            // The old memory goes first, so that the two never need room together.
             *self = Self::default();
             *self = Self::new(opened, what, bytes)?;
         }
@@ -136,7 +134,7 @@ impl Buffer {
     }
 
     /// Sends `data` to byte `offset` through `queue`, after `after`, and waits until `data` may
-    /// change again. None where there is nothing to send.
+    /// change again. Returns the event; none where there is nothing to send.
     pub(crate) fn write<T: Pod>(
         &mut self,
         opened: &Opened,
@@ -154,11 +152,12 @@ impl Buffer {
         Ok(Some(Arc::new(event.map_err(opened.failed("clEnqueueWriteBuffer"))?)))
     }
 
-    /// As [`Buffer::write`], waiting where `blocking`, with OpenCL's status for an error.
+    /// [`Buffer::write`], which waits only where `blocking`, and returns OpenCL's status as its
+    /// error.
     ///
     /// # Safety
     ///
-    /// Nobody writes to `data` until the command has ended.
+    /// `data` does not change until the command has ended.
     pub(crate) unsafe fn enqueue_write<T: Pod>(
         &mut self,
         queue: &Handle,
@@ -185,7 +184,7 @@ impl Buffer {
         })
     }
 
-    /// Reads from the start into `out`, after `after`.
+    /// Reads from the buffer's start into `out`, after `after`, and waits for it.
     pub(crate) fn read_into<T: Pod>(
         &self,
         opened: &Opened,

@@ -7,8 +7,8 @@ use std::ptr;
 use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
 
-/// A chunk's mesh in the device's memory. Valid as long as it is borrowed: until the session's next
-/// call.
+/// A chunk's mesh in device memory. Its handles are valid while it is borrowed: until the session's
+/// next call.
 #[derive(Debug)]
 pub struct DeviceMesh<'a> {
     /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
@@ -21,7 +21,8 @@ pub struct DeviceMesh<'a> {
     /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start;
     /// null where none were made.
     pub packed: *mut c_void,
-    /// The `cl_event` of the last command that writes them: wait for it, also in a queue.
+    /// The `cl_event` of the last command that writes these buffers. Wait for it, on the host or in
+    /// a queue.
     pub ready: *mut c_void,
     memory: PhantomData<&'a ChunkMemory>,
 }

@@ -8,7 +8,8 @@ use crate::per_ring::PerRing;
 use crate::per_yarn::PerYarn;
 use crate::work::Kernels;
 
-/// The kernels of `opened`'s schedule for a plan: for round yarns alone, or for all yarns.
+/// The kernels of `opened`'s schedule for `plan`: for round yarns alone, or with `flattened` for
+/// all yarns.
 ///
 /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`].
 pub(crate) fn kernels(

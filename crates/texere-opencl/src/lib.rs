@@ -1,8 +1,8 @@
 //! The OpenCL backend of texere: GPUs of any maker, and CPUs through PoCL.
 //!
 //! It needs OpenCL 1.2 and no extension. The OpenCL library is loaded at run time, so a program
-//! that links this crate builds and starts without one; [`OpenClBackend::devices`] then says what
-//! is missing.
+//! that links this crate builds and starts without it. [`OpenClBackend::devices`] then says what is
+//! missing.
 //!
 //! ```
 //! use texere_opencl::OpenClBackend;
@@ -12,8 +12,9 @@
 //! }
 //! ```
 //!
-//! A program that has an OpenCL queue of its own works on it with [`OpenClBackend::on_queue`], and
-//! takes the mesh where it lies with [`OpenClSession::device_mesh`].
+//! A program with an OpenCL queue of its own opens a backend on it with
+//! [`OpenClBackend::on_queue`], and takes the mesh in device memory with
+//! [`OpenClSession::device_mesh`].
 
 mod attributes;
 mod backend;

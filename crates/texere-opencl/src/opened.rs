@@ -32,15 +32,15 @@ pub(crate) struct Opened {
     pub(crate) transfers: Handle,
     /// The program for round yarns alone.
     round: Handle,
-    /// The one for all yarns, compiled where it is wanted first.
+    /// The program for all yarns, compiled at its first use.
     flattened: OnceLock<Handle>,
-    /// That of attributes, likewise.
+    /// The program of attributes, likewise.
     attributes: OnceLock<Handle>,
-    /// Those of packed vertices, for round yarns alone and for all, likewise.
+    /// The programs of packed vertices, for round yarns alone and for all, likewise.
     packing: [OnceLock<Handle>; 2],
-    /// Those of settlings, likewise.
+    /// The programs of settlings, for round yarns alone and for all, likewise.
     settling: [OnceLock<Handle>; 2],
-    /// That of crossings, likewise.
+    /// The program of crossings, likewise.
     crossings: OnceLock<Handle>,
 }
 
@@ -85,7 +85,7 @@ impl Opened {
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn attributes(&self) -> Result<&Handle, BackendError> {
-        // They do not depend on sizes.
+        // Attributes do not depend on sizes.
         self.compiled(&self.attributes, ATTRIBUTES, false)
     }
 
@@ -107,11 +107,11 @@ impl Opened {
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn crossings(&self) -> Result<&Handle, BackendError> {
-        // It does not ask whether yarns are flattened: there all are.
+        // All yarns of crossings are flattened.
         self.compiled(&self.crossings, CROSSINGS, true)
     }
 
-    /// What `held` holds: `program`, compiled where it is wanted first.
+    /// What `held` holds: `program`, compiled at its first use.
     fn compiled<'a>(
         &self,
         held: &'a OnceLock<Handle>,

@@ -15,7 +15,7 @@ use crate::kernel::{Arg, Kernel};
 use crate::opened::Opened;
 use crate::work::{Kernels, Launches, Work};
 
-/// A workgroup a block.
+/// The kernels of the schedule. A workgroup makes a block.
 #[derive(Debug)]
 pub(crate) struct PerRing {
     block_turns: Kernel,

@@ -14,8 +14,8 @@ use crate::handles::Handle;
 use crate::opened::Opened;
 use crate::pinned::Pinned;
 
-/// Bytes of a piece that a sink is lent: whole vertices (24 bytes) and rings (32), large enough
-/// that the transfer's start does not matter.
+/// Bytes of a piece that a sink is lent. It holds whole vertices (24 bytes) and rings (48), and is
+/// so large that a transfer's start does not matter.
 const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
 
 /// Two pieces of pinned memory: while the sink has one, the other is filled.
@@ -24,12 +24,12 @@ pub(crate) struct Readback {
     pieces: [Option<Pinned>; 2],
 }
 
-/// Takes values; the number is that of the first.
+/// Takes values, with the number of the first.
 pub(crate) type Sink<'a, T> = &'a mut dyn FnMut(u32, &[T]) -> ControlFlow<()>;
 
 impl Readback {
-    /// Reads `count` values from the start of `buffer`, after `after`, and lends them piece by
-    /// piece.
+    /// Reads `count` values from the start of `buffer`, after `after`, and lends them to `sink`
+    /// piece by piece.
     pub(crate) fn read<T: Pod>(
         &mut self,
         opened: &Arc<Opened>,

@@ -1,4 +1,4 @@
-//! A session that lends a chunk's mesh where it lies on the device.
+//! A session that lends a chunk's mesh in device memory.
 
 use std::ops::{Deref, DerefMut};
 use std::ptr;
@@ -8,10 +8,10 @@ use texere_core::backend::{Chunk, Session, SessionError};
 use crate::device_mesh::DeviceMesh;
 use crate::engine::OpenClEngine;
 
-/// A [`Session`] that lends a chunk's mesh where it lies.
+/// A [`Session`] that lends a chunk's mesh in device memory.
 ///
-/// Control points stay on the device whole; a chunk's results stay until a stage is run for the
-/// next chunk but one.
+/// All control points stay on the device. A chunk's results stay until a stage is run for the next
+/// chunk but one.
 ///
 /// ```no_run
 /// use std::sync::Arc;
@@ -35,8 +35,7 @@ use crate::engine::OpenClEngine;
 pub struct OpenClSession(pub(crate) Session<OpenClEngine>);
 
 impl OpenClSession {
-    /// The mesh of `chunk` where it lies on the device, for a caller who draws it or works on with
-    /// it there.
+    /// The mesh of `chunk` in device memory, for a caller that draws it or works on with it there.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::mesh`] has been called for this chunk.
@@ -50,8 +49,8 @@ impl OpenClSession {
         Ok(mesh)
     }
 
-    /// The packed vertices of `chunk` where they lie on the device, likewise; whether there is a
-    /// mesh beside them is not asked.
+    /// The packed vertices of `chunk` in device memory. The other buffers of the result may be
+    /// those of an earlier chunk.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::packed`] has been called for this chunk.
@@ -59,9 +58,9 @@ impl OpenClSession {
         Ok(DeviceMesh::new(self.0.engine().memory(self.0.slot_of_packed(chunk)?)))
     }
 
-    /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`device_buffers`](texere_gpu::device_buffers), and the rings where [`Session::trajectory`]
-    /// was called.
+    /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
+    /// of [`device_buffers`](texere_gpu::device_buffers), and the rings where
+    /// [`Session::trajectory`] was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

@@ -1,4 +1,4 @@
-//! What the stages of an engine are given and give back, whatever the schedule.
+//! The stages of an engine: their input, their kernels, and the launches that they return.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -15,10 +15,10 @@ use crate::kernel::Arg;
 use crate::opened::Opened;
 use crate::tables::Tables;
 
-/// The events of the launches that make a stage, in order.
+/// The events of a stage's launches, in order.
 pub(crate) type Launches = Vec<Arc<Handle>>;
 
-/// What a stage works with.
+/// The input of a stage.
 #[derive(Clone, Copy)]
 pub(crate) struct Work<'a> {
     pub(crate) opened: &'a Opened,
@@ -27,8 +27,8 @@ pub(crate) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// What the kernels that read a chunk's table begin with, in the order of the sources. Those
-    /// that need no rolls leave out the last two, `block_turns` the last.
+    /// The first arguments of all kernels that read a chunk's table, in the order of the sources.
+    /// Kernels without rolls leave out the last two, `block_turns` the last.
     pub(crate) fn inputs(
         &self,
         params: &'a Params,
@@ -47,20 +47,20 @@ impl<'a> Work<'a> {
     }
 }
 
-/// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the
-/// chunk's tables, and room for what the stage writes.
+/// The kernels of a schedule. The memory that they are given holds the chunk's tables, and has room
+/// for what the stage writes.
 pub(crate) trait Kernels: Debug + Send {
-    /// Whether `mesh` reads the chunk's rings rather than work them out itself.
+    /// Whether `mesh` reads the rings of `trajectory`, rather than work them out itself.
     fn mesh_reads_rings(&self) -> bool;
 
-    /// The first half of the scan: what each block of the chunk turns by.
+    /// The first half of the scan: the turn of each block of the chunk.
     fn block_turns(
         &mut self,
         work: Work<'_>,
         chunk: &Chunk,
         memory: &ChunkMemory,
     ) -> Result<Launches, BackendError>;
-    /// The second half: rolls of `yarns` from the turns of their blocks.
+    /// The second half of the scan: the rolls of `yarns` from the turns of their blocks.
     fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError>;
     fn trajectory(
         &mut self,

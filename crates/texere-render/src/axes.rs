@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// The picture's right and up, where the eye lies in direction `toward`.
+/// The picture's right and up, for an eye in direction `toward`.
 pub(crate) fn across(up: Vec3, toward: Vec3) -> [Vec3; 2] {
     let right = up.cross(toward).normalize();
     [right, toward.cross(right)]

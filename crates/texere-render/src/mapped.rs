@@ -3,7 +3,7 @@
 use texere_core::BackendError;
 use texere_wgpu::WgpuBackend;
 
-/// What `read` makes of `buffer`, which a submission that is done has asked to map.
+/// What `read` makes of `buffer`. The submission that asked for it to be mapped has to be done.
 pub(crate) fn read_mapped<T>(
     device: &WgpuBackend,
     buffer: &wgpu::Buffer,

@@ -6,7 +6,7 @@ use wgpu::BufferUsages;
 use crate::Renderer;
 
 impl Renderer {
-    /// A buffer that holds `bytes`, and can be written again.
+    /// A buffer that holds `bytes`, and can be written to again.
     pub(crate) fn filled(
         &self,
         what: &'static str,
@@ -28,7 +28,7 @@ impl Renderer {
         self.device.buffer(what, bytes, usage | BufferUsages::COPY_DST)
     }
 
-    /// Makes `buffer` anew where it is shorter than `bytes`.
+    /// Makes `buffer` at least `bytes` long. A new one does not keep what the old one held.
     pub(crate) fn reserve(&self, buffer: &mut wgpu::Buffer, bytes: u64) -> Result<(), BackendError> {
         if buffer.size() < bytes {
             *buffer = self.buffer("a picture's buffer", bytes, buffer.usage())?;

@@ -19,7 +19,7 @@ use crate::opened::Opened;
 use crate::session::WgpuSession;
 use crate::settling::WgpuSettler;
 
-/// A wgpu device that is open and can start sessions.
+/// A wgpu device, ready to start sessions.
 ///
 /// ```no_run
 /// use texere_core::Backend;
@@ -32,7 +32,7 @@ use crate::settling::WgpuSettler;
 /// # Ok::<(), texere_core::BackendError>(())
 /// ```
 ///
-/// Its clones are the same open device.
+/// Clones share the open device.
 #[derive(Debug, Clone)]
 pub struct WgpuBackend {
     info: DeviceInfo,
@@ -40,8 +40,8 @@ pub struct WgpuBackend {
 }
 
 impl WgpuBackend {
-    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on.
-    /// Drivers are asked once in a process.
+    /// All devices. The place in this list is the number that [`WgpuBackend::open`] takes;
+    /// [`DeviceInfo::name`] is `wgpu:0` and so on. Drivers are asked once in a process.
     ///
     /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
@@ -49,8 +49,8 @@ impl WgpuBackend {
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
     }
 
-    /// What [`WgpuBackend::devices`] says of these adapters: of a program's own, which draws into a
-    /// window.
+    /// The information of [`WgpuBackend::devices`] about a program's own adapters, such as those
+    /// that can draw into its window.
     #[must_use]
     pub fn describe(adapters: &[wgpu::Adapter]) -> Vec<DeviceInfo> {
         let describe = |(index, adapter): (usize, &wgpu::Adapter)| {
@@ -61,9 +61,9 @@ impl WgpuBackend {
         adapters.iter().enumerate().map(describe).collect()
     }
 
-    /// What [`WgpuBackend::open`] asks of an adapter: its limits, its timestamp queries, and
-    /// [`LONG_ATOMICS`] if it has them. For a program that opens a device itself and gives it to
-    /// [`WgpuBackend::from_device`].
+    /// The features and limits that [`WgpuBackend::open`] requests: the adapter's limits, timestamp
+    /// queries and [`LONG_ATOMICS`], as far as it has them. A program that opens a device itself
+    /// uses it before [`WgpuBackend::from_device`].
     #[must_use]
     pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {
@@ -74,17 +74,17 @@ impl WgpuBackend {
         }
     }
 
-    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries and
+    /// Opens device number `index` of [`WgpuBackend::devices`], with timestamp queries and
     /// [`LONG_ATOMICS`] if it has them.
     ///
-    /// **Errors**: [`BackendError::NoDevice`], which lists those there are;
+    /// **Errors**: [`BackendError::NoDevice`], which lists the devices there are;
     /// [`BackendError::Driver`] where the device can't be opened; [`BackendError::Compile`];
     /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
         let adapter =
             adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), adapters))?;
-        // One after the other, as drivers are asked.
+        // Devices are opened one at a time, for the reason that [`adapters`] gives.
         static OPENING: Mutex<()> = Mutex::new(());
         let opening = OPENING.lock().unwrap_or_else(PoisonError::into_inner);
         let (device, queue) =
@@ -95,9 +95,9 @@ impl WgpuBackend {
         Self::new(Gpu::owned(device_name("wgpu", Some(index), schedule), device, queue), schedule)
     }
 
-    /// Opens the first device whose maker's name contains `part`, in whatever case.
+    /// Opens the first device whose [`DeviceInfo::device`] contains `part`, in upper or lower case.
     ///
-    /// **Errors**: those of [`WgpuBackend::open`].
+    /// **Errors**: the errors of [`WgpuBackend::open`].
     pub fn open_named(part: &str, schedule: Schedule) -> Result<Self, BackendError> {
         let (adapters, wanted) = (adapters(), part.to_lowercase());
         let index = adapters
@@ -107,12 +107,13 @@ impl WgpuBackend {
         Self::open(index, schedule)
     }
 
-    /// Works on a device of the caller's, such as a viewer's, under the name `wgpu`.
+    /// Works on a caller's device, such as a viewer's. Its name is `wgpu`.
     ///
-    /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no
-    /// feature; `TIMESTAMP_QUERY` makes timings exact, [`LONG_ATOMICS`] make pictures faster. With
-    /// wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the
-    /// fast one, which does all that there is; the other is the paper's, to compare with.
+    /// All calls are made within error scopes, and the device's callbacks stay the caller's. No
+    /// feature is needed. `TIMESTAMP_QUERY` makes timings exact, and [`LONG_ATOMICS`] make pictures
+    /// faster. With wgpu's default limits a chunk has up to 128 MiB of vertices.
+    /// [`Schedule::PerRing`] is the fast and complete schedule; [`Schedule::PerYarn`] is the
+    /// paper's, for comparison.
     ///
     /// ```no_run
     /// use texere_wgpu::{Schedule, WgpuBackend, wgpu};
@@ -128,7 +129,8 @@ impl WgpuBackend {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`BackendError::Compile`], also where its limits are below WebGPU's defaults.
+    /// **Errors**: [`BackendError::Compile`], also where the device's limits are below WebGPU's
+    /// defaults.
     pub fn from_device(
         device: wgpu::Device,
         queue: wgpu::Queue,
@@ -143,46 +145,46 @@ impl WgpuBackend {
         Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
     }
 
-    /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than
-    /// its bindings could hold, or to test with many small chunks.
+    /// This device with `limits`, where its own are wider. Use it for a device with less memory
+    /// than its bindings could hold, or to test with many small chunks.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         let info = DeviceInfo { limits: self.info.limits.min(&limits), ..self.info };
         Self { info, ..self }
     }
 
-    /// Starts work on a plan in a session that lends its buffers.
+    /// Starts a session of `plan` that lends its buffers.
     ///
-    /// **Errors**: those of [`Backend::engine`].
+    /// **Errors**: the errors of [`Backend::engine`].
     pub fn lending_session(&self, plan: Arc<Plan>) -> Result<WgpuSession, BackendError> {
         let engine = WgpuEngine::new(self.opened.clone(), plan.clone())?;
         Ok(WgpuSession(Session::with_engine(Box::new(engine), self.info.limits, plan)))
     }
 
-    /// The device, for buffers and pipelines that work with a session's.
+    /// The device, for buffers and pipelines that work together with a session's.
     #[must_use]
     pub fn device(&self) -> &wgpu::Device {
         &self.opened.gpu.device
     }
 
-    /// The queue that sessions hand their work to.
+    /// The queue that sessions submit their work to.
     #[must_use]
     pub fn queue(&self) -> &wgpu::Queue {
         &self.opened.gpu.queue
     }
 
-    /// Runs `work`, a caller's own calls on the device and its queue, so that what goes wrong in
-    /// them is an error and not a panic; `call` names it.
+    /// Runs `work`, a caller's own calls on the device and its queue, so that a fault in it is an
+    /// error and not a panic. `call` names it in the error.
     ///
     /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
     pub fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
         self.opened.gpu.scoped(call, work)
     }
 
-    /// A buffer of at least `bytes`, a multiple of 16 and never empty, since an empty one can't be
-    /// bound.
+    /// A buffer of at least `bytes`, rounded up to a multiple of 16. It is never empty, since wgpu
+    /// can't bind an empty buffer.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], and those of [`WgpuBackend::scoped`].
+    /// **Errors**: [`BackendError::OutOfMemory`]; the errors of [`WgpuBackend::scoped`].
     pub fn buffer(
         &self,
         what: &'static str,
@@ -192,7 +194,7 @@ impl WgpuBackend {
         self.opened.gpu.buffer(what, bytes, usage)
     }
 
-    /// Waits until `submission` is done, and runs the callbacks of all that is.
+    /// Waits until `submission` is done, and runs the callbacks of all submissions that are.
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), BackendError> {

@@ -7,15 +7,15 @@ use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
 use texere_gpu::capabilities;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
-/// Most blocks of a launch, unless a caller says otherwise: some 16 million rings, so that none
-/// takes long enough for a watchdog to end it, even on a software device.
+/// The default limit of the blocks of a launch: some 16 million rings. So no launch takes long
+/// enough for a watchdog to end it, even on a software device.
 pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
-/// Features with which a picture finds depth and triangle of a sample at once; without them it
-/// takes two rounds.
+/// Features with which a picture finds the depth and the triangle of a sample at once. Without them
+/// it goes through all triangles twice.
 pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
 
-/// All adapters that can compute. Drivers are asked once and stay loaded until the process ends.
+/// All adapters that can compute. Drivers are asked once, and stay loaded until the process ends.
 ///
 /// NVIDIA's crashes where adapters are listed, or its libEGL is unloaded, while another thread does
 /// so: devices that `tests/leaning.rs` opened and dropped side by side ended it in four of six
@@ -26,8 +26,7 @@ pub(crate) fn adapters() -> &'static [wgpu::Adapter] {
         let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
         let instance = wgpu::Instance::new(InstanceDescriptor {
             backends,
-            // No validation layer of the driver's, also in a debug build, unless the environment
-            // asks for it.
+            // No validation layer, not even in a debug build, unless the environment asks for it.
             flags: InstanceFlags::empty().with_env(),
             ..InstanceDescriptor::new_without_display_handle()
         });
@@ -68,8 +67,7 @@ pub(crate) fn describe(
         // wgpu does not say.
         memory_bytes: None,
         limits: Limits {
-            // Buffers are rounded up to multiples of 16 bytes, which must not take them past the
-            // limit.
+            // Buffers are rounded up to multiples of 16 bytes, and must stay within the limit then.
             binding_bytes: binding_bytes / 16 * 16,
             blocks: LAUNCH_BLOCKS,
             ..Limits::NONE

@@ -29,8 +29,8 @@ impl Kernel {
         compiled.map_err(|error| BackendError::Compile { kernel: shader.entry_point, log: error.to_string() })
     }
 
-    /// Binds what the shader uses, as `resource` finds it. What that does not find is left out, and
-    /// wgpu refuses to bind the rest.
+    /// Binds the resources that the shader uses, each as `resource` returns it. Where that returns
+    /// none, wgpu refuses the group.
     pub(crate) fn bind<'a>(
         &self,
         gpu: &Gpu,
@@ -119,8 +119,8 @@ fn pipeline(
     })
 }
 
-/// Without run-time checks, which would cost a comparison an access in stages that do little else
-/// than access memory.
+/// A module without run-time checks. They would cost a comparison for each access, in stages that
+/// do little but access memory.
 #[allow(unsafe_code, reason = "trusted shaders are the one thing that this crate needs it for")]
 fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderModule {
     let source = prelude(Language::Wgsl, flattened) + shader.source;
@@ -128,11 +128,13 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
         label: Some(shader.entry_point),
         source: wgpu::ShaderSource::Wgsl(source.into()),
     };
-    // SAFETY: the source is one of texere-shaders' own, and what it may do unchecked it does not
-    // do:
-    // - Indices into buffers come from the block and cap tables and from the plan's own tables.
-    //   Nobody but the plan makes chunks, and a session takes its own plan's alone; the plan's
-    //   tables are bound whole, and every output is at least as long as the chunk says.
+    // SAFETY: the source is one of texere-shaders' own. It does nothing that a check would stop.
+    // In the shaders of meshes, attributes and packed vertices:
+    // - Indices into buffers come from the block and cap tables and from the plan's own tables. Only
+    //   a plan makes chunks, and a session takes those of its own plan alone. The plan's tables are
+    //   bound whole, and every output is at least as long as the chunk says. Lengths along yarns
+    //   have one value for each of the plan's blocks, attributes and packed vertices one for each of
+    //   the chunk's vertices.
     // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at
     //   most BLOCK_RINGS rings.
     // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they
@@ -140,19 +142,20 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1
     //   since a ring has at least 5 stores, and constants above zero; a yarn's `rings - 1` divides
     //   as a float only.
-    // - The lengths along yarns have one for each of the plan's blocks, and attributes and packed
-    //   vertices one for each of the chunk's. In the shaders of settling it is so, too:
-    // - Places, yarns and chords come from the tables of a settling's plan, bound whole, as is all
-    //   that has a number each. An interval's place has one before it and two behind it. A number
-    //   that a shader has written is below what it numbers, or is compared with that before it is
-    //   used: cells, places in them, neighbours, and where lists end.
+    // In the shaders of settling:
+    // - Places, yarns and chords come from the tables of a settling's plan, which are bound whole,
+    //   as is every buffer with a value for each of them. An interval's place has one place before
+    //   it and two behind it. A number that a shader has written is below what it numbers, or is
+    //   compared with that before it is used: cells, places in them, neighbours, and where lists
+    //   end.
     // - Loops run up to a count, to a place in a list, which is below its buffer's length, or over
     //   halves of a workgroup.
     // - Divisors of whole numbers are a cell's size and the counts of cells, which the host makes
-    //   at least 1, and a repeat where there is one. In those of crossings:
+    //   at least 1, and a repeat where there is one.
+    // In the shaders of crossings:
     // - A site beside another is one of the plan's, or is not read: its end is below the ends, its
-    //   pick below the picks. Tables are the plan's, bound whole, as is all that has a number each;
-    //   the rows of passes are as many as the host counts passes to.
+    //   pick below the picks. The plan's tables are bound whole, as is every buffer with a value for
+    //   each crossing. There are as many rows of passes as the host counts passes to.
     // - Whole numbers are divided by the ends, at least 2, and by constants.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

@@ -11,9 +11,9 @@ use crate::per_yarn::PerYarn;
 /// The shaders of a schedule.
 #[derive(Debug)]
 pub(crate) enum Kernels {
-    /// A lane a ring; our own.
+    /// A lane makes a ring.
     PerRing(Box<PerRing>),
-    /// A lane a yarn; the paper's.
+    /// A lane makes a yarn: the paper's schedule.
     PerYarn(Box<PerYarn>),
 }
 

@@ -12,22 +12,22 @@ use crate::kernels::Kernels;
 use crate::packed::PackedKernels;
 use crate::settling::SettlingKernels;
 
-/// An open device with its shaders: what a backend and its sessions share.
+/// A device with its schedule and its compiled shaders.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) gpu: Gpu,
     pub(crate) schedule: Schedule,
-    /// For round yarns alone.
+    /// The schedule's shaders for round yarns alone.
     pub(crate) round: Arc<Kernels>,
-    /// For all yarns: compiled where they are wanted first.
+    /// The schedule's shaders for all yarns, compiled at their first use.
     flattened: OnceLock<Arc<Kernels>>,
-    /// Those that make attributes, likewise.
+    /// The shaders that make attributes, likewise.
     attributes: OnceLock<Arc<AttributeKernels>>,
-    /// Those that pack vertices, for round yarns alone and for all yarns, likewise.
+    /// The shaders that pack vertices, for round yarns alone and for all yarns, likewise.
     packing: [OnceLock<Arc<PackedKernels>>; 2],
-    /// Those that bring yarns to rest, likewise.
+    /// The shaders that bring yarns to rest, for round yarns alone and for all yarns, likewise.
     settling: [OnceLock<Arc<SettlingKernels>>; 2],
-    /// Those that bring crossings to rest, likewise.
+    /// The shaders that bring crossings to rest, likewise.
     crossings: OnceLock<Arc<CrossingsKernels>>,
 }
 
@@ -95,7 +95,7 @@ impl Opened {
     }
 }
 
-/// What is in `place`, compiled first where nothing is.
+/// What `place` holds, compiled at its first use.
 fn compiled<T>(
     place: &OnceLock<Arc<T>>,
     compile: impl FnOnce() -> Result<T, BackendError>,

@@ -16,7 +16,7 @@ pub(crate) struct PackedKernels {
 }
 
 impl PackedKernels {
-    /// Those for round yarns alone, or for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {

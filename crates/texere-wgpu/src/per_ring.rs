@@ -19,7 +19,7 @@ pub(crate) struct PerRing {
 }
 
 impl PerRing {
-    /// The shaders for round yarns alone, or for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {

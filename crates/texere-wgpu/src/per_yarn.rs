@@ -6,8 +6,7 @@ use texere_shaders::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 use crate::gpu::Gpu;
 use crate::kernel::Kernel;
 
-/// Rounds that all loops of a lane together may make on a software device: after so many llvmpipe
-/// ends them, and says nothing.
+/// The most rounds of all loops of a lane on a software device. llvmpipe ends longer loops silently.
 const SOFTWARE_ROUNDS: u32 = 65_535;
 
 /// The compiled shaders of the schedule.
@@ -18,7 +17,7 @@ pub(crate) struct PerYarn {
 }
 
 impl PerYarn {
-    /// The shaders for round yarns alone, or for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
@@ -29,12 +28,12 @@ impl PerYarn {
     }
 }
 
-/// Most rings of a lane: a whole part, as the paper has it, wherever the device lets a lane take
-/// that long.
+/// The most rings that a lane makes. The paper gives a lane a whole yarn, and so does this where
+/// the device lets a lane run that long.
 pub(crate) fn lane_rings(gpu: &Gpu, sides: u32) -> u32 {
     match gpu.device.adapter_info().device_type {
-        // For each ring `mesh_per_yarn` goes round once a vertex, three times for its components,
-        // six times for its indices, and once more to leave each loop.
+        // For each ring `mesh_per_yarn` makes a round for each vertex, three for its components,
+        // six for its indices, and one more to leave each loop.
         wgpu::DeviceType::Cpu => SOFTWARE_ROUNDS / (12 * (sides + 1)),
         _ => u32::MAX,
     }

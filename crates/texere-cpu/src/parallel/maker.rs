@@ -26,8 +26,8 @@ impl<'a> Maker<'a> {
         Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
-    /// Makes `piece`, a function of its own if any of its rings may be flattened: so the loops of
-    /// round yarns stay small.
+    /// Makes `piece`. Where any of its rings may be flattened that is a function of its own, so
+    /// that the loops of round yarns stay small.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn make<S: Simd>(&self, simd: S, piece: impl Piece, blocks: &[Block]) {
         if self.source().all_round(Stretch::of(blocks)) {
@@ -37,7 +37,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Whether the yarn leans that `blocks` are of.
+    /// Whether the yarn of `blocks` leans.
     pub(super) fn leans(&self, blocks: &[Block]) -> bool {
         self.work.plan.leans(blocks[0].yarn as usize).is_some()
     }
@@ -46,9 +46,8 @@ impl<'a> Maker<'a> {
         Source { plan: &self.work.plan, points: &self.work.points, seats: &self.seats }
     }
 
-    /// Gives `sink` the rings of `blocks`, which are one yarn's and follow each other: a vector of
-    /// rings at a time, with their rolls, and how many of them there are. Without `FLATTENED` all
-    /// are taken for round.
+    /// Gives `sink` the rings of `blocks`, consecutive blocks of one yarn, a vector of rings at a
+    /// time. Without `FLATTENED` all rings are taken for round.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn rings<S: Simd, const FLATTENED: bool>(
         &self,
@@ -72,9 +71,9 @@ impl<'a> Maker<'a> {
     }
 }
 
-/// What is made of consecutive blocks of one yarn.
+/// Work on consecutive blocks of one yarn.
 pub(super) trait Piece {
-    /// Makes it. It must be inlined, so that it is compiled for the instructions of `simd`.
+    /// Does it. It must be inlined, so that it is compiled for the instructions of `simd`.
     fn make<S: Simd, const FLATTENED: bool>(self, simd: S);
 }
 
@@ -88,10 +87,10 @@ impl<P: Piece> Job for Flattened<P> {
     }
 }
 
-/// What becomes of rings.
+/// A consumer of rings.
 pub(super) trait Sink {
-    /// Takes the first `count` rings of a vector, whose rolls are all zero unless they are
-    /// `rolled`. It must be inlined, so that it is compiled for the instructions of its path.
+    /// Takes the first `count` rings of a vector. Unless `rolled`, all rolls are zero. It must be
+    /// inlined, so that it is compiled for the instructions of `simd`.
     fn take<S: Simd, const FLATTENED: bool>(
         &mut self,
         simd: S,

@@ -18,8 +18,8 @@ use crate::caps::caps;
 use crate::engine::Work;
 use crate::pages;
 
-/// Bytes of output from which on stores go past the caches: as much as the last cache of a large
-/// processor holds.
+/// Bytes of output from which on stores go past the caches: the size of a large processor's last
+/// cache.
 pub(super) const STREAM_BYTES: usize = 32 << 20;
 
 pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: MeshMut<'_>) {
@@ -39,9 +39,9 @@ pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: Mes
 /// Both stages for a run of blocks.
 pub(super) struct MeshJob<'a> {
     pub(super) maker: &'a Maker<'a>,
-    /// What indices are made from, if there are any.
+    /// The pattern of indices; none where the topology has no indices.
     pub(super) table: Option<&'a IndexTable>,
-    /// Whether the output is too large for any cache, so that stores had better go past them.
+    /// Whether stores go past the caches, since the output is too large for any.
     pub(super) streams: bool,
     pub(super) run: MeshRun<'a>,
 }

@@ -38,15 +38,15 @@ pub(crate) use crossings::ParallelCrossings;
 use instruction_set::InstructionSet;
 pub(crate) use settling::ParallelSettler;
 
-/// All cores, each with the same set of vector instructions.
+/// The executor of all cores, with one set of vector instructions.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parallel(InstructionSet);
 
 impl Parallel {
-    /// With the vectors that `TEXERE_SIMD` names or, without it, the widest ones that the processor
+    /// Takes the vectors that `TEXERE_SIMD` names or, without it, the widest that the processor
     /// has.
     ///
-    /// **Errors**: [`BackendError::NoInstructionSet`] where it has none of that name.
+    /// **Errors**: [`BackendError::NoInstructionSet`] where the processor has none of that name.
     pub(crate) fn new() -> Result<Self, BackendError> {
         InstructionSet::chosen().map(Self)
     }
@@ -56,7 +56,7 @@ impl Parallel {
         InstructionSet::available().into_iter().map(Self)
     }
 
-    /// What the vectors are called.
+    /// The name of the vectors.
     pub(crate) const fn vectors(self) -> &'static str {
         self.0.name()
     }

@@ -1,8 +1,8 @@
 //! Which triangle of a mesh a ray hits first, without the mesh.
 //!
-//! Boxes stand round the blocks of each yarn, in a tree along the yarn, and a tree of the yarns'
-//! boxes above them. Rings and triangles are made only where the ray comes by, by the functions of
-//! the serial backend: they are those of the mesh, to the bit.
+//! Each yarn has a tree of boxes round its blocks, and the cloth has a tree of boxes round its
+//! yarns. A ray goes down both. Rings and triangles are made only in the blocks whose boxes it
+//! meets. The serial backend's functions make them, so they are those of the mesh, to the bit.
 
 mod beam;
 mod picker;

@@ -1,4 +1,4 @@
-//! A picker's state: control points, and boxes round what they make.
+//! A picker: control points, and boxes round the blocks of yarns.
 
 use std::sync::Arc;
 
@@ -13,36 +13,36 @@ use crate::engine::{Work, resize};
 use crate::rolls::Rolls;
 use crate::serial::scan_yarn;
 
-/// Blocks of a yarn that one rayon item makes boxes for, at least.
+/// The fewest blocks of a yarn whose boxes one rayon item makes.
 const BLOCKS_LEAST: usize = 64;
 
 /// Why a picker can't be made or changed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PickError {
-    /// Another number of control points than the plan says.
+    /// The number of control points differs from the plan's.
     #[error("{points} control points, but the plan has {planned}")]
     PointCount {
         /// Points given.
         points: u64,
-        /// What the plan says.
+        /// Points of the plan.
         planned: u64,
     },
     /// Control points that no yarn can have.
     #[error(transparent)]
     Points(#[from] YarnError),
-    /// A yarn that there is not.
+    /// There is no yarn of this number.
     #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
     NoYarn {
         /// The yarn.
         yarn: usize,
-        /// How many there are.
+        /// The number of yarns.
         yarns: usize,
     },
-    /// A plan that differs from the picker's by other yarns than those that are set.
+    /// The plan differs from the picker's in yarns other than those that are set.
     #[error("the plan is not the picker's with yarn {yarn} edited")]
     OtherPlan {
-        /// The first of those, from 0.
+        /// The first yarn that was to be set, from 0.
         yarn: usize,
     },
     /// There is not enough memory.
@@ -52,9 +52,9 @@ pub enum PickError {
 
 /// Says which triangle of the mesh of a cloth a ray hits first: its yarn, ring and side.
 ///
-/// The mesh need not be made. A picker has the control points, 16 bytes each, and 48 bytes for each
-/// block of 64 rings; a ray takes time that grows with the logarithm of both. Triangles are those
-/// of all backends on the CPU, to the bit, and lie between the same rings and sides whatever the
+/// No mesh is made for it. A picker holds the control points, 16 bytes each, and 48 bytes for each
+/// block of 64 rings. The time of a ray grows with the logarithm of both. Triangles are those of
+/// the CPU backends, to the bit, and lie between the same rings and sides whatever the
 /// [`Topology`](texere_core::Topology).
 ///
 /// ```
@@ -87,9 +87,9 @@ pub struct Picker {
     pub(super) work: Work,
     /// The boxes of each yarn's blocks.
     pub(super) yarns: Vec<BoxTree>,
-    /// The boxes of the yarns, neighbours next to one another.
+    /// The boxes of the yarns. Yarns that lie side by side are neighbours in it.
     pub(super) cloth: BoxTree,
-    /// Which yarn each of those is, and where each yarn is among them.
+    /// The yarn at each position of `cloth`; `positions` has the position of each yarn.
     pub(super) order: Vec<u32>,
     positions: Vec<u32>,
     /// How far each section reaches, in half widths or half heights.
@@ -99,7 +99,7 @@ pub struct Picker {
 }
 
 impl Picker {
-    /// A picker of the mesh of `plan` with these control points, those of all its yarns.
+    /// A picker of the mesh of `plan`. `points` are the control points of all its yarns.
     ///
     /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for a point that is not sound,
     /// [`PickError::OutOfMemory`].
@@ -148,17 +148,17 @@ impl Picker {
         *self.cloth.root()
     }
 
-    /// A box that holds yarn number `yarn` as it is now; none past the last.
+    /// A box that holds yarn number `yarn` as it is now, from 0. None past the last yarn.
     #[must_use]
     pub fn yarn_bounds(&self, yarn: usize) -> Option<Bounds> {
         self.yarns.get(yarn).map(|tree| *tree.root())
     }
 
-    /// Takes other control points of yarn number `yarn`, from 0. `plan` is the picker's own, or
-    /// what [`Plan::edited`] has made of that for this yarn. The boxes of that yarn alone are made
-    /// again, and those above it.
+    /// Gives yarn number `yarn`, from 0, other control points. `plan` is the picker's own, or what
+    /// [`Plan::edited`] has made of that for this yarn. Only the boxes of this yarn, and those
+    /// above them, are made again.
     ///
-    /// **Errors**: those of [`Picker::set_yarns`].
+    /// **Errors**: the errors of [`Picker::set_yarns`].
     pub fn set_yarn(
         &mut self,
         plan: Arc<Plan>,
@@ -169,12 +169,12 @@ impl Picker {
         self.set_yarns(plan, &Edits::from([(yarn, (what, points))]))
     }
 
-    /// Takes many yarns at once. `plan` is what [`Plan::edited_all`] has made of the picker's own
-    /// for them.
+    /// Gives several yarns other control points at once. `plan` is what [`Plan::edited_all`] has
+    /// made of the picker's own for `edits`.
     ///
     /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of a
-    /// yarn, and [`PickError::Points`]: all leave everything as it was. [`PickError::OutOfMemory`],
-    /// after which a picker is of no more use.
+    /// yarn, and [`PickError::Points`] leave the picker as it was. [`PickError::OutOfMemory`] makes
+    /// it useless.
     pub fn set_yarns(&mut self, plan: Arc<Plan>, edits: &Edits<'_>) -> Result<(), PickError> {
         let Some((&first, _)) = edits.first_key_value() else { return Ok(()) };
         let yarns = self.yarns.len();
@@ -214,8 +214,8 @@ impl Picker {
     }
 }
 
-/// Whether two plans have the same offsets and the same yarns, but that those of `edits` are as
-/// these say.
+/// Whether `other` is `one` with the yarns of `edits` replaced: the same offsets, and all other
+/// yarns the same.
 fn differ_by(one: &Plan, other: &Plan, edits: &Edits<'_>) -> bool {
     let [before, after] = [one, other].map(|plan| plan.layout().yarns());
     one.shares_offsets(other)
@@ -246,8 +246,8 @@ fn scanned(plan: &Plan, points: &PaddedPoints) -> Result<Rolls, OutOfMemory> {
     Ok(rolls)
 }
 
-/// The boxes of a yarn's blocks. Each holds the first ring of the next block as well, where the
-/// block's triangles end.
+/// The boxes of a yarn's blocks. Each also holds the first ring of the next block, where the
+/// block's last triangles end.
 fn boxes(work: &Work, yarn: usize) -> BoxTree {
     let Work { plan, points, .. } = work;
     let blocks = plan.rings(yarn).div_ceil(BLOCK_RINGS);
@@ -259,8 +259,9 @@ fn boxes(work: &Work, yarn: usize) -> BoxTree {
     BoxTree::new(&boxes)
 }
 
-/// Puts yarns that lie beside one another next to one another: halves them along the axis on which
-/// their middles lie furthest apart, as the tree will, and each half likewise.
+/// Puts yarns that lie side by side next to one another in `order`. It halves them along the axis
+/// on which their middles lie furthest apart, at the point where the tree halves the row, and then
+/// does the same with each half.
 fn sort(order: &mut [u32], around: &[Bounds]) {
     if order.len() < 2 {
         return;

@@ -9,17 +9,17 @@ use crate::buffer::Buffer;
 use crate::opened::Opened;
 use crate::room::Room;
 
-/// What kernels read and write.
+/// The buffers that the kernels read and write.
 #[derive(Debug)]
 pub(super) struct Memory {
     pub(super) threads: Buffer,
     pub(super) ups: Buffer,
-    /// As they are.
+    /// The crossings as they are.
     pub(super) crossings: Buffer,
-    /// As others find them in the next pass, and in the one after it.
+    /// The crossings as others find them: in the next pass, and in the one after it.
     pub(super) found: Buffer,
     pub(super) next: Buffer,
-    /// What groups have seen, and what passes since the last wait have.
+    /// What workgroups have seen, and what each pass since the last wait has seen.
     pub(super) group_rows: Buffer,
     pub(super) pass_rows: Buffer,
 }

@@ -1,4 +1,4 @@
-//! Crossings on an OpenCL device.
+//! Crossings at rest, on an OpenCL device.
 
 mod kernels;
 mod memory;
@@ -25,7 +25,7 @@ pub(crate) struct OpenClCrossings {
 }
 
 impl OpenClCrossings {
-    /// Compiles the kernels if no settler of crossings has before, and takes memory.
+    /// Takes memory, and compiles the kernels unless a settler of crossings has done so before.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
     pub(crate) fn new(
@@ -42,7 +42,7 @@ impl OpenClCrossings {
         })
     }
 
-    /// Makes so many passes that there is a row for each, and waits for what they have seen.
+    /// Makes at most [`CROSSINGS_PASSES`] passes, and waits for what they have seen.
     fn run(&mut self, passes: &[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError> {
         for (number, pass) in (0..CROSSINGS_PASSES).zip(passes) {
             let params = self.params.with_pass(pass, number);

@@ -1,4 +1,4 @@
-//! Control points from where yarns have come to rest, without a way over the host.
+//! Settled places turned into control points on the device, without a way over the host.
 
 use bytemuck::bytes_of;
 use texere_core::BackendError;
@@ -12,7 +12,7 @@ use crate::buffer::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
-/// The kernels that read where yarns rest.
+/// The kernels that read settled places.
 #[derive(Debug)]
 pub(super) struct PointKernels {
     points: Kernel,

@@ -6,7 +6,7 @@ use texere_shaders::crossings;
 use crate::gpu::Gpu;
 use crate::kernel::Kernel;
 
-/// The compiled shaders that bring crossings to rest.
+/// The two shaders of a pass, compiled.
 #[derive(Debug)]
 pub(crate) struct CrossingsKernels {
     pub(super) step: Kernel,
@@ -16,7 +16,7 @@ pub(crate) struct CrossingsKernels {
 impl CrossingsKernels {
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
-        // They do not ask whether yarns are flattened: there all are.
+        // All yarns of crossings are flattened.
         let kernel = |shader| Kernel::new(gpu, shader, true);
         Ok(Self { step: kernel(&crossings::MOVE)?, seen: kernel(&crossings::SEEN)? })
     }

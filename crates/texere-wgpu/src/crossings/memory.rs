@@ -9,23 +9,23 @@ use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 use crate::gpu::Gpu;
 use crate::room::Room;
 
-/// Bytes from the parameters of a pass to those of the next one: every device binds uniforms at
-/// multiples of that.
+/// Bytes from the parameters of a pass to those of the next: every device can bind uniforms at
+/// multiples of this.
 pub(super) const PARAMS_STEP: u64 = 256;
 
-/// What shaders read and write.
+/// The buffers that the shaders read and write.
 #[derive(Debug)]
 pub(super) struct Memory {
-    /// Those of each pass between two waits.
+    /// The parameters of each pass between two waits.
     pub(super) params: wgpu::Buffer,
     threads: wgpu::Buffer,
     ups: wgpu::Buffer,
-    /// As they are.
+    /// The crossings as they are.
     pub(super) crossings: wgpu::Buffer,
-    /// As others find them in the next pass, and in the one after it.
+    /// The crossings as others find them: in the next pass, and in the one after it.
     pub(super) found: wgpu::Buffer,
     pub(super) next: wgpu::Buffer,
-    /// What groups have seen, and what passes since the last wait have.
+    /// What workgroups have seen, and what each pass since the last wait has seen.
     group_rows: wgpu::Buffer,
     pub(super) pass_rows: wgpu::Buffer,
 }
@@ -50,8 +50,8 @@ impl Memory {
         })
     }
 
-    /// What a shader sees as `resource` in pass `number` of those between two waits. Every other
-    /// one finds what the one before it has written.
+    /// The binding of `resource` in pass number `number` since the last wait. Passes take turns
+    /// with two buffers: each finds what the one before it has written.
     pub(super) fn resource(&self, resource: Resource, number: u32) -> Option<BindingResource<'_>> {
         let [found, next] =
             if number.is_multiple_of(2) { [&self.found, &self.next] } else { [&self.next, &self.found] };

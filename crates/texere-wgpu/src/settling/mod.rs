@@ -24,7 +24,7 @@ use crate::readback::Readback;
 pub(crate) use kernels::SettlingKernels;
 use memory::Memory;
 
-/// A settling on one device.
+/// The settler of a [`WgpuBackend`](crate::WgpuBackend).
 #[derive(Debug)]
 pub(crate) struct WgpuSettler {
     opened: Arc<Opened>,
@@ -32,7 +32,7 @@ pub(crate) struct WgpuSettler {
     plan: Arc<SettlingPlan>,
     params: SettlingParams,
     memory: Memory,
-    /// Whether a pass has seen places, and whether such were kept.
+    /// Whether a pass has been made, and whether what it saw was kept.
     seen: bool,
     kept: bool,
     answer: Answer,
@@ -40,7 +40,7 @@ pub(crate) struct WgpuSettler {
 }
 
 impl WgpuSettler {
-    /// Takes memory for a plan.
+    /// Takes memory, and compiles the shaders unless a settler has done so before.
     pub(crate) fn new(
         opened: Arc<Opened>,
         limits: &Limits,
@@ -67,7 +67,7 @@ impl WgpuSettler {
     }
 }
 
-/// Hands over what `record` records.
+/// Submits what `record` records.
 fn submit(gpu: &Gpu, record: impl FnOnce(&mut CommandEncoder)) -> Result<(), BackendError> {
     gpu.scoped("Queue::submit", || {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -105,7 +105,7 @@ impl Settler for WgpuSettler {
         }
         let listed = self.find_cells(growth).and_then(|()| self.find_neighbours());
         if listed.is_err() {
-            // Of a list that has starts alone none is left; an error of this adds nothing.
+            // A half-made list must be empty. An error of this adds nothing.
             let _ = submit(&self.opened.gpu, |encoder| encoder.clear_buffer(&self.memory.starts, 0, None));
         }
         listed.map(u64::from)

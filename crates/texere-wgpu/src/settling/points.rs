@@ -1,4 +1,4 @@
-//! Control points from where yarns have come to rest, without a way over the host.
+//! Settled places turned into control points on the device, without a way over the host.
 
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ use crate::kernel::Kernel;
 use crate::opened::Opened;
 
 impl WgpuSettler {
-    /// Writes all control points, padded as `plan` says, to `points` where that lies on the same
-    /// device and in one binding. Says whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that lies on the same
+    /// device and fits one binding. Returns whether it does.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,
@@ -64,7 +64,7 @@ impl WgpuSettler {
         Ok(buffer)
     }
 
-    /// Records a kernel that reads where yarns rest, with `buffers` beside the settling's own.
+    /// Records a kernel that reads settled places, with `buffers` beside the settling's own.
     fn record_settled(
         &self,
         encoder: &mut CommandEncoder,

@@ -8,11 +8,11 @@ use crate::parallel::simd::{
     Job, LANES_MAX, Simd, between, bit_cast, difference, plus, rounded, scale, to_bits, to_floats,
 };
 
-/// Makes the rows of intervals from places, and those of their chords: a task's.
+/// Makes a task's rows of intervals from places, and the rows of their chords.
 pub(super) struct Make<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) fixed: &'a Fixed,
-    /// With [`FRONT`] entries before the first place.
+    /// All places, behind [`FRONT`] entries more.
     pub(super) places: &'a [Place],
     /// The place of the first of `intervals`.
     pub(super) first: usize,
@@ -40,7 +40,7 @@ impl Make<'_> {
             let a = scale(to_floats(between(start, corner(simd, &places[done..]))), unit);
             let b = scale(to_floats(between(start, corner(simd, &places[done + 2..]))), unit);
             let c = scale(to_floats(between(start, corner(simd, &places[done + 3..]))), unit);
-            // As the core's coefficients.
+            // The coefficients, as the core works them out.
             let c1 = scale(difference(b, a), simd.splat(s));
             let sum = plus(scale(a, simd.splat(2.0 * s)), scale(b, simd.splat(3.0 - 2.0 * s)));
             let c2 = difference(sum, scale(c, simd.splat(s)));

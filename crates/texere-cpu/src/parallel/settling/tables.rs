@@ -1,5 +1,5 @@
-//! What the lanes of a settling read: rows of four floats, so that a vector of them is four loads
-//! and a transposition.
+//! The tables that the lanes of a settling read. Rows have four floats, so that a vector of rows is
+//! four loads and a transposition.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::settling::{SettlingPlan, tag};
@@ -10,18 +10,18 @@ use crate::parallel::simd::LANES_MAX;
 /// Places that one task works on.
 pub(super) const TASK: usize = 512;
 
-/// What never changes.
+/// Tables that never change during a settling.
 #[derive(Debug)]
 pub(super) struct Fixed {
-    /// Of each place's interval: the growth of its half width, its half width and its half height
-    /// at the beginning, the growth of that, mm.
+    /// For each place's interval: the growth of its half width, its half width and its half height
+    /// at the beginning, and the growth of its half height, mm.
     pub(super) halves: Vec<[f32; 4]>,
-    /// Of each place's interval: the largest half width or half height.
+    /// For each place's interval: the largest half width or half height, mm.
     pub(super) thickest: Vec<f32>,
     /// The place of each chord's interval.
     pub(super) owners: Vec<u32>,
-    /// Of each chord: where along the interval it begins and ends, its number there, and one over
-    /// their count.
+    /// For each chord: where along its interval it begins and ends, its number in the interval, and
+    /// one over the number of the interval's chords.
     pub(super) shares: Vec<[f32; 4]>,
 }
 
@@ -50,28 +50,29 @@ impl Fixed {
     }
 }
 
-/// An interval: where it begins (as bits of `i32`) and the growth of its half width; what goes with
-/// u and its half width; with u² and its half height; with u³ and the growth of that.
+/// An interval, in four rows. Each has a vector and a number: the beginning (as bits of `i32`) and
+/// the growth of the half width; the coefficient of u and the half width; that of u² and the half
+/// height; that of u³ and the growth of the half height.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct IntervalRow(pub(super) [[f32; 4]; 4]);
 
-/// A chord: where it begins and the place of its interval (as bits); its span and the interval's
-/// thickest half.
+/// A chord, in two rows: where it begins and the place of its interval (as bits); its span and the
+/// interval's thickest half.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct ChordRow(pub(super) [[f32; 4]; 2]);
 
-/// What pulls at the control points of an interval.
+/// The pulls of an interval at its control points.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct PullRow {
-    /// The slots of the core's `Pull`, of twelve numbers, the last three of them 0.
+    /// The slots of the core's `Pull`. Each has twelve numbers, of which the last three are 0.
     pub(super) slots: [[[f32; 4]; 3]; 4],
-    /// Half of the length that the interval has too much, along its chord, and its length, mm.
+    /// Half of the interval's surplus length, as a vector along its chord, and its length, mm.
     pub(super) length: [f32; 4],
-    /// The least distance seen, mm, the same over both reaches, the least radius of curvature in
-    /// diameters, and the share by which the length is off.
+    /// The least distance to another yarn, mm; the least distance over the sum of both reaches; the
+    /// least radius of curvature, in diameters; the share by which the length is off.
     pub(super) seen: [f32; 4],
 }
 
@@ -82,17 +83,17 @@ impl PullRow {
         seen: [f32::INFINITY, f32::INFINITY, f32::INFINITY, 0.0],
     };
 
-    /// Which of its rows is `length`, and which is `seen`.
+    /// The number of the row `length`, and of the row `seen`.
     pub(super) const LENGTH: usize = 12;
     pub(super) const SEEN: usize = 13;
 
-    /// As rows of four.
+    /// All of `pulls` as rows of four.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn rows(pulls: &[Self]) -> &[[[f32; 4]; 14]] {
         bytemuck::cast_slice(pulls)
     }
 
-    /// Takes note of a distance to another yarn.
+    /// Notes a distance to another yarn.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn see(&mut self, distance: f32, ratio: f32) {
         self.seen[0] = self.seen[0].min(distance);
@@ -100,7 +101,6 @@ impl PullRow {
     }
 }
 
-/// Entries before the first place's and behind the last one's, so that no window of a vector ends
-/// outside.
+/// Entries before the first place's and behind the last place's, so that no vector reaches outside.
 pub(super) const FRONT: usize = 4;
 pub(super) const BACK: usize = 2 * LANES_MAX;

@@ -1,8 +1,8 @@
 //! Both stages, and the scan where there is one: the mesh from control points.
 //!
-//! `mesh` is into the caller's own slices, used again and again; `mesh-cold` the same with nothing
-//! of it in the caches; `mesh-fresh` into memory that is new each time, plan, session and upload
-//! included.
+//! `mesh` writes into the caller's own slices, used again and again. `mesh-cold` does so with none
+//! of them in the caches. `mesh-fresh` writes into memory that is new each time, with plan, session
+//! and upload.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
@@ -64,7 +64,7 @@ fn reused(
     let mut vertices = texere_core::backend::zeroed("vertices", chunk.vertices().into()).unwrap();
     let mut indices = texere_core::backend::zeroed("indices", chunk.indices().into()).unwrap();
     let bytes = (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64;
-    // What lies in the caches instead, where nothing of the mesh shall.
+    // Other values to fill the caches, so that nothing of the mesh is in them.
     let mut others = vec![0u32; if stage == "mesh-cold" { CACHES } else { 0 }];
     let device = texere::open(backend).unwrap();
     let mut session = session(&*device, &plan, yarns).unwrap();

@@ -36,7 +36,7 @@ fn settling(criterion: &mut Criterion) {
             for (stage, form) in [("weighted-pass", Form::Weighted), ("block-pass", Form::Block)] {
                 let bench = Bench { stage, bytes: size_of_val(&*places) as u64, ..list };
                 floor.bench(criterion, &bench, || {
-                    // Neighbours stay those of the start.
+                    // The list of neighbours stays that of the start.
                     settler.upload(&places).unwrap();
                     timed(|| settler.pass(&Pass { form, growth: 1.0, ease: 0.5, momentum: 0.8 }).unwrap())
                 });

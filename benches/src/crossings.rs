@@ -1,5 +1,5 @@
-//! Crossings on devices: what a pass costs beside a plain fill of the bytes that it moves, and how
-//! long cloth takes to rest.
+//! Crossings on devices: the time of a pass beside a plain fill of the bytes that it moves, and the
+//! time until cloth is at rest.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -20,7 +20,7 @@ const FILL: u64 = 1 << 30;
 /// Passes at once.
 const PASSES: usize = 10;
 
-/// A Jacquard of ends x picks that nowhere repeats: satin of 8 with a figure in plain weave, at a
+/// A Jacquard of ends x picks that repeats nowhere: satin of 8 with a figure in plain weave, at a
 /// pitch of 1.75 diameters.
 fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
     let thread = CrossingThread { pitch: 0.35, diameter: 0.2, stiffness: 1.0, level: 0 };
@@ -35,13 +35,13 @@ fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
     Crossings::new(ups, vec![thread; ends], vec![thread; picks]).repeats(false, false).passes(passes)
 }
 
-/// Prints a row for each device and size: the median of `rounds` of ten passes at once, and of one
-/// alone, by the host's clock, the wait for what passes have seen in it; and one whole course of
-/// `passes` at most.
+/// Prints a row for each device and size: the median of `rounds` of ten passes at once and of one
+/// alone, by the host's clock, with the wait for the passes' measures; and one whole course of at
+/// most `passes`.
 ///
 /// # Errors
 ///
-/// Whatever the device says.
+/// The errors of the device.
 pub fn print(
     devices: &[String],
     sizes: &[(usize, usize)],
@@ -80,7 +80,7 @@ fn print_row(
             let mut fill = gpu.fill(&[FILL])?;
             fill.run()?;
             let times = (0..rounds.max(1)).map(|_| fill.run()).collect::<Result<Vec<_>, _>>()?;
-            // What the device's own clock says of the fill.
+            // The time of the fill by the device's own clock.
             let floor = median_time(&times).as_secs_f64() * bytes as f64 / FILL as f64;
             format!("{:.2}", pass.as_secs_f64() / floor)
         }
@@ -103,7 +103,7 @@ fn print_row(
     Ok(())
 }
 
-/// The median time of `rounds` times so many of the last passes of a course, after warm ones.
+/// The median time of `rounds` runs of the last passes of a course, after warm ones.
 fn time_of(
     settler: &mut dyn CrossingsSettler,
     passes: usize,

@@ -13,7 +13,7 @@ use texere_core::ControlPoint;
 use crate::measure::median_time;
 use crate::{paper_cloth, shaped};
 
-/// What an edit took.
+/// The cost of an edit.
 #[derive(Debug, Clone, Copy, Default)]
 struct Took {
     /// By the host's clock, until the device was done.
@@ -24,12 +24,12 @@ struct Took {
     bytes: u64,
 }
 
-/// Prints for each device: one yarn of the cloth `yarns` and one lift of the cloth `lifts`, each
-/// the median of `rounds`, beside the whole mesh.
+/// Prints for each device the time of editing one yarn of the cloth `yarns` and one lift of the
+/// cloth `lifts`, each the median of `rounds`, beside that of the whole mesh.
 ///
 /// # Errors
 ///
-/// Whatever the device says.
+/// The errors of the device.
 pub fn print(
     devices: &[String],
     yarns: (usize, usize),
@@ -68,7 +68,7 @@ fn row(name: &str, (ends, picks): (usize, usize), what: &str, [whole, edit]: [To
     );
 }
 
-/// The whole mesh, and that of a pick in the middle that moves up and down.
+/// Times of the whole mesh, and of the edit of a pick in the middle that moves up and down.
 fn a_yarn(
     device: &dyn Backend,
     yarns: &Yarns,
@@ -98,8 +98,8 @@ fn a_yarn(
     Ok([whole, edit])
 }
 
-/// The whole mesh of a cloth of round threads, and a lift in its middle that is changed back and
-/// forth, from the drawdown on.
+/// Times of the whole mesh of a cloth of round threads, and of a lift in its middle that changes
+/// back and forth, from the drawdown on.
 fn a_lift(
     device: &Arc<dyn Backend>,
     (ends, picks): (usize, usize),

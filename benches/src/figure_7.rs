@@ -10,8 +10,9 @@ use texere::write::Output;
 
 use crate::stages::stages;
 
-/// Designs, the millions of facets that the paper counts, and what it says it takes, s.
+/// Designs, and the millions of facets that the paper counts.
 const CLOTHS: [(&str, f64); 3] = [("figure-7a", 254.47), ("figure-7b", 331.71), ("figure-7c", 381.71)];
+/// Seconds that the paper states for each cloth.
 const PAPER_S: f64 = 10.0;
 
 /// Width and height of the pictures, pixels, and the width of the close-up as a share of the
@@ -25,7 +26,7 @@ const CLOSE: f32 = 0.02;
 ///
 /// # Errors
 ///
-/// Whatever the reader, the structure, the device or the file system says.
+/// The errors of the reader, the structure, the device and the file system.
 pub fn print(device: &str, designs: &Path, output: &Path) -> Result<(), Box<dyn Error>> {
     let (backend, renderer) = (texere::open(device)?, texere::picture::open_renderer(device)?);
     std::fs::create_dir_all(output)?;

@@ -21,11 +21,11 @@ struct Case {
     topology: Topology,
     /// All control points in a single yarn.
     joined: bool,
-    /// Turns per mm of all yarns.
+    /// Twist of all yarns, rad/mm.
     twist: f32,
     /// Width of all yarns over their height.
     flatness: f32,
-    /// The paper's mapping, a lane a yarn, instead of ours.
+    /// The paper's mapping, a lane a yarn, instead of texere's.
     per_yarn: bool,
     /// Packed vertices instead of the mesh.
     packed: bool,
@@ -61,16 +61,16 @@ const CASES: [Case; 11] = [
     Case { name: "upright, indexed, a lane a yarn", per_yarn: true, ..PAPER },
 ];
 
-/// Bytes that one buffer of the fill has at most.
+/// The most bytes of one buffer of the fill.
 const BUFFER: u64 = 1 << 30;
 
-/// Prints two tables: a row for each device, size (ends, picks) and case, medians of `rounds` warm
-/// runs by the device's clock; and a row for each device and size with what goes over the bus, by
-/// the host's.
+/// Prints two tables. The first has a row for each device, size (ends, picks) and case, with
+/// medians of `rounds` warm runs by the device's clock. The second has a row for each device and
+/// size with the speeds over the bus, by the host's clock.
 ///
 /// # Errors
 ///
-/// Whatever the device says.
+/// The errors of the device.
 pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Result<(), Box<dyn Error>> {
     println!("| device | cloth | | fill, ms | GB/s | scan, ms | mesh, ms | times the fill | ps a triangle |");
     println!("|---|---|---|---|---|---|---|---|---|");

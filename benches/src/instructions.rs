@@ -1,9 +1,9 @@
 //! Makes a cloth or its mesh several times, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND is a mesh, `upright`, `flattened` the same of flattened yarns, `minimizing` with its scan,
-//! `bare` without indices, or `streamed`, upright and too large for any cache; or control points,
-//! `crossing` with one a crossing, or `round`. It prints how many rings, or control points, there
-//! are.
+//! KIND is a mesh or control points. Meshes are `upright`; `flattened`, of flattened yarns;
+//! `minimizing`, with its scan; `bare`, without indices; and `streamed`, upright and too large for
+//! any cache. Control points are `crossing`, one a crossing, and `round`. It prints the number of
+//! rings or control points.
 
 use std::error::Error;
 
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Control points of one cloth, so large that all else is negligible.
+/// Control points of one cloth, so large that all other work is negligible.
 fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
     let mut cloth = paper_cloth(300, 300)?;
     cloth.set_shape(shape);

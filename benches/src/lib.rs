@@ -38,8 +38,8 @@ use texere_core::backend::{Chunk, Session, SessionError};
 /// its largest.
 pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];
 
-/// Those of [`SIZES`] that this run takes: all of them under `cargo bench`, and under `cargo test`,
-/// which only sees whether the benches run, the smallest.
+/// The sizes of this run: all [`SIZES`] under `cargo bench`, and the smallest under `cargo test`,
+/// which only checks that the benches run.
 pub fn sizes() -> impl Iterator<Item = (usize, usize)> {
     let measured = std::env::args().any(|argument| argument == "--bench");
     SIZES.into_iter().take(if measured { SIZES.len() } else { 1 })
@@ -72,8 +72,7 @@ pub fn one_yarn(yarns: &Yarns) -> Result<Yarns, YarnError> {
     one.build()
 }
 
-/// The same yarns with `twist` turns per mm, `flatness` times as wide as high and with the
-/// section's area kept.
+/// `yarns` with `twist` rad/mm, and `flatness` times as wide as high with the section's area kept.
 ///
 /// **Errors**: [`YarnError`] for a size or a twist that no yarn may have.
 pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnError> {

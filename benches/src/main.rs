@@ -1,4 +1,4 @@
-//! Measures devices: against their floor, and beside the paper's tables.
+//! Measures devices against their floor and beside the paper's tables.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -92,15 +92,15 @@ enum Args {
         #[arg(long, default_value_t = 11)]
         rounds: usize,
     },
-    /// The paper's tables and figures, with ours beside them
+    /// The paper's tables and figures, with texere's beside them
     Tables {
-        /// Devices; the first is compared with [default: the CPU and all GPUs that `texere devices`
-        /// lists, or what imitates one where there is none]
+        /// Devices; the first is the reference [default: the CPU and all GPUs that `texere devices`
+        /// lists, or software devices where there is none]
         #[arg(long = "device")]
         devices: Vec<String>,
         #[command(flatten)]
         work: Work,
-        /// What the report says of how it came about, such as the command and the commit
+        /// How the report was made, such as the command and the commit
         #[arg(long, default_value = "")]
         heading: String,
         /// The folder to write to
@@ -125,7 +125,7 @@ enum Args {
         output: PathBuf,
     },
     /// The paper's figure 7: its three cloths at full size, from the design to the picture, with
-    /// its own time beside ours
+    /// its time beside texere's
     #[command(name = "figure-7")]
     Figure7 {
         /// The device that settles, meshes and draws, such as wgpu:1
@@ -171,7 +171,7 @@ const SIZES: [(usize, usize); 6] =
     [(163, 150), (489, 450), (815, 750), (1141, 1050), (1630, 1500), (2880, 1840)];
 
 impl Work {
-    /// The sizes that `devices` are measured with.
+    /// The sizes of the cloths that `devices` are measured with.
     fn sizes(&self, devices: &[String]) -> Vec<(usize, usize)> {
         if !self.sizes.is_empty() {
             return self.sizes.iter().map(|size| (size.0, size.1)).collect();
@@ -232,8 +232,8 @@ fn gpus() -> impl Iterator<Item = String> {
     texere::devices().found.into_iter().filter(move |device| is_gpu(device.kind)).map(|device| device.name)
 }
 
-/// The serial reference first, then all others, with either schedule; where there is a GPU, no
-/// software device.
+/// The serial reference first, then all others with both schedules. Where there is a GPU, software
+/// devices are left out.
 fn all_devices() -> Vec<String> {
     let mut others: Vec<_> = gpus().collect();
     if others.is_empty() {

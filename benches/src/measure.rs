@@ -51,7 +51,7 @@ impl Bench {
         let creation = start.elapsed();
         let start = Instant::now();
         session.upload(0, yarns.points())?;
-        // Times are of work that has ended.
+        // Timings wait until the work has ended.
         session.timings();
         let upload = start.elapsed();
         Ok(Self { plan, chunks, session, yarns, creation, upload })
@@ -64,7 +64,7 @@ impl Bench {
         self.run(|session, chunk| session.mesh(chunk))
     }
 
-    /// Scan and packed vertices once, likewise.
+    /// Scan and packed vertices once. Times of this run alone.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn packed(&mut self) -> Result<StageTimings, SessionError> {
@@ -86,7 +86,7 @@ impl Bench {
         &mut self,
         stages: impl Fn(&mut Session, &Chunk) -> Result<(), SessionError>,
     ) -> Result<StageTimings, SessionError> {
-        // An upload makes the session forget what it has made; one point costs next to nothing.
+        // An upload makes the session forget its results; one point costs next to nothing.
         self.session.upload(0, &self.yarns.points()[..1])?;
         let before = self.session.timings();
         self.session.scan()?;
@@ -103,8 +103,8 @@ impl Bench {
         })
     }
 
-    /// Sends all control points again, and gives back the time that takes by the host's clock until
-    /// they are there, which the session's timings wait for.
+    /// Sends all control points again, and returns the time by the host's clock until they have
+    /// arrived. The session's timings wait for that.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn send(&mut self) -> Result<Duration, SessionError> {
@@ -114,8 +114,8 @@ impl Bench {
         Ok(start.elapsed())
     }
 
-    /// Reads the whole mesh, piece by piece, and gives back the time that takes by the host's
-    /// clock: the bytes are lent where the driver puts them, and not looked at.
+    /// Reads the whole mesh, piece by piece, and returns the time by the host's clock. The bytes
+    /// are lent where the driver puts them, and nothing reads them.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn read(&mut self) -> Result<Duration, SessionError> {
@@ -130,7 +130,7 @@ impl Bench {
         Ok(time)
     }
 
-    /// Gives all memory back, and the time that takes by the host's clock.
+    /// Frees all memory, and returns the time by the host's clock.
     #[must_use]
     pub fn clean_up(self) -> Duration {
         let Self { session, .. } = self;
@@ -147,6 +147,6 @@ const HOST_SHARE: u64 = 12 << 30;
 /// The middle one of some times.
 #[must_use]
 pub fn median_time(times: &[Duration]) -> Duration {
-    // Of no times at all the median is no number.
+    // The median of no times is NaN.
     Duration::try_from_secs_f64(median(times.iter().map(Duration::as_secs_f64).collect())).unwrap_or_default()
 }

@@ -24,18 +24,18 @@ pub struct Phases {
     /// Splines and meshes on one core of the CPU: the paper's algorithms 1 and 3, into the host's
     /// memory.
     pub serial_geometry: Duration,
-    /// That mesh, vertices and indices, to the device that draws.
+    /// Vertices and indices of that mesh to the device that draws.
     pub serial_buffers: Duration,
     /// Splines and meshes on the device that draws, into its own memory.
     pub parallel_geometry: Duration,
-    /// Control points and tables to that device: all that has to be sent then.
+    /// Control points and tables to the device that draws: nothing else has to be sent.
     pub parallel_buffers: Duration,
-    /// Drawing and lighting a picture, which is the same for both.
+    /// Drawing and lighting a picture, which is the same after either geometry.
     pub rendering: Duration,
 }
 
 impl Phases {
-    /// What [`Phases::in_order`] gives, by name.
+    /// Names of the phases, in the order of [`Phases::in_order`].
     pub const NAMES: [&str; 5] =
         ["geometry, serial", "buffers, serial", "geometry, parallel", "buffers, parallel", "drawing"];
 
@@ -51,7 +51,7 @@ impl Phases {
 #[derive(Debug)]
 pub struct PhaseTimer {
     gpu: WgpuBackend,
-    /// On the same device.
+    /// A renderer on the same device.
     renderer: Renderer,
     serial: Box<dyn Backend>,
 }
@@ -75,12 +75,12 @@ impl PhaseTimer {
         self.gpu.info()
     }
 
-    /// Times the phases for one fabric and a picture of its face of `size` pixels, each on a device
-    /// that is warm.
+    /// Times the phases for one fabric and a picture of its face of `size` pixels, each on a warm
+    /// device.
     ///
     /// # Errors
     ///
-    /// Whatever a device says.
+    /// The errors of a device.
     pub fn phases(
         &self,
         yarns: &Yarns,
@@ -88,7 +88,7 @@ impl PhaseTimer {
         size: [u32; 2],
     ) -> Result<Phases, Box<dyn Error>> {
         let camera = Camera::face(&Extent::of(yarns), size);
-        // Compiles and allocates what any first picture does.
+        // The first picture compiles and allocates.
         self.renderer.scene(yarns, settings)?.picture(&camera, Quality::default())?;
 
         let start = Instant::now();
@@ -106,7 +106,7 @@ impl PhaseTimer {
         Ok(Phases { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering })
     }
 
-    /// Times the mesh as a scene makes it: vertices alone, with caps.
+    /// Times the mesh with the settings of a scene: vertices alone, with caps.
     fn parallel_geometry(&self, yarns: &Yarns, settings: &Settings) -> Result<Duration, Box<dyn Error>> {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
@@ -126,7 +126,7 @@ impl PhaseTimer {
     /// Times geometry and buffers of the serial backend, chunk by chunk, so that any fabric fits
     /// the host.
     fn serial(&self, yarns: &Yarns, settings: &Settings) -> Result<(Duration, Duration), Box<dyn Error>> {
-        // With caps, since the parallel one has them, too.
+        // With caps, as the parallel geometry has them.
         let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = crate::session(&*self.serial, &plan, yarns)?;
@@ -143,7 +143,7 @@ impl PhaseTimer {
         Ok((geometry, buffers))
     }
 
-    /// Makes buffers of a chunk's mesh, and waits until it is there.
+    /// Makes buffers of a chunk's mesh, and waits until the mesh is in them.
     fn send(&self, session: &mut Session, chunk: &Chunk) -> Result<(), Box<dyn Error>> {
         let buffer = |usage, count: u32, each: usize| {
             self.gpu.buffer("serial mesh", u64::from(count) * each as u64, usage | BufferUsages::COPY_DST)
@@ -169,12 +169,12 @@ impl PhaseTimer {
         Ok(self.idle()?)
     }
 
-    /// What chunks are cut to: two of them are enough to keep any device busy.
+    /// Limits of a chunk: two chunks of this size keep any device busy.
     fn limits(&self, plan: &Plan) -> Limits {
         Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..self.info().limits }
     }
 
-    /// Waits until the device has done all that it was given.
+    /// Waits until the device has finished all its work.
     fn idle(&self) -> Result<(), BackendError> {
         let submission = self.gpu.scoped("Queue::submit", || self.gpu.queue().submit([]))?;
         self.gpu.wait(submission)

@@ -10,11 +10,11 @@ use texere::picture::{Camera, Extent, PictureTimings, Pose, Quality, RenderError
 use crate::measure::median_time;
 
 /// Draws each design `rounds` times from straight above and from aside, with four and with sixteen
-/// samples a pixel, all of it and so many times `nearer`, and prints the medians.
+/// samples a pixel, from each distance of `nearer`, and prints the medians.
 ///
 /// # Errors
 ///
-/// Whatever the reader, the structure or the device says.
+/// The errors of the reader, the structure and the device.
 pub fn print(
     designs: &[PathBuf],
     device: &str,
@@ -77,7 +77,7 @@ fn middle(extent: &Extent) -> [f32; 3] {
     std::array::from_fn(|axis| 0.5 * (extent.low[axis] + extent.high[axis]))
 }
 
-/// What of the cloth a picture's height has to show, mm.
+/// The height of the cloth that a picture has to show, mm.
 fn height(extent: &Extent, size: [u32; 2]) -> f32 {
     let across = |axis: usize| extent.high[axis] - extent.low[axis];
     across(1).max(across(0) * size[1] as f32 / size[0] as f32)

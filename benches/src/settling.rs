@@ -1,5 +1,5 @@
-//! Settling on devices: what a pass costs beside a plain fill of the bytes that it moves, and how
-//! long cloth takes to rest.
+//! Settling on devices: the time of a pass beside a plain fill of the bytes that it moves, and the
+//! time until cloth is at rest.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -19,18 +19,18 @@ const FILL: u64 = 1 << 30;
 /// Cloths, by wales and courses.
 #[derive(Debug, Clone)]
 pub struct Cloths {
-    /// Knit with every fifth stitch or so missed, at random: none repeats.
+    /// Knits with about every fifth stitch missed at random, which repeat nowhere.
     pub random: Vec<usize>,
-    /// Knit with eyelets; a multiple of four.
+    /// Knits with eyelets; multiples of four.
     pub lace: Vec<usize>,
 }
 
-/// Prints a row for each device and cloth: medians of `rounds` warm passes and lists, by the host's
-/// clock, the wait for what a pass has seen in it; and one whole settling from the start.
+/// Prints a row for each device and cloth: medians of `rounds` warm passes and lists by the host's
+/// clock, with the wait for a pass's measures; and one whole settling from the start.
 ///
 /// # Errors
 ///
-/// Whatever the device says.
+/// The errors of the device.
 pub fn print(devices: &[String], cloths: &Cloths, rounds: usize) -> Result<(), Box<dyn Error>> {
     println!(
         "| device | cloth | points | neighbours | pass, ms | block, ms | ns a point | GB a pass | times the fill | list, ms | passes (block), lists | whole, s | clearance, radius / d |"
@@ -59,7 +59,7 @@ fn print_row(
     let began = Instant::now();
     let rest = settle(plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;
     let whole = began.elapsed();
-    // From the start again: pulled at, as most passes are.
+    // From the start again, so that contacts pull as in most passes.
     let at = |tags: &(&Place, &u32)| tags.1 & tag::POINT != 0;
     let places: Vec<Place> =
         plan.places().iter().zip(plan.tags()).filter(at).map(|(place, _)| *place).collect();
@@ -101,8 +101,8 @@ fn print_row(
     Ok(())
 }
 
-/// The median time of `rounds` runs by the host's clock, after a warm one, and what the last gave
-/// back.
+/// The median time of `rounds` runs by the host's clock, after a warm one, and the value of the
+/// last run.
 fn median_of<T, E>(rounds: usize, mut run: impl FnMut() -> Result<T, E>) -> Result<(Duration, T), E> {
     let mut last = run()?;
     let mut times = Vec::new();

@@ -3,10 +3,10 @@
 //!
 //! `cargo run --release -p texere-bench --bin shares -- [ENDS PICKS [ROUNDS]]`
 //!
-//! For each kind of mesh on one thread and on two it prints the medians of the rounds: triangles
-//! per second into buffers that are used again, the share of the fill's bandwidth (the median of
-//! the rounds' own ratios, and the best), and the same for a first mesh in memory of its own,
-//! set-up and allocation included.
+//! For each kind of mesh, on one thread and on two, it prints the medians of the rounds: triangles
+//! per second into buffers that are used again, and the share of the fill's bandwidth (the median
+//! of the rounds' own ratios, and the best). It prints both also for a first mesh in memory of its
+//! own, with set-up and allocation.
 
 use std::error::Error;
 use std::sync::Arc;

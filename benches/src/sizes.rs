@@ -1,5 +1,5 @@
-//! Time for a triangle by size of the cloth, and with all of it in one yarn, in turn and in one
-//! process.
+//! Time for a triangle by size of the cloth, and with the whole cloth in one yarn, in turn and in
+//! one process.
 //!
 //! `cargo run --release -p texere-bench --bin sizes -- [ROUNDS]`
 

@@ -1,5 +1,5 @@
-//! From a design to its mesh on a device, stage by stage: what the paper's figure 7 takes about ten
-//! seconds for.
+//! From a design to its mesh on a device, stage by stage. The paper states about ten seconds for
+//! each cloth of its figure 7.
 
 use std::error::Error;
 use std::path::Path;
@@ -26,12 +26,12 @@ pub struct Stages {
     pub points: u64,
     /// Triangles of the mesh.
     pub triangles: u64,
-    /// The file is read, and the structure is made of it.
+    /// Reading the file and making the structure.
     pub read: Duration,
-    /// The structure places its yarns, and these come to rest where the design asks for it:
+    /// Placing the yarns, and letting them come to rest where the design asks for it:
     /// [`texere::Design::rest`].
     pub rest: Duration,
-    /// How they rest then.
+    /// How the yarns rest, if they settled.
     pub rests: Option<Rests>,
     /// The tables of the mesh, counted and sent.
     pub plan: Duration,
@@ -75,12 +75,11 @@ impl Stages {
     }
 }
 
-/// Takes the design in `path` to a mesh in the memory of `device`, and gives its yarns as they lie
-/// there, too.
+/// Takes the design in `path` to a mesh in the memory of `device`. Also returns its yarns.
 ///
 /// # Errors
 ///
-/// Whatever the reader, the structure or the device says.
+/// The errors of the reader, the structure and the device.
 pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<dyn Error>> {
     let settings = Settings::default();
     let mut clock = Clock(Instant::now());
@@ -99,7 +98,7 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
     let mut session = Session::new(device, plan.clone())?;
     stages.plan = clock.lap();
     session.upload(0, yarns.points())?;
-    // Times are of work that has ended.
+    // Timings wait until the work has ended.
     session.timings();
     stages.take = clock.lap();
     session.scan()?;
@@ -113,11 +112,11 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
     Ok((stages, yarns))
 }
 
-/// Prints a row for each design, each of a second run, when the device is warm.
+/// Prints a row for each design, of a second run on the warm device.
 ///
 /// # Errors
 ///
-/// Those of [`stages`].
+/// The errors of [`stages`].
 pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn Error>> {
     let backend = texere::open(device)?;
     println!(
@@ -152,12 +151,12 @@ pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn E
     Ok(())
 }
 
-/// Prints what a triangle of each design's mesh takes on a device that is warm, and what it takes
-/// where all its control points lie in one yarn, as in a knit of one carrier.
+/// Prints the time for a triangle of each design's mesh on a warm device, as it is and with all
+/// control points in one yarn, as in a knit of one carrier.
 ///
 /// # Errors
 ///
-/// Whatever the reader, the structure or the device says.
+/// The errors of the reader, the structure and the device.
 pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn Error>> {
     let backend = texere::open(device)?;
     println!("\n| mesh, on {device} | yarns | ps a triangle | in one yarn |\n|---|---|---|---|");

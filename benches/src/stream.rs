@@ -1,5 +1,5 @@
-//! A plain fill of the host's memory, the yardstick of the CPU's mesh stage: writing is all the
-//! work that has to be done.
+//! A plain fill of the host's memory, the yardstick of the CPU's mesh stage: it writes and does
+//! nothing else.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,8 @@ const TASK: usize = 1 << 18;
 /// Fills `out` past the caches, on all threads of the present rayon pool, with the widest stores
 /// that the processor has.
 ///
-/// No mesh of as many bytes can be written faster, so that benchmarks state a mesh's share of this.
+/// No mesh of as many bytes can be written faster, so benchmarks state a mesh's share of this
+/// speed.
 ///
 /// ```
 /// let mut out = vec![0.0; 1000];
@@ -42,7 +43,7 @@ fn fill_one(out: &mut [f32], value: f32) {
 mod x86 {
     use std::arch::x86_64::{_mm_sfence, _mm256_set1_ps, _mm256_stream_ps, _mm512_set1_ps, _mm512_stream_ps};
 
-    /// As much as one streaming store of AVX-512 writes, and where it may lie.
+    /// A line of 64 bytes, with the size and alignment of a streaming store of AVX-512.
     #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
     #[repr(C, align(64))]
     struct Line([f32; 16]);

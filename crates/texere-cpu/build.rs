@@ -1,7 +1,7 @@
 //! Tells the vector code whether it is being optimised.
 //!
-//! Code that is generic over vectors must be inlined into a function that is compiled for their
-//! instructions, or it is slow. Where nothing is optimised that only gathers the temporaries of
+//! Code that is generic over vectors is fast only where it is inlined into a function that is
+//! compiled for their instructions. Without optimisation inlining would gather the temporaries of
 //! hundreds of functions in one frame of megabytes, more than a thread's stack may hold.
 
 fn main() {

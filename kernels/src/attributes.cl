@@ -1,4 +1,4 @@
-// How long yarns are at each block's start, and the attributes of vertices. After common.cl.
+// Lengths along yarns up to each block's start, and the attributes of vertices. After common.cl.
 //
 // The twin of attributes.wgsl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32
 // mm (Rust: ArcLength), so the order of the sums does not matter.
@@ -20,20 +20,20 @@ float length_mm(ulong length) {
     return (float)(uint)(length >> 32) + (float)(uint)length / LENGTH_STEPS;
 }
 
-// How fast the centre moves at t.
+// The speed of the spline at t.
 float segment_speed(const Segment *segment, float t) {
     float3 velocity = segment->c1.xyz + (segment->c2.xyz * 2.0f + segment->c3.xyz * (3.0f * t)) * t;
     return sqrt(dot3(velocity, velocity));
 }
 
-// A length by a single rule, and the slowest and the fastest of its places.
+// A length by a single rule, and the lowest and the highest speed at its nodes.
 typedef struct {
     float length;
     float slowest;
     float fastest;
 } Rule;
 
-// Adds what a pair of places, `reach` to either side of the middle, have.
+// Adds a pair of nodes, `reach` to either side of the middle.
 void rule_add(Rule *rule, const Segment *segment, float middle, float reach, float weight) {
     float before = segment_speed(segment, middle - reach);
     float behind = segment_speed(segment, middle + reach);
@@ -42,7 +42,7 @@ void rule_add(Rule *rule, const Segment *segment, float middle, float reach, flo
     rule->fastest = max(max(rule->fastest, before), behind);
 }
 
-// The length between two parameters, by Gauss and Legendre's rule with eight points.
+// The length between two parameters, by the Gauss-Legendre rule with eight nodes.
 Rule length_by_rule(const Segment *segment, float from, float to) {
     float middle = (from + to) * 0.5f;
     float half_way = (to - from) * 0.5f;
@@ -58,7 +58,7 @@ Rule length_by_rule(const Segment *segment, float from, float to) {
     return rule;
 }
 
-// The length between two parameters; in parts where the speed is uneven.
+// The length between two parameters. Where the speed is uneven it is added up from parts.
 float segment_length(const Segment *segment, float from, float to) {
     Rule rule = length_by_rule(segment, from, to);
     if (rule.slowest >= ARC_EVEN * rule.fastest) {
@@ -73,21 +73,21 @@ float segment_length(const Segment *segment, float from, float to) {
     return sum;
 }
 
-// The length from ring `k` of the block, which is not the yarn's last, to the next ring. `points`
-// start at the window.
+// The length from ring number `k` of the block, which is not the yarn's last, to the next ring.
+// `points` start at the window.
 ulong step_length(__global const uint4 *points, const Params *params, const Block *block, uint k) {
     uint per_interval = params->subdivisions + 1u;
     uint place = block->first_ring % per_interval + k;
     uint interval = quotient(place, per_interval);
     uint part = place - interval * per_interval;
     Segment segment = segment_new(points + block->first_point + interval, params->s);
-    // Not by the step, whose last multiple may be a bit off 1.
+    // Set to 1 at the end: the last multiple of the step may be a bit off 1.
     float end = part + 1u == per_interval ? 1.0f : (float)(part + 1u) * params->step;
     return length_from_mm(segment_length(&segment, (float)part * params->step, end));
 }
 
-// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `sums` until the
-// next barrier. Every lane must come here.
+// The sum of the lengths of all lanes up to and with this one. Until the next barrier `sums` also
+// holds the sum of all `lanes`. Every lane must call it.
 inline ulong running_length(__local ulong *sums, uint lane, uint lanes, ulong length) {
     sums[lane] = length;
     for (uint reach = 1u; reach < lanes; reach *= 2u) {
@@ -100,13 +100,13 @@ inline ulong running_length(__local ulong *sums, uint lane, uint lanes, ulong le
     return sums[lane];
 }
 
-// The length from ring `lane` of a block to the next; none where no quads start from it.
+// The length from ring `lane` of a block to the next; 0 where no quads start from it.
 inline ulong lane_length(__global const uint4 *points, const Params *params, const Block *block, uint lane) {
     return lane < block->quads ? step_length(points, params, block, lane) : 0ul;
 }
 
-// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first
-// ring to the next block's.
+// The length of each block, from its first ring to the next block's. A workgroup of
+// ATTRIBUTES_GROUP for each row of a chunk's block table.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void block_lengths(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global ulong *lengths) {
@@ -120,8 +120,8 @@ void block_lengths(const Params params, const ulong window, __global const uint4
     }
 }
 
-// A workgroup of YARN_LENGTHS_GROUP a yarn: the lengths of its blocks become those of all blocks
-// before each, tile by tile.
+// Replaces the length of each of a yarn's blocks by the sum of all blocks before it, tile by tile.
+// A workgroup of YARN_LENGTHS_GROUP for each yarn.
 __kernel __attribute__((reqd_work_group_size(YARN_LENGTHS_GROUP, 1, 1)))
 void yarn_lengths(__global const YarnRow *yarns, __global ulong *lengths) {
     __local ulong sums[YARN_LENGTHS_GROUP];
@@ -143,7 +143,8 @@ void yarn_lengths(__global const YarnRow *yarns, __global ulong *lengths) {
     }
 }
 
-// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the attributes of its vertices.
+// The attributes of the vertices of tubes. A workgroup of ATTRIBUTES_GROUP for each row of a
+// chunk's block table.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void attributes(const Params params, const ulong window, __global const uint4 *points,
                 __global const YarnRow *yarns, __global const Block *blocks, __global const ulong *lengths,
@@ -181,7 +182,7 @@ void attributes(const Params params, const ulong window, __global const uint4 *p
     }
 }
 
-// A lane a cap vertex: the attribute of the end ring's again.
+// The attributes of caps, which repeat those of the end rings. A lane for each cap vertex.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void cap_attributes(const Params params, __global const CapRow *rows, __global uint2 *out) {
     size_t number = get_global_id(0);

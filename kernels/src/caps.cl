@@ -4,8 +4,8 @@
 
 #define CAPS_GROUP 64
 
-// A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's
-// sides - 2 triangles, one a lane.
+// The vertices and triangles of caps. A lane for each cap vertex repeats the end ring's position
+// with the end's own normal; all lanes of a cap but two also write one of its sides - 2 triangles.
 __kernel __attribute__((reqd_work_group_size(CAPS_GROUP, 1, 1)))
 void caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
           __global const uint *cap_pattern, __global float *vertices, __global uint *indices) {

@@ -1,9 +1,9 @@
-// What every stage reads: the tables, the turn, the spline, the frame and the vertex.
+// What all stages share: tables, turns, the spline, frames and vertices.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
 // spline.rs, sampling.rs, frame.rs, ring.rs), and common.wgsl is the twin of this file. OpenCL C
-// 1.2, no extension. Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before
-// this file, and FLATTENED: false where all yarns are round, as wide as high everywhere.
+// 1.2, no extension. texere-gpu writes two things before this file: the core's constants, such as
+// BLOCK_RINGS, and FLATTENED, which is false where all yarns are round.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -68,13 +68,13 @@ float dot3(float3 a, float3 b) {
 
 // ---- Turn: an angle as a u32 fraction of a full turn ----
 
-// `turns` full turns, reduced to one and rounded to the nearest step.
+// An angle of `turns` full turns, reduced to one turn and rounded to the nearest step.
 uint turn_from_turns(float turns) {
     float wrapped = max(turns - floor(turns + 0.5f), -0.5f);
     return as_uint(convert_int_sat(floor(wrapped * TURN_STEPS + 0.5f)));
 }
 
-// Sine (x) and cosine (y).
+// Sine (x) and cosine (y) of a turn.
 float2 turn_sin_cos(uint turn) {
     uint quarter = (turn + (1u << 29)) >> 30;
     int rest = as_int(turn - (quarter << 30));
@@ -146,7 +146,7 @@ typedef struct {
     float half_width;
     float half_height;
     float3 tangent;
-    // How both grow along the yarn.
+    // Growth of both halves along the yarn.
     float width_growth;
     float height_growth;
 } Sample;
@@ -157,7 +157,7 @@ float4 point_wide(uint4 point) {
     return (float4)(as_float(point.x), as_float(point.y), as_float(point.z), vload_half(0, (const half *)&halves));
 }
 
-// Its half height.
+// Half height of a control point.
 float point_height(uint4 point) {
     uint halves = point.w;
     return vload_half(1, (const half *)&halves);
@@ -168,7 +168,7 @@ float3 size_terms(float a, float b, float c, float s) {
     return (float3)((b - a) * s, a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s, (c - a) * s + b * (s - 2.0f));
 }
 
-// From the four control points before, at and after both ends.
+// The segment from its four control points: before it, at its start, at its end, and after it.
 Segment segment_new(__global const uint4 *points, float s) {
     uint4 before = points[0];
     uint4 here = points[1];
@@ -224,7 +224,7 @@ Sample segment_sample(const Segment *segment, float t) {
     float3 offset = (segment->c1.xyz + (segment->c2.xyz + segment->c3.xyz * t) * t) * t;
     float3 velocity = segment->c1.xyz + (segment->c2.xyz * 2.0f + segment->c3.xyz * (3.0f * t)) * t;
     float speed_squared = dot3(velocity, velocity);
-    // Where the yarn does not move nothing grows along it.
+    // Where the spline stands still nothing grows along it.
     float inverse = 0.0f;
     Sample sample;
     if (speed_squared > segment->at_rest) {
@@ -264,8 +264,8 @@ typedef struct {
     bool ends_interval;
 } RingSample;
 
-// Ring `k` from the block's first on; also the one after the block's last. `points` start at the
-// window.
+// Ring number `k` of the block, from 0. The ring after the block's last counts too. `points` start
+// at the window.
 RingSample ring_sample(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                        uint k) {
     uint per_interval = params->subdivisions + 1u;
@@ -292,7 +292,8 @@ float3 chord_to(const RingSample *here, float3 next_offset) {
     return (here->ends_interval ? here->span : next_offset) - here->sample.offset;
 }
 
-// The normal of a closed end: the tangent there, out of the yarn. `points` start at the window.
+// The normal of a cap: the tangent at the yarn's end, pointing out of the yarn. `points` start at
+// the window.
 float3 cap_normal(__global const uint4 *points, const Params *params, const CapRow *cap) {
     // The start is t = 0 of the first interval, the finish t = 1 of the last.
     Segment segment = segment_new(points + cap->first_point, params->s);
@@ -370,8 +371,8 @@ uint frame_step(uint frame, float3 tangent, float3 next_tangent, float3 chord, f
     return turn_from_turns(turns + twist * sqrt(dot3(chord, chord)));
 }
 
-// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of
-// its whole turn, so that its last ring meets its first.
+// The roll of ring `ring`, where steps up to it add up to `sum`. Along a closed yarn the whole turn
+// is taken away bit by bit, so that its last ring meets its first.
 uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
     uint steps = yarn->rings - 1u;
     if (yarn->closed == 0u) {
@@ -383,7 +384,7 @@ uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
 
 // ---- Vertex ----
 
-// How a section stands on a ring: the same for all its vertices.
+// How a section stands on a ring, which all its vertices share.
 typedef struct {
     // Centre, half width.
     float4 centre;
@@ -397,21 +398,20 @@ typedef struct {
     bool round;
 } Stance;
 
-// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth.
-// Round rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex
-// hangs on yarns elsewhere.
+// Whether a yarn is round and stays so. `width` and `height` are each a half and its growth. Round
+// rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex depends on
+// other yarns.
 bool is_round(float2 width, float2 height) {
     return !FLATTENED || (width.x == height.x && width.y == height.y);
 }
 
-// The side that a section stands with. A round one turns with the roll. The outline of a flattened
-// one leans, and the section turns inside.
+// The side that a section stands with. A round section turns with the roll. The outline of a
+// flattened one leans, and the section turns inside it.
 float3 side_of(float3 tangent, uint roll, uint lean, bool round) {
     return side_standing(tangent, round ? roll : lean);
 }
 
-// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the
-// roll's.
+// `side` is that of `side_of`, `height` the half height and its growth, `sin_cos` that of the roll.
 Stance stance_new(float4 centre, float4 tangent, float3 side, float2 height, float2 sin_cos) {
     Stance stance;
     stance.centre = centre;
@@ -429,7 +429,7 @@ float2 rolled(const Stance *stance, float2 q) {
     return (float2)(stance->sin_cos.y * q.x - stance->sin_cos.x * q.y, stance->sin_cos.x * q.x + stance->sin_cos.y * q.y);
 }
 
-// Where the vertex at `point` of a section lies.
+// The position of the vertex at `point` of a section.
 float3 position_at(const Stance *stance, float4 point) {
     if (!stance->round) {
         float2 q = rolled(stance, point.xy);
@@ -439,12 +439,13 @@ float3 position_at(const Stance *stance, float4 point) {
     return stance->centre.xyz + outward * stance->centre.w;
 }
 
-// Its normal.
+// The normal of the vertex at `point` of a section.
 float3 normal_at(const Stance *stance, float4 point) {
     float4 tangent = stance->tangent;
     if (!stance->round) {
         float2 q = rolled(stance, point.xy);
-        // Each times the other's half: the inverse transpose, times the product of both halves.
+        // Each component times the other half: the inverse transpose, times the product of both
+        // halves.
         float2 normal = rolled(stance, point.zw) * (float2)(stance->height.x, stance->centre.w);
         float lean = tangent.w * q.x * normal.x + stance->height.y * q.y * normal.y;
         float inverse = 1.0f / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);
@@ -452,7 +453,7 @@ float3 normal_at(const Stance *stance, float4 point) {
         return across - tangent.xyz * (lean * inverse);
     }
     float3 across = stance->side * point.z + stance->up * point.w;
-    // Most yarns are as thick here as there, and need no square root.
+    // Where the radius is constant no square root is needed.
     if (tangent.w == 0.0f) {
         return across;
     }

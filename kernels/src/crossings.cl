@@ -41,7 +41,7 @@ typedef struct {
     const CrossingsParams *params;
     __global const ThreadRow *threads;
     __global const uint *ups;
-    // As others find them in this pass.
+    // The crossings as others find them in this pass.
     __global const float4 *found;
 } Cloth;
 
@@ -52,7 +52,8 @@ typedef struct {
 
 #define NOWHERE 0xffffffffu
 
-// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
+// The number `by` further on than `at` among `count`. Where they repeat, the first follows the
+// last.
 uint further(uint at, int by, uint count, bool repeats) {
     int way = (int)at + by;
     int whole = (int)count;
@@ -62,7 +63,7 @@ uint further(uint at, int by, uint count, bool repeats) {
     return repeats ? (uint)(by < 0 ? way + whole : way - whole) : NOWHERE;
 }
 
-// The crossing so many further along a thread of `set`, and so many threads of that set across.
+// The crossing `along` further along a thread of `of_set`, and `across` threads of that set aside.
 uint2 beside(const Cloth *cloth, uint2 site, uint of_set, int along, int across) {
     int ends = of_set == WARP ? across : along;
     int picks = of_set == WARP ? along : across;
@@ -78,7 +79,7 @@ uint number_of(const Cloth *cloth, uint2 site) {
     return site.y * cloth->params->ends + site.x;
 }
 
-// How the thread of a set lies at a site.
+// The lie of a set's thread at a site.
 float4 lie_of(const Cloth *cloth, uint2 site, uint of_set) {
     return cloth->found[2u * (size_t)number_of(cloth, site) + of_set];
 }
@@ -88,7 +89,7 @@ ThreadRow thread_of(const Cloth *cloth, uint2 site, uint of_set) {
     return cloth->threads[of_set == WARP ? site.x : cloth->params->ends + site.y];
 }
 
-// From the thread of a set at a site to the one so many after it.
+// The way from a set's thread at a site to the one `steps` after it.
 float way_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     float way = thread_of(cloth, site, of_set).gap;
     for (int step = 1; step < steps; step++) {
@@ -107,9 +108,9 @@ float side_of(const Cloth *cloth, uint2 site, uint of_set) {
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
-// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of
-// `own_own` has the unknowns of its own with its unknown k, row k of `own_crossed` those of the
-// other set with it. Rows count up to the diagonal.
+// A block is seen from one set: `own` are the set's four unknowns, `crossed` those of the other
+// set. Row k of `own_own` holds unknown k with all own unknowns, row k of `own_crossed` holds it
+// with those of the other set. Only entries up to the diagonal are used.
 typedef struct {
     float4 own;
     float4 crossed;
@@ -119,7 +120,7 @@ typedef struct {
     float clearance;
 } CrossingBlock;
 
-// The same seen from the other set.
+// The block, seen from the other set.
 CrossingBlock turned(const CrossingBlock *block) {
     const float4 *rows = block->own_crossed;
     CrossingBlock other;
@@ -137,12 +138,13 @@ CrossingBlock turned(const CrossingBlock *block) {
     return other;
 }
 
-// A distance of two threads over what they need.
+// Notes a distance of two threads, as a share of what they need.
 void see(CrossingBlock *block, float clearance) {
     block->clearance = fmin(block->clearance, clearance);
 }
 
-// Adds a term for each unknown of its own, whose residual has that slope in it alone.
+// Adds a term for each own unknown, whose residual depends on that unknown alone, with slope
+// `slope`.
 void add_alone(CrossingBlock *block, float4 weights, float share, float4 residuals, float slope) {
     block->own += weights * residuals * slope;
     float4 more = weights * share * slope * slope;
@@ -152,7 +154,7 @@ void add_alone(CrossingBlock *block, float4 weights, float share, float4 residua
     block->own_own[3].w += more.w;
 }
 
-// Adds a term whose residual has these slopes in its own unknowns.
+// Adds a term whose residual has `slopes` in the own unknowns.
 void add_own(CrossingBlock *block, float weight, float share, float residual, float4 slopes) {
     block->own += (weight * residual) * slopes;
     float4 weighted = (weight * share) * slopes;
@@ -162,8 +164,8 @@ void add_own(CrossingBlock *block, float weight, float share, float residual, fl
     block->own_own[3] += weighted.w * slopes;
 }
 
-// Adds one with these slopes in its own height and half height, and in what is unknown of the other
-// set.
+// Adds a term whose residual has `slopes` in the own height and half height, and `crossed` in the
+// unknowns of the other set.
 void add_between(CrossingBlock *block, float weight, float share, float residual, float2 slopes, float4 crossed) {
     float height = slopes.x;
     float thickness = slopes.y;
@@ -182,7 +184,7 @@ void add_between(CrossingBlock *block, float weight, float share, float residual
     block->crossed_crossed[3] += weighted.w * crossed;
 }
 
-// Adds one with these slopes in all that is unknown here.
+// Adds a term whose residual has slopes in all eight unknowns.
 void add_both(CrossingBlock *block, float weight, float residual, float4 own, float4 crossed) {
     add_own(block, weight, 1.0f, residual, own);
     float4 weighted = weight * crossed;

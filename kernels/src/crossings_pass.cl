@@ -5,17 +5,17 @@
 
 // ---- Eight equations by Cholesky's method, in two halves of four ----
 
-// The root of four rows.
+// The Cholesky root of four rows.
 typedef struct {
     float4 rows[4];
 } Root;
 
-// What is added to a pivot, and the least that it may be.
+// The square root of a regularised pivot, which is no less than CROSSINGS_PIVOT.
 float pivot(float left, float whole) {
     return sqrt(fmax(left + CROSSINGS_DAMPING + CROSSINGS_DAMPING * whole, CROSSINGS_PIVOT));
 }
 
-// The root of four rows, of which some is taken off; `whole` is their diagonal before that.
+// The root of four rows. `whole` is their diagonal before anything was subtracted from them.
 Root root_of(const float4 *rows, float4 whole) {
     float4 a = rows[0];
     float4 b = rows[1];
@@ -39,7 +39,7 @@ Root root_of(const float4 *rows, float4 whole) {
     return root;
 }
 
-// What the root turns into `right`.
+// Solves root * x = `right`.
 float4 forwards(const Root *root, float4 right) {
     const float4 *rows = root->rows;
     float x = right.x / rows[0].x;
@@ -49,7 +49,7 @@ float4 forwards(const Root *root, float4 right) {
     return (float4)(x, y, z, w);
 }
 
-// What the root's transpose turns into `right`.
+// Solves transpose of root * x = `right`.
 float4 backwards(const Root *root, float4 right) {
     const float4 *rows = root->rows;
     float w = right.w / rows[3].w;
@@ -63,13 +63,13 @@ float dot4(float4 one, float4 other) {
     return one.x * other.x + one.y * other.y + one.z * other.z + one.w * other.w;
 }
 
-// How both threads of a crossing lie, or step.
+// A value for both threads of a crossing: their lies, or their steps.
 typedef struct {
     float4 warp;
     float4 weft;
 } Pair;
 
-// The step down to the least of the equations.
+// The step that solves the block's equations.
 Pair step_of(const CrossingBlock *block) {
     const float4 *own = block->own_own;
     Root warp = root_of(own, (float4)(own[0].x, own[1].y, own[2].z, own[3].w));
@@ -102,7 +102,7 @@ Pair step_of(const CrossingBlock *block) {
 
 // ---- Pass ----
 
-// As far as what is unknown of a thread may go.
+// A lie, limited to what its thread allows.
 float4 bounded(float4 lie, const ThreadRow *thread) {
     float4 most = (float4)(thread->freedom, thread->height, CROSSINGS_HALF_WIDTH_MOST * thread->radius,
                            CROSSINGS_HALF_HEIGHT_MOST * thread->radius);
@@ -116,20 +116,20 @@ float largest(float4 one) {
     return fmax(fmax(all.x, all.y), fmax(all.z, all.w));
 }
 
-// Moves one thread of a crossing, and gives back by how much that differs from where it was.
+// Moves one thread of a crossing, and returns how far it moved.
 float move_thread(const Cloth *cloth, __global float4 *crossings, __global float4 *next, uint number, uint2 site,
                   uint of_set, float4 step) {
     ThreadRow thread = thread_of(cloth, site, of_set);
     size_t lie = 2u * (size_t)number + of_set;
     float4 was = crossings[lie];
     float4 moved = bounded(cloth->found[lie] + step, &thread);
-    // Momentum carries it on: there others find it.
+    // Others find it further on, where momentum carries it.
     next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), &thread);
     crossings[lie] = moved;
     return largest(moved - was);
 }
 
-// Moves a crossing. Gives back the longest step and the least clearance.
+// Moves a crossing. Returns the longest step and the least clearance.
 float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global float4 *next, uint number) {
     uint2 site = (uint2)(number % cloth->params->ends, number / cloth->params->ends);
     CrossingBlock block = gathered(cloth, site);
@@ -146,7 +146,7 @@ float2 seen_by_both(float2 one, float2 other) {
     return (float2)(fmax(one.x, other.x), fmin(one.y, other.y));
 }
 
-// What all lanes of a group have seen, by a fixed tree.
+// What all lanes of a workgroup have seen, joined by a fixed tree.
 float2 seen_by_group(__local float2 *rows, uint lane, uint lanes, float2 seen) {
     rows[lane] = seen;
     for (uint reach = lanes / 2u; reach > 0u; reach /= 2u) {
@@ -160,7 +160,7 @@ float2 seen_by_group(__local float2 *rows, uint lane, uint lanes, float2 seen) {
 
 #define CROSSINGS_MOVE_GROUP 64
 
-// A lane a crossing. A row of what it has seen from each group.
+// Moves all crossings: a lane for each. Each workgroup writes a row of what it has seen.
 __kernel __attribute__((reqd_work_group_size(CROSSINGS_MOVE_GROUP, 1, 1)))
 void crossings_move(const CrossingsParams params, __global const ThreadRow *threads, __global const uint *ups,
                     __global const float4 *found, __global float4 *crossings, __global float4 *next,
@@ -180,7 +180,7 @@ void crossings_move(const CrossingsParams params, __global const ThreadRow *thre
 
 #define CROSSINGS_SEEN_GROUP 256
 
-// One group: what all rows have seen, into the row of this pass.
+// Joins the rows of all workgroups into the row of this pass: one workgroup.
 __kernel __attribute__((reqd_work_group_size(CROSSINGS_SEEN_GROUP, 1, 1)))
 void crossings_seen(const CrossingsParams params, __global const float2 *group_rows, __global float2 *pass_rows) {
     __local float2 group[CROSSINGS_SEEN_GROUP];

@@ -2,16 +2,16 @@
 //
 // The twin of crossings_passage.wgsl, and of StraightPassage in texere-core (crossings/passage.rs).
 
-// A straight passage over the first of two crossed threads and under the second one, at the slope
-// that leaves most room.
+// A straight passage over the first of two crossed threads and under the second, at the slope that
+// leaves most room.
 typedef struct {
     // Cosine and sine of the slope.
     float2 slope;
     // How far both ellipses reach across the slope.
     float2 reach;
-    // Between the middles of both ellipses, across the slope.
+    // The distance of the middles of both ellipses, across the slope.
     float between;
-    // What is left when both ellipses and the thread have theirs.
+    // The room that both ellipses and the thread leave.
     float room;
 } StraightPassage;
 
@@ -22,7 +22,7 @@ float2 reach_of(float2 slope, float4 halves) {
     return sqrt(x * x + z * z);
 }
 
-// What a slope leaves beside both ellipses.
+// The room that a slope leaves beside both ellipses.
 float left_by(float across, float rise, float4 halves, float2 slope) {
     float2 reach = reach_of(slope, halves);
     return across * slope.y + rise * slope.x - reach.x - reach.y;
@@ -33,8 +33,8 @@ StraightPassage passage_of(float across, float rise, float4 halves, float thread
     const float2 upright = (float2)(0.0f, 1.0f);
     float distance = sqrt(across * across + rise * rise);
     float2 excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // The best slope of round threads, level or upright: wide ellipses leave most room at one of
-    // these.
+    // Candidates: the best slope of round threads, level, and upright. Wide ellipses leave most
+    // room at one of these.
     float2 slope = rise > 0.0f ? (float2)(rise, across) / distance : upright;
     float most = left_by(across, rise, halves, slope);
     float left = left_by(across, rise, halves, level);

@@ -1,5 +1,5 @@
-// The energy: what threads want, and what keeps them apart. After crossings.cl and
-// crossings_passage.cl.
+// The energy of a crossing: terms for what threads want, and terms that keep them apart. After
+// crossings.cl and crossings_passage.cl.
 //
 // The twin of crossings_terms.wgsl, and of texere-core (crossings/terms.rs).
 
@@ -7,7 +7,7 @@
 typedef struct {
     uint2 site;
     bool there;
-    // How the thread lies there, and how far it is to the next crossing.
+    // The thread's lie there, and the way to the next crossing.
     float4 lie;
     float gap;
 } Along;
@@ -21,7 +21,7 @@ Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     return along;
 }
 
-// Shape, area, and the press.
+// Terms of the section: its shape, its area, and the press.
 void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, float radius) {
     float wide = lie.z / radius;
     float thick = lie.w / radius;
@@ -34,7 +34,8 @@ void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, float rad
     add_alone(block, (float4)(0.0f, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
 }
 
-// A second difference along the thread, which has this slope in what is unknown here.
+// The term of a bend: a second difference along the thread, with slope `slope` in the unknowns of
+// this crossing.
 void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before, const Along *middle, const Along *after,
               float slope, float share) {
     if (!before->there || !middle->there || !after->there) {
@@ -47,8 +48,8 @@ void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before
     add_alone(block, weights, share, before->lie - 2.0f * middle->lie + after->lie, slope);
 }
 
-// First differences along the thread to a crossing `gap` away: tension, and sections that change
-// little.
+// Terms of first differences along the thread, to a crossing `gap` away: tension, and evenness of
+// sections.
 void add_difference(CrossingBlock *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
     if (other->there) {
         float taut = tension / gap;
@@ -57,19 +58,19 @@ void add_difference(CrossingBlock *block, float4 lie, const Along *other, float 
     }
 }
 
-// What a thread does to what it crosses between two crossings, the `second` of which is this one or
-// else the first.
+// How a thread meets the threads that it crosses, between two crossings. This crossing is the
+// `second` of them, or else the first.
 typedef struct {
     float room;
-    // Slopes in its own height and half height, and in what is unknown of the thread that it
-    // crosses here.
+    // Slopes in its own height and half height, and in the unknowns of the thread that it crosses
+    // here.
     float2 slopes;
     float4 crossed;
     float clearance;
 } Meeting;
 
-// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its
-// upper end.
+// The meeting of a thread that stays on its side. Where it slopes, it has to clear the shoulder of
+// the thread under its upper end.
 Meeting shoulder(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
     bool rises = side * (last->lie.y - first->lie.y) > 0.0f;
     float4 upper = rises ? last->lie : first->lie;
@@ -77,7 +78,7 @@ Meeting shoulder(float side, const Along *first, const Along *last, float4 one, 
     float4 under = rises ? two : one;
     float across = first->gap + two.x - one.x;
     float slope = side * (upper.y - lower.y) / across;
-    // Upright, not across the slope.
+    // The distance is measured upright, not across the slope.
     float length = sqrt(1.0f + slope * slope);
     float x = under.z * slope;
     float z = under.w;
@@ -101,7 +102,7 @@ Meeting shoulder(float side, const Along *first, const Along *last, float4 one, 
     return meeting;
 }
 
-// The thread changes sides.
+// The meeting of a thread that changes sides.
 Meeting passage(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
     float across = first->gap + two.x - one.x;
     float rise = side * (two.y - one.y);
@@ -135,8 +136,8 @@ void add_meeting(const Cloth *cloth, CrossingBlock *block, uint of_set, const Al
     }
 }
 
-// What the thread has to clear between this crossing and the one so many further along it, past
-// threads of other levels.
+// Adds what the thread has to clear between this crossing and the one `steps` further along it,
+// past threads of other levels.
 void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *here, int steps) {
     Along other = along_of(cloth, here->site, of_set, steps);
     if (!other.there) {
@@ -149,7 +150,7 @@ void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, con
     add_meeting(cloth, block, of_set, &first, &last, second);
 }
 
-// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
+// Keeps two ellipses clear of one another. `part` is the share of this crossing's thread in them.
 void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float rise, float wide, float thick, float sign,
                 float part) {
     float x = apart / wide;
@@ -165,7 +166,8 @@ void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float ris
     }
 }
 
-// Neighbours of one set `gap` apart half way from this crossing to the `next` one, as ellipses.
+// Keeps neighbours of one set clear half way from this crossing to the `next`. There they are
+// ellipses `gap` apart.
 void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
                   float gap) {
     if (!next->there) {
@@ -180,8 +182,9 @@ void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 
     keep_clear(cloth, block, apart, rise, wide, thick, sign, 0.5f);
 }
 
-// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of
-// two lie side by side or one above the other, as ellipses. All are clear of one another beside it.
+// Keeps a thread and a neighbour of its set clear. At a crossing, neighbours of one level keep to
+// their own places, whatever their heights; neighbours of two levels lie side by side or one above
+// the other, as ellipses. Beside a crossing all are clear of one another.
 void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                    const Along *after, int across, bool of_level) {
     uint2 site = beside(cloth, here->site, of_set, 0, across);
@@ -206,8 +209,8 @@ void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const 
     add_half_way(cloth, block, of_set, here->lie, after, other, across, gap);
 }
 
-// The neighbours of a thread to one side: `steps` is how many threads away the next one of its
-// level lies.
+// Adds the neighbours of a thread on one side. The nearest of its own level lies `steps` threads
+// away.
 void add_neighbours(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                     const Along *after, int sign, int steps) {
     if (steps != 0) {
@@ -218,7 +221,7 @@ void add_neighbours(const Cloth *cloth, CrossingBlock *block, uint of_set, const
     }
 }
 
-// How steeply a thread rises or falls next to a crossing, on the steeper side.
+// How steeply a thread rises or falls beside a crossing, on its steeper side.
 float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
     Along before = along_of(cloth, site, of_set, -1);
     Along here = along_of(cloth, site, of_set, 0);
@@ -228,12 +231,13 @@ float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
     return fmax(falls, rises);
 }
 
-// Both threads of a crossing lie one on top of the other. The block is seen from the warp.
+// Adds the contact of both threads of a crossing, one on top of the other. The block is seen from
+// the warp.
 void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);
     float side = side_of(cloth, site, WARP);
-    // Threads of two layers slope where they cross: along the slope of the other one an ellipse
+    // Threads of two layers slope where they cross, and along the other thread's slope an ellipse
     // reaches further.
     float2 slope = (float2)(0.0f, 0.0f);
     bool layered = (cloth->params->flags & LAYERED) != 0u;
@@ -255,7 +259,7 @@ void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     }
 }
 
-// All terms of one set that a crossing is part of.
+// Adds all terms of one set that a crossing is part of.
 void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) {
     ThreadRow thread = thread_of(cloth, site, of_set);
     float radius = thread.radius;

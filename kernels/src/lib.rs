@@ -1,5 +1,5 @@
-//! The OpenCL C sources of texere, as text, with their entry points and workgroup sizes. No GPU
-//! interface is used here.
+//! The OpenCL C sources of texere, as text, with their entry points and workgroup sizes. This crate
+//! uses no GPU interface.
 //!
 //! Each stage is a file, and the WGSL stages of texere-shaders are its twins: the same names, the
 //! same order of operations. A [`KernelProgram`] is the list of files that are compiled together,
@@ -11,7 +11,7 @@
 //! assert!(PER_RING.sources.concat().contains("void mesh("));
 //! ```
 
-/// An entry point.
+/// A kernel of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EntryPoint {
     /// The kernel function.
@@ -21,115 +21,118 @@ pub struct EntryPoint {
     pub group: usize,
 }
 
-/// Turns of all blocks: a workgroup a block. The first half of the scan.
+/// The first half of the scan: the turn of each block. A workgroup for each block.
 pub const BLOCK_TURNS: EntryPoint = EntryPoint { name: "block_turns", group: 64 };
 
-/// Rolls from turns, in place: a workgroup a yarn. The second half of the scan.
+/// The second half of the scan: rolls from turns, in place. A workgroup for each yarn.
 pub const YARN_ROLLS: EntryPoint = EntryPoint { name: "yarn_rolls", group: 256 };
 
-/// Stage 1: a workgroup a row of the chunk's block table.
+/// Stage 1. A workgroup for each row of the chunk's block table.
 pub const TRAJECTORY: EntryPoint = EntryPoint { name: "trajectory", group: 64 };
 
-/// Stage 2 with stage 1 in it, for an even number of sides: a workgroup a row of the chunk's block
-/// table. It runs with any workgroup of 64 lanes, a ring each, or more; see [`UNINDEXED_GROUP`].
+/// Stage 2 with stage 1 in it, for an even number of sides. A workgroup for each row of the chunk's
+/// block table. It runs with any workgroup of at least 64 lanes; see [`UNINDEXED_GROUP`].
 pub const MESH: EntryPoint = EntryPoint { name: "mesh", group: 128 };
 
-/// The same for an odd number of sides.
+/// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: EntryPoint = EntryPoint { name: "mesh_odd", ..MESH };
 
-/// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes
-/// without a ring cost more.
+/// Lanes of a workgroup of [`MESH`] where it writes no indices. With less to write for each ring,
+/// lanes without a ring would cost more than they save.
 pub const UNINDEXED_GROUP: usize = 64;
 
-/// The chunk's caps, after [`MESH`]: a lane a cap vertex.
+/// The caps of a chunk, after [`MESH`]. A lane for each cap vertex.
 pub const CAPS: EntryPoint = EntryPoint { name: "caps", group: 64 };
 
-/// The length of all blocks: a workgroup a row of the chunk's block table. The first half of
-/// measuring.
+/// The first half of measuring: the length of each block. A workgroup for each row of the chunk's
+/// block table.
 pub const BLOCK_LENGTHS: EntryPoint = EntryPoint { name: "block_lengths", group: 64 };
 
-/// How long yarns are at each block's start, in place: a workgroup a yarn. The second half.
+/// The second half of measuring: lengths along yarns up to each block's start, in place. A
+/// workgroup for each yarn.
 pub const YARN_LENGTHS: EntryPoint = EntryPoint { name: "yarn_lengths", group: 256 };
 
-/// The attributes of a chunk's tubes: a workgroup a row of its block table.
+/// The attributes of a chunk's tubes. A workgroup for each row of its block table.
 pub const ATTRIBUTES_OF_TUBES: EntryPoint = EntryPoint { name: "attributes", group: 64 };
 
-/// Those of its caps, after [`ATTRIBUTES_OF_TUBES`]: a lane a cap vertex.
+/// The attributes of a chunk's caps, after [`ATTRIBUTES_OF_TUBES`]. A lane for each cap vertex.
 pub const ATTRIBUTES_OF_CAPS: EntryPoint = EntryPoint { name: "cap_attributes", group: 64 };
 
-/// Packed vertices of a chunk's tubes, for an even number of sides: a workgroup a row of its block
-/// table.
+/// Packed vertices of a chunk's tubes, for an even number of sides. A workgroup for each row of its
+/// block table.
 pub const PACKED: EntryPoint = EntryPoint { name: "packed", group: 64 };
 
-/// The same for an odd number of sides.
+/// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: EntryPoint = EntryPoint { name: "packed_odd", group: 64 };
 
-/// Those of its caps, after [`PACKED`]: a lane a cap vertex.
+/// Packed vertices of a chunk's caps, after [`PACKED`]. A lane for each cap vertex.
 pub const PACKED_CAPS: EntryPoint = EntryPoint { name: "packed_caps", group: 64 };
 
-/// The paper's algorithm 2: a lane a part of the chunk.
+/// The paper's algorithm 2. A lane for each part of the chunk.
 pub const TRAJECTORY_PER_YARN: EntryPoint = EntryPoint { name: "trajectory_per_yarn", group: 64 };
 
-/// The paper's algorithm 4, on what [`TRAJECTORY_PER_YARN`] left: a lane a part of the chunk.
+/// The paper's algorithm 4, after [`TRAJECTORY_PER_YARN`]. A lane for each part of the chunk.
 pub const MESH_PER_YARN: EntryPoint = EntryPoint { name: "mesh_per_yarn", group: 64 };
 
-/// Where all chords of a settling lie now: a lane a chord.
+/// The chords of a settling, from places. A lane for each chord.
 pub const SETTLING_CHORDS: EntryPoint = EntryPoint { name: "settling_chords", group: 64 };
 
-/// The longest chord and where the outermost lie: groups that go through all chords.
+/// The longest chord, and the box round all middles. Any number of workgroups.
 pub const SETTLING_EXTENT: EntryPoint = EntryPoint { name: "settling_extent", group: 256 };
 
-/// How many chords each cell has: a lane a chord.
+/// The number of chords in each cell. A lane for each chord.
 pub const SETTLING_CELL_COUNT: EntryPoint = EntryPoint { name: "settling_cell_count", group: 64 };
 
-/// Chords by cells: a lane a chord.
+/// Chords sorted by cells. A lane for each chord.
 pub const SETTLING_CELL_FILL: EntryPoint = EntryPoint { name: "settling_cell_fill", group: 64 };
 
-/// How many neighbours each chord has: a lane a chord.
+/// The number of each chord's neighbours. A lane for each chord.
 pub const SETTLING_COUNT: EntryPoint = EntryPoint { name: "settling_count", group: 64 };
 
-/// The neighbours of each chord: a lane a chord.
+/// The neighbours of each chord. A lane for each chord.
 pub const SETTLING_FILL: EntryPoint = EntryPoint { name: "settling_fill", group: 64 };
 
-/// Sums of counts before each one, a workgroup [`SETTLING_SCAN_VALUES`] of them.
+/// Replaces each count by the sum of those before it. A workgroup scans [`SETTLING_SCAN_VALUES`]
+/// counts.
 pub const SETTLING_SCAN: EntryPoint = EntryPoint { name: "settling_scan", group: 256 };
 
-/// Counts that a workgroup of [`SETTLING_SCAN`] goes through: four a lane.
+/// Counts that a workgroup of [`SETTLING_SCAN`] scans: four in each lane.
 pub const SETTLING_SCAN_VALUES: usize = 1024;
 
-/// Adds to those what all groups before have, by the same groups.
+/// Adds to each count the sum of all workgroups before its own. The workgroups are those of
+/// [`SETTLING_SCAN`].
 pub const SETTLING_SCAN_ADD: EntryPoint = EntryPoint { name: "settling_scan_add", group: 256 };
 
-/// What pulls at each interval's points, in the weighted form: a lane a place.
+/// Pulls at each interval's points, in the weighted form. A lane for each place.
 pub const SETTLING_PULL_WEIGHTED: EntryPoint = EntryPoint { name: "settling_pull_weighted", group: 64 };
 
-/// The same in the block form.
+/// [`SETTLING_PULL_WEIGHTED`] in the block form.
 pub const SETTLING_PULL_BLOCK: EntryPoint = EntryPoint { name: "settling_pull_block", group: 64 };
 
-/// The step of each point, in the weighted form: a lane a place, the groups of
+/// The step of each point, in the weighted form. A lane for each place, in the workgroups of
 /// [`SETTLING_PULL_WEIGHTED`].
 pub const SETTLING_STEP_WEIGHTED: EntryPoint = EntryPoint { name: "settling_step_weighted", group: 64 };
 
-/// The same in the block form.
+/// [`SETTLING_STEP_WEIGHTED`] in the block form.
 pub const SETTLING_STEP_BLOCK: EntryPoint = EntryPoint { name: "settling_step_block", group: 64 };
 
-/// Places beyond yarns' ends: a lane a yarn.
+/// The places beyond yarns' ends. A lane for each yarn.
 pub const SETTLING_ENDS: EntryPoint = EntryPoint { name: "settling_ends", group: 64 };
 
-/// What all groups have seen: one workgroup.
+/// What all workgroups have seen. One workgroup.
 pub const SETTLING_SEEN: EntryPoint = EntryPoint { name: "settling_seen", group: 256 };
 
-/// Control points from places, where yarns have come to rest: a lane a place.
+/// Control points from settled places. A lane for each place.
 pub const SETTLING_POINTS: EntryPoint = EntryPoint { name: "settling_points", group: 64 };
 
-/// How far control points reach: any number of workgroups, each of which takes every so many
-/// places.
+/// The box round all control points. Any number of workgroups share the places.
 pub const SETTLING_BOUNDS: EntryPoint = EntryPoint { name: "settling_bounds", group: 256 };
 
-/// The step of each crossing, and a row of what was seen for each workgroup: a lane a crossing.
+/// The step of each crossing. A lane for each crossing; each workgroup writes a row of what it has
+/// seen.
 pub const CROSSINGS_MOVE: EntryPoint = EntryPoint { name: "crossings_move", group: 64 };
 
-/// What all groups have seen in a pass: one workgroup.
+/// What all workgroups have seen in a pass. One workgroup.
 pub const CROSSINGS_SEEN: EntryPoint = EntryPoint { name: "crossings_seen", group: 256 };
 
 /// Sources that are compiled together, and the entry points in them.
@@ -143,7 +146,7 @@ pub struct KernelProgram {
     pub entries: &'static [EntryPoint],
 }
 
-/// The schedule per-ring: does everything.
+/// The schedule per-ring, which does everything.
 pub const PER_RING: KernelProgram = KernelProgram {
     name: "per-ring",
     sources: &[
@@ -158,21 +161,21 @@ pub const PER_RING: KernelProgram = KernelProgram {
     entries: &[BLOCK_TURNS, YARN_ROLLS, TRAJECTORY, MESH, MESH_ODD, CAPS],
 };
 
-/// The schedule per-yarn: the paper's, for upright, untwisted, open yarns without caps.
+/// The schedule per-yarn, the paper's, for upright, untwisted, open yarns without caps.
 pub const PER_YARN: KernelProgram = KernelProgram {
     name: "per-yarn",
     sources: &[include_str!("common.cl"), include_str!("per_yarn.cl")],
     entries: &[TRAJECTORY_PER_YARN, MESH_PER_YARN],
 };
 
-/// Attributes of vertices. It is compiled apart from the others, where attributes are first wanted.
+/// Attributes of vertices. It is compiled at their first use.
 pub const ATTRIBUTES: KernelProgram = KernelProgram {
     name: "attributes",
     sources: &[include_str!("common.cl"), include_str!("attributes.cl")],
     entries: &[BLOCK_LENGTHS, YARN_LENGTHS, ATTRIBUTES_OF_TUBES, ATTRIBUTES_OF_CAPS],
 };
 
-/// Packed vertices. It is compiled apart from the others, where they are first wanted.
+/// Packed vertices. It is compiled at their first use.
 pub const PACKING: KernelProgram = KernelProgram {
     name: "packing",
     sources: &[
@@ -184,7 +187,7 @@ pub const PACKING: KernelProgram = KernelProgram {
     entries: &[PACKED, PACKED_ODD, PACKED_CAPS],
 };
 
-/// A settling. It is compiled apart from the others, where a settler is first wanted.
+/// A settling. It is compiled for the first settler.
 pub const SETTLING: KernelProgram = KernelProgram {
     name: "settling",
     sources: &[
@@ -216,8 +219,7 @@ pub const SETTLING: KernelProgram = KernelProgram {
     ],
 };
 
-/// Crossings at rest. It is compiled apart from the others, where a settler of crossings is first
-/// wanted.
+/// Crossings at rest. It is compiled for the first settler of crossings.
 pub const CROSSINGS: KernelProgram = KernelProgram {
     name: "crossings",
     sources: &[

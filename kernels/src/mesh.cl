@@ -6,7 +6,7 @@
 // workgroup.
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
-// even number: so they hold floats of at most one normal and one position.
+// even number. So they hold floats of at most one normal and one position.
 float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float4 normal_point, float4 position_point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, normal_point);
@@ -17,7 +17,7 @@ float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float
     return first == 2u ? (float4)(position.z, normal) : (float4)(normal.yz, position.xy);
 }
 
-// Two consecutive floats, likewise.
+// Two consecutive floats of ring `ring`'s vertices, likewise.
 float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4 point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, point);
@@ -28,8 +28,8 @@ float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4
     return first == 2u ? (float2)(position.z, normal.x) : normal.yz;
 }
 
-// A workgroup, of BLOCK_RINGS lanes or more, a row of the chunk's block table. For an even number
-// of sides, so that every block starts at a multiple of 16 bytes.
+// Meshes an even number of sides, so that every block starts at a multiple of 16 bytes. A workgroup
+// of at least BLOCK_RINGS lanes for each row of the chunk's block table.
 __kernel void mesh(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                    __global const uint *whole, __global const float4 *outlines, __global const uint4 *pattern,
@@ -64,7 +64,7 @@ __kernel void mesh(const Params params, const ulong window, __global const uint4
     }
 }
 
-// The same for an odd number of sides, 8 bytes at a time.
+// Meshes an odd number of sides, 8 bytes at a time.
 __kernel void mesh_odd(const Params params, const ulong window, __global const uint4 *points,
                        __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                        __global const uint *whole, __global const float4 *outlines, __global const uint2 *pattern,

@@ -7,8 +7,8 @@
 
 #define PACKED_GROUP 64
 
-// The lowest bits of the whole quanta that are nearest to a coordinate. Products are by powers of
-// two, so nothing but the last step rounds.
+// The lowest bits of the number of whole quanta nearest to a coordinate. Factors are powers of two,
+// so only the last step rounds.
 uint packed_coordinate(float mm, float per_mm) {
     float quanta = mm * per_mm;
     float rest = quanta - rint(quanta * (1.0f / QUANTA_WRAP)) * QUANTA_WRAP;
@@ -23,7 +23,8 @@ uint2 packed_position(float3 position, float per_mm) {
     return (uint2)(x | (y << COORDINATE_BITS), (y >> (32u - COORDINATE_BITS)) | (z << (2u * COORDINATE_BITS - 32u)));
 }
 
-// The word of a normal: on the octahedron |x| + |y| + |z| = 1, whose lower half is folded outwards.
+// The word of a normal, projected to the octahedron |x| + |y| + |z| = 1, whose lower half is folded
+// outwards.
 uint packed_normal(float3 normal) {
     float scale = 1.0f / (fabs(normal.x) + fabs(normal.y) + fabs(normal.z));
     float2 flat = normal.xy * scale;
@@ -35,8 +36,8 @@ uint packed_normal(float3 normal) {
 }
 
 // Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at
-// `point`, the second of the vertex at `next`, which is another one only where the first is the
-// word of a normal.
+// `point`, the second is of the vertex at `next`. The two vertices differ only where the first word
+// is a normal's.
 uint2 two_words(__local const BlockRings *rings, uint ring, uint first, float4 point, float4 next, float per_mm) {
     Stance stance = stance_of(rings, ring);
     uint2 position = packed_position(position_at(&stance, next), per_mm);
@@ -47,7 +48,7 @@ uint2 two_words(__local const BlockRings *rings, uint ring, uint first, float4 p
     return first == 2u ? (uint2)(normal, position.x) : (uint2)(position.y, normal);
 }
 
-// One word, likewise.
+// One word of ring `ring`'s vertices, likewise.
 uint one_word(__local const BlockRings *rings, uint ring, uint first, float4 point, float per_mm) {
     Stance stance = stance_of(rings, ring);
     if (first == 2u) {
@@ -57,8 +58,8 @@ uint one_word(__local const BlockRings *rings, uint ring, uint first, float4 poi
     return first == 0u ? position.x : position.y;
 }
 
-// A workgroup of PACKED_GROUP a row of the chunk's block table. For an even number of sides, so
-// that every block starts at a multiple of 8 bytes.
+// Packs an even number of sides, so that every block starts at a multiple of 8 bytes. A workgroup
+// of PACKED_GROUP for each row of the chunk's block table.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed(const Params params, const ulong window, __global const uint4 *points, __global const YarnRow *yarns,
             __global const Block *blocks, __global const uint *rolls, __global const uint *whole,
@@ -84,7 +85,7 @@ void packed(const Params params, const ulong window, __global const uint4 *point
     }
 }
 
-// The same for an odd number of sides, 4 bytes at a time.
+// Packs an odd number of sides, 4 bytes at a time.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed_odd(const Params params, const ulong window, __global const uint4 *points, __global const YarnRow *yarns,
                 __global const Block *blocks, __global const uint *rolls, __global const uint *whole,
@@ -108,7 +109,8 @@ void packed_odd(const Params params, const ulong window, __global const uint4 *p
     }
 }
 
-// A lane a cap vertex: the end ring's position again, with the end's own normal.
+// The packed vertices of caps: the end ring's position again, with the end's own normal. A lane for
+// each cap vertex.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed_caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
                  __global uint *out) {

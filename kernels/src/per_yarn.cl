@@ -1,14 +1,14 @@
 // The paper's algorithms 2 and 4, one lane a yarn: the yardstick that the schedule per-ring is
 // measured against. After common.cl.
 //
-// The twin of per_yarn.wgsl. Only what the paper does: upright, untwisted, open yarns without caps.
-// A lane's share is a part, a run of one yarn's rings in a chunk, so that a fabric larger than a
-// device's buffers can be made at all. Here `blocks` has one row a part: its first block's, with
-// all of the part's rings.
+// The twin of per_yarn.wgsl. It does what the paper does: upright, untwisted, open yarns without
+// caps. A lane makes a part, a run of one yarn's rings in a chunk, so that a fabric may be larger
+// than a device's buffers. Here `blocks` has one row a part: its first block's, with all of the
+// part's rings.
 
 #define PER_YARN_GROUP 64
 
-// Algorithm 2: for each control interval, K + 1 rings.
+// Algorithm 2: K + 1 rings for each control interval.
 __kernel __attribute__((reqd_work_group_size(PER_YARN_GROUP, 1, 1)))
 void trajectory_per_yarn(const Params params, const ulong window, __global const uint4 *points,
                          __global const YarnRow *yarns, __global const Block *blocks, __global uint4 *rings) {
@@ -51,7 +51,7 @@ Stance stance_at(__global const uint4 *ring) {
     return stance_new(centre, (float4)(tangent.xyz, size.y), side_of(tangent.xyz, 0u, 0u, true), size.xz, (float2)(0.0f, 1.0f));
 }
 
-// Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.
+// Algorithm 4: `sides` vertices for each ring, and the triangles to the next ring.
 __kernel __attribute__((reqd_work_group_size(PER_YARN_GROUP, 1, 1)))
 void mesh_per_yarn(const Params params, __global const YarnRow *yarns, __global const Block *blocks,
                    __global const uint4 *rings, __global const float4 *outlines, __global const uint *pattern,

@@ -1,4 +1,4 @@
-// A block's rings in local memory: what the stages of the schedule per-ring begin with. After
+// A block's rings in local memory, with which all stages of the schedule per-ring begin. After
 // common.cl.
 //
 // rings.wgsl is the twin of this file.
@@ -10,13 +10,13 @@ typedef struct {
     float4 centre[BLOCK_RINGS];
     // Unit tangent, growth of the half width.
     float4 tangent[BLOCK_RINGS];
-    // As `side_of` gives it, and the half height.
+    // The side of `side_of`, and the half height.
     float4 side[BLOCK_RINGS];
     float height_growth[BLOCK_RINGS];
     // Sine and cosine of the roll against the outline: where yarns are FLATTENED.
     float2 sin_cos[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
-    // The turns of each eight rings.
+    // Sums of the turns of eight rings each.
     uint eights[BLOCK_RINGS / 8];
 } BlockRings;
 
@@ -26,8 +26,8 @@ uint lean_of(const Params *params, const YarnRow *yarn, __global const uint *rol
     return params->leans == 0u ? 0u : rolls[params->leans + yarn->first_block * BLOCK_RINGS + ring];
 }
 
-// Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the
-// workgroup, which has at least BLOCK_RINGS, must come here.
+// Makes the rings of `block`, which is row `row` of the table: a lane for each ring. The workgroup
+// has at least BLOCK_RINGS lanes, and every lane must call it.
 void block_rings(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                  __global const uint *rolls, __global const uint *whole, uint lane,
                  __local BlockRings *rings) {
@@ -37,7 +37,7 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
         rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.width_growth);
-        // The step from the ring before needs the offset; the side takes its place afterwards.
+        // The step from the ring before needs the offset. The side takes its place afterwards.
         rings->side[lane] = (float4)(here.sample.offset, 0.0f);
     }
     if (params->rolled != 0u) {
@@ -69,7 +69,8 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
             uint start = rolls[yarn->first_block + block->first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole[block->yarn]);
             lean = lean_of(params, yarn, rolls, block->first_ring + lane);
-            // An upright section leans with its outline; one that is carried along starts so.
+            // An upright section leans with its outline. A section that is carried along only
+            // starts with that lean.
             roll += yarn->frame == ROTATION_MINIMIZING ? lean_of(params, yarn, rolls, 0u) : lean;
         }
     }

@@ -7,7 +7,8 @@
 #define TURNS_GROUP 64
 #define ROLLS_GROUP 256
 
-// A workgroup of TURNS_GROUP a row of a chunk's block table, chunk after chunk.
+// The turn of each block, chunk after chunk. A workgroup of TURNS_GROUP for each row of a chunk's
+// block table.
 __kernel __attribute__((reqd_work_group_size(TURNS_GROUP, 1, 1)))
 void block_turns(const Params params, const ulong window, __global const float4 *points,
                  __global const YarnRow *yarns, __global const Block *blocks, __global uint *rolls) {
@@ -26,8 +27,8 @@ void block_turns(const Params params, const ulong window, __global const float4 
         offsets[lane] = here.sample.offset;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    // The steps to the ring after each: as many as quads, so the last leads to the next block's
-    // first ring.
+    // A step leads from a ring to the next. There are as many as quads, so the last leads to the
+    // next block's first ring.
     uint turn = 0u;
     if (lane < block.quads) {
         float3 next_tangent;
@@ -44,7 +45,7 @@ void block_turns(const Params params, const ulong window, __global const float4 
     }
     sums[lane] = turn;
     barrier(CLK_LOCAL_MEM_FENCE);
-    // Eight lanes add up eight turns each, then one the eight sums.
+    // Eight lanes add up eight turns each, then one lane adds up the eight sums.
     if (lane < TURNS_GROUP / 8) {
         for (uint further = lane + 8u; further < TURNS_GROUP; further += 8u) {
             turn += sums[further];
@@ -60,8 +61,8 @@ void block_turns(const Params params, const ulong window, __global const float4 
     }
 }
 
-// A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the
-// yarn's whole turn.
+// Turns become rolls in place, tile by tile, and their total becomes the yarn's whole turn. A
+// workgroup of ROLLS_GROUP for each yarn.
 __kernel __attribute__((reqd_work_group_size(ROLLS_GROUP, 1, 1)))
 void yarn_rolls(__global const YarnRow *yarns, __global uint *rolls, __global uint *whole) {
     __local uint sums[ROLLS_GROUP];

@@ -73,12 +73,12 @@ float length3(float3 a) {
     return sqrt(dot3(a, a));
 }
 
-// Within 0 and 1.
+// `value`, limited to 0 to 1.
 float share(float value) {
     return fmin(fmax(value, 0.0f), 1.0f);
 }
 
-// A way of so many units, mm.
+// A way in units, in mm.
 float3 to_mm(const SettlingParams *params, uint3 units) {
     return (float3)((float)as_int(units.x), (float)as_int(units.y), (float)as_int(units.z)) * params->unit;
 }
@@ -100,7 +100,7 @@ float2 halves(uint4 place) {
 
 typedef struct {
     uint3 start;
-    // What goes with u, u^2 and u^3, mm.
+    // Coefficients of u, u^2 and u^3, mm.
     float3 c1;
     float3 c2;
     float3 c3;
@@ -152,13 +152,13 @@ float interval_reach(const Interval *interval, float u, float3 towards) {
     if (width == height || level <= VERTICAL * square) {
         return width;
     }
-    // Side is (-y, x, 0), up is t x side, both over their lengths.
+    // Side is (-y, x, 0), up is tangent x side, both over their lengths.
     float aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
     float up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
     return sqrt((aside * aside + up * up / square) / level);
 }
 
-// Its length by Gauss's rule of three places, mm.
+// The length of an interval by Gauss's rule of three nodes, mm.
 float interval_arc(const Interval *interval) {
     float outer = length3(interval_velocity(interval, GAUSS_1)) + length3(interval_velocity(interval, GAUSS_3));
     return outer * GAUSS_OUTER + length3(interval_velocity(interval, GAUSS_2)) * GAUSS_MIDDLE;
@@ -185,26 +185,26 @@ Chord chord_of(__global const uint4 *chords, size_t number) {
     return chord;
 }
 
-// Where a chord's middle lies, units.
+// The middle of a chord, units.
 uint3 chord_middle(const SettlingParams *params, const Chord *chord) {
     return chord->at + to_units(params, chord->span * 0.5f);
 }
 
-// How many repeats away the image of a chord lies that is nearest to another one, which begins
-// `way` before it.
+// The number of repeats to a chord's image that is nearest to another chord, which begins `way`
+// before it.
 uint2 nearest_image(const SettlingParams *params, float3 one, float3 other, uint3 way) {
     float3 apart = to_mm(params, way) + (other - one) * 0.5f;
     return (uint2)(-as_uint(convert_int_sat(floor(apart.x * params->frequency_x + 0.5f))),
                    -as_uint(convert_int_sat(floor(apart.y * params->frequency_y + 0.5f))));
 }
 
-// A way to something, to the image of that so many repeats away.
+// The way to the image that is `image` repeats away.
 uint3 to_image(const SettlingParams *params, uint3 way, uint2 image) {
     return (uint3)(way.x + image.x * (uint)params->period_x, way.y + image.y * (uint)params->period_y, way.z);
 }
 
-// Shares of two chords where they come nearest to one another; the second begins `way` from the
-// first.
+// The places where two chords come nearest to one another, as shares of them. The second begins
+// `way` from the first.
 float2 chords_nearest(float3 one, float3 other, float3 way) {
     float a = fmax(dot3(one, one), SHORT);
     float e = fmax(dot3(other, other), SHORT);
@@ -212,7 +212,7 @@ float2 chords_nearest(float3 one, float3 other, float3 way) {
     float c = -dot3(one, way);
     float f = -dot3(other, way);
     float determinant = a * e - b * b;
-    // Of parallel chords one place does as well as another.
+    // On parallel chords one place does as well as another.
     float first = 0.5f;
     if (determinant > PARALLEL * (a * e)) {
         first = share((b * f - c * e) / determinant);
@@ -223,7 +223,7 @@ float2 chords_nearest(float3 one, float3 other, float3 way) {
 
 #define SETTLING_CHORDS_GROUP 64
 
-// A lane a chord: where it lies now.
+// Works out all chords from places: a lane for each.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CHORDS_GROUP, 1, 1)))
 void settling_chords(const SettlingParams params, __global const uint4 *places, __global const PlaceRow *place_rows,
                      __global const ChordRow *chord_rows, __global uint4 *chords) {

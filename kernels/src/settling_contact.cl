@@ -1,9 +1,10 @@
-// Where two intervals come near one another, and what that does. After settling.cl.
+// Contacts: where two intervals come near one another, and the pulls that follow. After
+// settling.cl.
 //
 // The twin of settling_contact.wgsl, and of texere-core's contact.rs and the first half of pass.rs.
 
-// What an interval has seen: the least distance to another yarn, mm, the same over both reaches,
-// the least radius of curvature in diameters.
+// What an interval has seen: the least distance to another yarn, mm; the least distance over the
+// sum of both reaches; the least radius of curvature, in diameters.
 typedef struct {
     float near;
     float clearance;
@@ -18,7 +19,7 @@ typedef struct {
 } Contact;
 
 // What a contact asks of the first interval's points: the step of its place, mm, the direction to
-// the other yarn, and what each of the four counts. The weights are all 0 where it asks for
+// the other yarn, and the weight of each of the four points. Weights are all 0 where it asks for
 // nothing.
 typedef struct {
     float3 back;
@@ -26,8 +27,8 @@ typedef struct {
     float4 weights;
 } Push;
 
-// What four points count, where one of them stands beyond an open yarn's end: those that it is made
-// of count instead.
+// The weights of four points. A point beyond an open yarn's end hands its weight to the points that
+// it is made of.
 float4 folded(uint tags, float4 weights) {
     if ((tags & TAG_OPENS) != 0u) {
         weights = (float4)(0.0f, weights.y + 2.0f * weights.x, weights.z - weights.x, weights.w);
@@ -38,7 +39,7 @@ float4 folded(uint tags, float4 weights) {
     return weights;
 }
 
-// What each of an interval's four control points counts at `u`.
+// The weight of each of an interval's four control points at `u`.
 float4 point_weights(float u, float s) {
     float square = u * u;
     float cube = u * u * u;
@@ -56,7 +57,7 @@ Contact contact_at(const Interval *one, const Interval *other, float3 way, float
     return contact;
 }
 
-// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes
+// The exact places near `at`: one step of Newton's method, at most `stride` long, if it comes
 // nearer.
 Contact refined(const Interval *one, const Interval *other, float3 way, float2 at, float2 stride) {
     Contact start = contact_at(one, other, way, at);
@@ -79,7 +80,7 @@ Contact refined(const Interval *one, const Interval *other, float3 way, float2 a
     return start;
 }
 
-// The direction from the first place to the second. Where both are one, it is square to both yarns.
+// The direction from the first place to the second. Where both coincide it is square to both yarns.
 float3 contact_direction(const Contact *contact, float3 velocity, float3 other_velocity) {
     float3 way = contact->way;
     if (!(contact->distance > ONE_PLACE)) {
@@ -91,14 +92,14 @@ float3 contact_direction(const Contact *contact, float3 velocity, float3 other_v
     return square > 0.0f ? way * (1.0f / sqrt(square)) : (float3)(0.0f, 0.0f, 1.0f);
 }
 
-// The chord whose neighbours are gone through: its number, where its list ends, and where it lies.
+// The chord whose neighbours are visited: its number, where its list ends, and the chord itself.
 typedef struct {
     uint number;
     uint end;
     Chord chord;
 } ListedChord;
 
-// Goes on to the chord that entry `next` of an interval's lists is a neighbour of.
+// Goes on to the chord that has entry `next` of an interval's lists.
 void go_to(ListedChord *here, __global const uint4 *chords, __global const uint *starts, uint next) {
     while (next >= here->end) {
         here->number += 1u;
@@ -111,12 +112,12 @@ void go_to(ListedChord *here, __global const uint4 *chords, __global const uint 
 typedef struct {
     Interval interval;
     uint tags;
-    // Its first chord, and one over how many there are.
+    // Its first chord, and one over the number of its chords.
     uint first;
     float step;
 } Meeting;
 
-// Another chord where it comes nearest to the one here.
+// Another chord at the place where it comes nearest to the one here.
 typedef struct {
     Chord there;
     uint2 image;
@@ -136,7 +137,7 @@ Approach approach_of(const SettlingParams *params, const Chord *here, __global c
     return approach;
 }
 
-// Whether chord `number` may touch the one here. Of one that may not, how far it is off is seen.
+// Whether chord `number` may touch the one here. The distance of one that may not is noted.
 bool may_touch(const SettlingParams *params, const Chord *here, __global const uint4 *chords, size_t number,
                Sight *sight) {
     Approach approach = approach_of(params, here, chords, number);
@@ -151,8 +152,8 @@ bool may_touch(const SettlingParams *params, const Chord *here, __global const u
 
 #define MOST_AT_ONCE 32u
 
-// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort
-// them out first meet those few together.
+// The neighbours that may touch, of the `count` from entry `begin` on, a bit for each. Lanes first
+// sort them out, and then meet those few together.
 uint touching(const SettlingParams *params, ListedChord here, __global const uint4 *chords,
               __global const uint *starts, __global const uint *neighbours, uint begin, uint count, Sight *sight) {
     uint bits = 0u;
@@ -165,7 +166,7 @@ uint touching(const SettlingParams *params, ListedChord here, __global const uin
     return bits;
 }
 
-// What chord `number` does to the one here.
+// The contact of chord `number` with the one here.
 Push meet(const SettlingParams *params, const Meeting *one, const ListedChord *here, __global const uint4 *places,
           __global const PlaceRow *place_rows, __global const uint4 *chords, size_t number, Sight *sight) {
     Push push;

@@ -1,9 +1,9 @@
-// Which chords are neighbours. After settling.cl.
+// Lists of neighbours. After settling.cl.
 //
 // The twin of settling_list.wgsl, and of texere-core's neighbours.rs. Chords are sorted into cells
 // in any order, but a chord's neighbours end in the order of their numbers.
 
-// What a group has found of all chords (Rust: texere_gpu::ExtentRow, 32 bytes).
+// What a workgroup has found of the extent of chords (Rust: texere_gpu::ExtentRow, 32 bytes).
 typedef struct {
     int low_x;
     int low_y;
@@ -15,7 +15,7 @@ typedef struct {
 
 #define SETTLING_EXTENT_GROUP 256
 
-// Groups that go through all chords: the longest one, and where the outermost middles lie.
+// The longest chord, and the box round all middles. Any number of workgroups share the chords.
 __kernel __attribute__((reqd_work_group_size(SETTLING_EXTENT_GROUP, 1, 1)))
 void settling_extent(const SettlingParams params, __global const uint4 *chords, __global ExtentRow *rows) {
     __local int4 ends[SETTLING_EXTENT_GROUP];
@@ -52,7 +52,7 @@ void settling_extent(const SettlingParams params, __global const uint4 *chords, 
 
 // ---- Cells ----
 
-// The cell along one axis: `low` is 0 where that repeats.
+// The number of a cell along one axis. `low` is 0 where the axis repeats.
 uint cell_along(uint middle, int period, int low, uint size, uint count) {
     uint from = middle - (uint)low;
     if (period > 0) {
@@ -75,7 +75,8 @@ uint chord_cell(const SettlingParams *params, __global const uint4 *chords, size
 
 #define SETTLING_CELL_COUNT_GROUP 64
 
-// A lane a chord: adds it to its cell's count, which lies one behind the cell.
+// Counts the chords of each cell: a lane for each chord. A cell's count lies one entry behind the
+// cell.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CELL_COUNT_GROUP, 1, 1)))
 void settling_cell_count(const SettlingParams params, __global const uint4 *chords, volatile __global uint *cells) {
     size_t number = get_global_id(0);
@@ -86,8 +87,8 @@ void settling_cell_count(const SettlingParams params, __global const uint4 *chor
 
 #define SETTLING_CELL_FILL_GROUP 64
 
-// A lane a chord: writes it into its cell. Behind each cell lies where its next chord goes: in the
-// end, where it ends.
+// Sorts chords into cells: a lane for each chord. The entry behind each cell says where its next
+// chord goes, and in the end where the cell ends.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CELL_FILL_GROUP, 1, 1)))
 void settling_cell_fill(const SettlingParams params, __global const uint4 *chords, volatile __global uint *cells,
                         __global uint *sorted) {
@@ -99,14 +100,13 @@ void settling_cell_fill(const SettlingParams params, __global const uint4 *chord
 
 // ---- Neighbours ----
 
-// Whether so little of the yarn is between an end and a start.
+// Whether no more than `window` of the yarn lies between an end and a start.
 bool between(uint end, uint start, int window) {
     int units = as_int(start - end);
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of
-// one another.
+// Whether two chords of one yarn lie so close along it that they can't be clear of one another.
 bool leads_on(const ChordRow *one, const ChordRow *other, uint2 image, int window, const StrandRow *strand) {
     uint2 shift = (uint2)((uint)strand->shift_x, (uint)strand->shift_y);
     bool here = image.x == 0u && image.y == 0u &&
@@ -140,8 +140,8 @@ bool are_neighbours(const SettlingParams *params, size_t number, const Chord *on
     return !leads_on(&row, &other_row, image, window, &strand);
 }
 
-// The first cell to visit along an axis (x) and how many (y): its own and those beside it, each
-// once.
+// The first cell to visit along an axis (x) and the number of cells (y): a chord's own cell and
+// those beside it, each once.
 uint2 cells_beside(uint cell, int period, uint count) {
     if (count < 3u) {
         return (uint2)(0u, count);
@@ -153,8 +153,8 @@ uint2 cells_beside(uint cell, int period, uint count) {
     return (uint2)(first, min(cell + 1u, count - 1u) - first + 1u);
 }
 
-// Finds the neighbours of chord `number`, and gives back how many there are. With a `list` it puts
-// up to `room` there, each where it belongs in the order of numbers.
+// Finds the neighbours of chord `number`, and returns their number. With a `list` it puts up to
+// `room` of them there, sorted by number.
 uint find_neighbours(const SettlingParams *params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                      __global const PlaceRow *place_rows, __global const StrandRow *strands,
                      __global const uint *cells, __global const uint *sorted, size_t number, __global uint *list,
@@ -191,7 +191,7 @@ uint find_neighbours(const SettlingParams *params, __global const uint4 *chords,
 
 #define SETTLING_COUNT_GROUP 64
 
-// A lane a chord: how many neighbours it has.
+// Counts the neighbours of each chord: a lane for each.
 __kernel __attribute__((reqd_work_group_size(SETTLING_COUNT_GROUP, 1, 1)))
 void settling_count(const SettlingParams params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                     __global const PlaceRow *place_rows, __global const StrandRow *strands,
@@ -205,7 +205,7 @@ void settling_count(const SettlingParams params, __global const uint4 *chords, _
 
 #define SETTLING_FILL_GROUP 64
 
-// A lane a chord: its neighbours.
+// Lists the neighbours of each chord: a lane for each.
 __kernel __attribute__((reqd_work_group_size(SETTLING_FILL_GROUP, 1, 1)))
 void settling_fill(const SettlingParams params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                    __global const PlaceRow *place_rows, __global const StrandRow *strands,

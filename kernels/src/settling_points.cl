@@ -1,4 +1,4 @@
-// Control points from where yarns have come to rest, and how far they reach. After settling.cl.
+// Control points from settled places, and the box round them. After settling.cl.
 //
 // The formulas are those of texere-core (Scale::point, renew_virtual_ends), and
 // settling_points.wgsl is the twin of this file.
@@ -28,8 +28,8 @@ typedef struct {
     int4 high;
 } BoundsRow;
 
-// Where a place lies, mm: origin + units * unit, rounded once. Units are split in two parts that
-// floats hold exactly, and what the first sum loses is added to the other part.
+// The position of a place, mm: origin + units * unit, rounded once. Units are split into two parts
+// that floats hold exactly. What the first sum loses is added to the other part.
 float3 position(const SettledParams *settled, __global const uint4 *places, uint place) {
     int3 units = as_int3(places[place].xyz);
     float3 origin = (float3)(settled->origin[0], settled->origin[1], settled->origin[2]);
@@ -45,7 +45,8 @@ uint4 control_point(float3 position, uint halves) {
     return (uint4)(as_uint3(position), halves);
 }
 
-// A lane a place: the control point there, and the virtual ends that hang on it.
+// Writes control points: a lane for each place, which also writes the virtual ends that depend on
+// it.
 #define SETTLING_POINTS_GROUP 64
 __kernel __attribute__((reqd_work_group_size(SETTLING_POINTS_GROUP, 1, 1)))
 void settling_points(const SettledParams settled,
@@ -81,7 +82,8 @@ void settling_points(const SettledParams settled,
     }
 }
 
-// How far control points reach: a row a workgroup, each of which takes every so many places.
+// The box round control points: a row from each workgroup. Any number of workgroups share the
+// places.
 #define SETTLING_BOUNDS_GROUP 256
 __kernel __attribute__((reqd_work_group_size(SETTLING_BOUNDS_GROUP, 1, 1)))
 void settling_bounds(const SettledParams settled,

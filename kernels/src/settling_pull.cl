@@ -1,26 +1,25 @@
-// What pulls at the four control points of each interval. After settling.cl and
-// settling_contact.cl.
+// Pulls at the four control points of each interval. After settling.cl and settling_contact.cl.
 //
 // The twin of settling_pull.wgsl, and of Pull in texere-core's pass.rs. Sums go in the order of the
 // lists.
 //
-// Lanes write planes of one number for each place, side by side. First those of the slots: in the
-// weighted form eight for each, contacts' ways (x, y, z) and their weights, and the same of bends;
-// in the block form nine, all ways and the squares of their directions (xx, xy, xz, yy, yz, zz).
-// Then half of the length that is too much (x, y, z), the length, the least distance seen, mm, and
-// the least one over both reaches.
+// Lanes write planes, each with one number for each place. The planes of the four slots come first.
+// A slot of the weighted form has eight: ways (x, y, z) and weight of contacts, then the same of
+// bends. A slot of the block form has nine: all ways, and the squares of their directions (xx, xy,
+// xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the length, the least distance
+// seen, mm, and the least distance over the sum of both reaches.
 
 #define WEIGHTED_SLOT 8u
 #define BLOCK_SLOT 9u
 
-// What an interval has seen, and by which share its length is off: the least of the first two, the
-// most of the others.
+// What an interval has seen, and the share by which its length is off. Of several, the least of the
+// first two and the most of the others count.
 float4 seen_by_both(float4 one, float4 other) {
     return (float4)(fmin(one.xy, other.xy), fmax(one.zw, other.zw));
 }
 
-// A bend at one place of an interval: where it would go, and how much each point counts. All 0
-// where it may bend so.
+// A bend at one place of an interval: where it would go, and the weight of each point. All 0 where
+// the bend is allowed.
 typedef struct {
     float3 towards;
     float3 way;
@@ -68,7 +67,7 @@ Meeting meeting_at(const SettlingParams *params, __global const uint4 *places, _
     return one;
 }
 
-// Before the first neighbour of an interval whose chords begin with number `first`.
+// The start of an interval's visits to neighbours. The number of its first chord is `first`.
 ListedChord before_listed(__global const uint *starts, uint first) {
     ListedChord here;
     here.number = first - 1u;
@@ -76,7 +75,7 @@ ListedChord before_listed(__global const uint *starts, uint first) {
     return here;
 }
 
-// Writes what an interval knows of itself from plane `plane` on, and gives back what it adds to
+// Writes the length and distances of an interval from plane `plane` on, and returns its share in
 // what all have seen.
 float4 write_own(const SettlingParams *params, __global float *pulls, uint plane, uint place, float3 length,
                  float arc, float wanted, const Sight *sight) {
@@ -98,7 +97,7 @@ float3 interval_along(const Interval *interval) {
     return length > 0.0f ? chord * (1.0f / length) : (float3)(0.0f, 0.0f, 0.0f);
 }
 
-// Writes four slots' ways and weights from plane `plane` of each on.
+// Writes the ways and weights of four slots, from plane `plane` of each slot on.
 void write_ways(const SettlingParams *params, __global float *pulls, uint plane, uint place, const float4 *ways) {
     for (uint slot = 0u; slot < 4u; slot++) {
         size_t step = params->places;
@@ -154,7 +153,7 @@ float4 pull_weighted(const SettlingParams *params, __global const uint4 *places,
     return write_own(params, pulls, 4u * WEIGHTED_SLOT, place, length, arc, lengths[place], &sight);
 }
 
-// All ways at a point, and the squares of their directions.
+// The sum of all ways at a point, and of the squares of their directions.
 typedef struct {
     float3 way;
     // xx, xy, xz and yy, yz, zz.
@@ -230,7 +229,7 @@ float4 pull_block(const SettlingParams *params, __global const uint4 *places, __
     return write_own(params, pulls, 4u * BLOCK_SLOT, place, length, arc, lengths[place], &sight);
 }
 
-// What a group has seen, at its lane 0: a fixed tree of a power of two of lanes.
+// What a workgroup has seen, joined by a fixed tree over a power of two of lanes. Valid in lane 0.
 float4 seen_by_group(__local float4 *rows, uint lane, uint lanes, float4 seen) {
     rows[lane] = seen;
     for (uint reach = lanes / 2u; reach > 0u; reach /= 2u) {
@@ -244,8 +243,8 @@ float4 seen_by_group(__local float4 *rows, uint lane, uint lanes, float4 seen) {
 
 #define SETTLING_PULL_WEIGHTED_GROUP 64
 
-// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each
-// group.
+// Pulls of all intervals in the weighted form: a lane for each place, at which an interval begins.
+// Each workgroup writes a row of what it has seen.
 __kernel __attribute__((reqd_work_group_size(SETTLING_PULL_WEIGHTED_GROUP, 1, 1)))
 void settling_pull_weighted(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const uint4 *chords,
@@ -265,7 +264,7 @@ void settling_pull_weighted(const SettlingParams params, __global const uint4 *p
 
 #define SETTLING_PULL_BLOCK_GROUP 64
 
-// The same in the block form.
+// Pulls of all intervals in the block form, likewise.
 __kernel __attribute__((reqd_work_group_size(SETTLING_PULL_BLOCK_GROUP, 1, 1)))
 void settling_pull_block(const SettlingParams params, __global const uint4 *places,
                          __global const PlaceRow *place_rows, __global const uint4 *chords,
@@ -285,7 +284,7 @@ void settling_pull_block(const SettlingParams params, __global const uint4 *plac
 
 #define SETTLING_SEEN_GROUP 256
 
-// One group: what all rows have seen.
+// Joins the rows of all workgroups: one workgroup.
 __kernel __attribute__((reqd_work_group_size(SETTLING_SEEN_GROUP, 1, 1)))
 void settling_seen(const uint count, __global const float4 *rows, __global float4 *all) {
     __local float4 group[SETTLING_SEEN_GROUP];

@@ -1,13 +1,14 @@
-// Sums of all counts before each one. After settling.cl.
+// Scans: each count is replaced by the sum of all before it. After settling.cl.
 //
-// The twin of settling_scan.wgsl. Sums stop at the largest number, so that too many are seen.
+// The twin of settling_scan.wgsl. Sums saturate at the largest number, so that too many are
+// noticed.
 
 #define SETTLING_SCAN_GROUP 256
 // Counts of a lane.
 #define SCAN_VALUES 4
 
-// A group its SETTLING_SCAN_GROUP * SCAN_VALUES values, in place; `sums` gets the sum of each
-// group.
+// Each workgroup scans SETTLING_SCAN_GROUP * SCAN_VALUES values in place, and writes their sum to
+// `sums`.
 __kernel __attribute__((reqd_work_group_size(SETTLING_SCAN_GROUP, 1, 1)))
 void settling_scan(const uint count, __global uint *values, __global uint *sums) {
     __local uint lanes[SETTLING_SCAN_GROUP];
@@ -41,7 +42,7 @@ void settling_scan(const uint count, __global uint *values, __global uint *sums)
 
 #define SETTLING_SCAN_ADD_GROUP 256
 
-// The same groups: adds what all groups before have, by their scanned sums.
+// Each workgroup adds to its values the scanned sum of all workgroups before.
 __kernel __attribute__((reqd_work_group_size(SETTLING_SCAN_ADD_GROUP, 1, 1)))
 void settling_scan_add(const uint count, __global uint *values, __global const uint *sums) {
     uint before = sums[get_global_id(0) / SETTLING_SCAN_ADD_GROUP];

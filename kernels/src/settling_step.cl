@@ -1,10 +1,10 @@
-// The step that each control point takes. After settling.cl, settling_contact.cl and
-// settling_pull.cl.
+// Steps of control points. After settling.cl, settling_contact.cl and settling_pull.cl.
 //
 // The twin of settling_step.wgsl, and of Gathered in texere-core's pass.rs.
 
-// The places of the intervals that pull at a point, by the slot that it has there: the one that
-// begins a place behind it, at it, one and two places before it. NOWHERE where the yarn has none.
+// The places of the four intervals that pull at a point, by the point's slot there. They begin one
+// place behind it, at it, one place before it, and two places before it. NOWHERE where the yarn has
+// none.
 #define NOWHERE 0xffffffffu
 
 uint interval_place(const StrandRow *strand, int number) {
@@ -21,12 +21,12 @@ uint4 intervals_of(const StrandRow *strand, uint place) {
                    interval_place(strand, point - 1), interval_place(strand, point - 2));
 }
 
-// A number of the pull of interval `interval`, or what stands for nothing.
+// A number of the pull of interval `interval`; `nothing` where there is none.
 float pulled(const SettlingParams *params, __global const float *pulls, uint plane, uint interval, float nothing) {
     return interval == NOWHERE ? nothing : pulls[plane * (size_t)params->places + interval];
 }
 
-// Plane `plane` of each interval's slot of `slot` planes, added up.
+// The sum of plane `plane` over the point's slots in all four intervals. A slot has `slot` planes.
 float gathered(const SettlingParams *params, __global const float *pulls, uint4 intervals, uint slot, uint plane) {
     return pulled(params, pulls, plane, intervals.x, 0.0f) + pulled(params, pulls, slot + plane, intervals.y, 0.0f) +
            pulled(params, pulls, 2u * slot + plane, intervals.z, 0.0f) +
@@ -45,7 +45,7 @@ float least_seen(const SettlingParams *params, __global const float *pulls, uint
                 fmin(pulled(params, pulls, plane, intervals.z, UNSEEN), pulled(params, pulls, plane, intervals.w, UNSEEN)));
 }
 
-// The step along z that plates make a point take, mm.
+// The step along z that the plates ask of a point, mm.
 float press(const SettlingParams *params, uint4 place) {
     if ((params->flags & PLATES) == 0u) {
         return 0.0f;
@@ -54,7 +54,7 @@ float press(const SettlingParams *params, uint4 place) {
     return copysign(PRESS * params->ease * fmax(fabs(z) + halves(place).y - params->half_gap, 0.0f), -z);
 }
 
-// No longer than a share of the least distance seen and of the diameter.
+// A step, limited to a share of the least distance seen and of the diameter.
 float3 within_limits(float3 step, uint4 place, float near) {
     float2 both = halves(place);
     float diameter = 2.0f * fmin(both.x, both.y);
@@ -70,7 +70,7 @@ float3 step_weighted(const SettlingParams *params, __global const float *pulls, 
     float contacts = gathered(params, pulls, intervals, WEIGHTED_SLOT, 3u);
     float3 bend = gathered_way(params, pulls, intervals, WEIGHTED_SLOT, 4u);
     float bends = gathered(params, pulls, intervals, WEIGHTED_SLOT, 7u);
-    // Yarns that are about to cross obey contact alone.
+    // Where yarns are about to pass through one another, contact alone counts.
     float apart = share((least_seen(params, pulls, intervals, own + 5u) / params->growth - CROSSING) * CROSSING_SHARE);
     float3 length = (float3)(pulled(params, pulls, own, intervals.y, 0.0f) - pulled(params, pulls, own, intervals.z, 0.0f),
                              pulled(params, pulls, own + 1u, intervals.y, 0.0f) -
@@ -92,7 +92,7 @@ float3 step_block(const SettlingParams *params, __global const float *pulls, uin
     float yy = gathered(params, pulls, intervals, BLOCK_SLOT, 6u) + INERTIA;
     float yz = gathered(params, pulls, intervals, BLOCK_SLOT, 7u);
     float zz = gathered(params, pulls, intervals, BLOCK_SLOT, 8u) + INERTIA;
-    // What the symmetrical matrix turns into `right`: by its cofactors.
+    // Solves matrix * x = `right` by cofactors; the matrix is symmetric.
     float a = yy * zz - yz * yz;
     float b = xz * yz - xy * zz;
     float c = xy * yz - xz * yy;
@@ -108,8 +108,8 @@ float3 step_block(const SettlingParams *params, __global const float *pulls, uin
     return within_limits(step, place, least_seen(params, pulls, intervals, 4u * BLOCK_SLOT + 4u));
 }
 
-// The length that an interval is to have after a pass in which lengths are free. `plane` has the
-// arcs of all intervals.
+// The length that an interval shall have after a pass in which lengths are free. `plane` holds the
+// lengths of all intervals.
 float freed(const SettlingParams *params, __global const float *pulls, uint plane, uint4 intervals, float length,
             float start) {
     float sum = 0.0f;
@@ -125,7 +125,7 @@ float freed(const SettlingParams *params, __global const float *pulls, uint plan
     return fmin(fmax(next, FREE_LEAST * start), FREE_MOST * start);
 }
 
-// Takes the step of place `number`, and gives back how long it is.
+// Takes the step of place `number`, and returns its length.
 float take_step(const SettlingParams *params, bool block, __global const uint4 *places,
                 __global const PlaceRow *place_rows, __global const StrandRow *strands, __global const float *pulls,
                 __global float4 *steps, __global float *lengths, __global uint4 *next, uint number) {
@@ -151,7 +151,7 @@ float take_step(const SettlingParams *params, bool block, __global const uint4 *
 
 #define SETTLING_STEP_WEIGHTED_GROUP 64
 
-// A lane a place: its step, and where it takes it. The longest one goes into the group's row.
+// Steps in the weighted form: a lane for each place. The longest goes into the workgroup's row.
 __kernel __attribute__((reqd_work_group_size(SETTLING_STEP_WEIGHTED_GROUP, 1, 1)))
 void settling_step_weighted(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const StrandRow *strands,
@@ -171,7 +171,7 @@ void settling_step_weighted(const SettlingParams params, __global const uint4 *p
 
 #define SETTLING_STEP_BLOCK_GROUP 64
 
-// The same in the block form.
+// Steps in the block form, likewise.
 __kernel __attribute__((reqd_work_group_size(SETTLING_STEP_BLOCK_GROUP, 1, 1)))
 void settling_step_block(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const StrandRow *strands,
@@ -191,12 +191,12 @@ void settling_step_block(const SettlingParams params, __global const uint4 *plac
 
 #define SETTLING_ENDS_GROUP 64
 
-// The place as far beyond `here` as `other` is before it.
+// The mirror image of `other` in `here`.
 uint4 reflected(uint4 here, uint4 other) {
     return (uint4)(here.xyz + (here.xyz - other.xyz), here.w);
 }
 
-// A lane a yarn: makes the places beyond its ends anew.
+// Renews the places beyond the ends of yarns: a lane for each yarn.
 __kernel __attribute__((reqd_work_group_size(SETTLING_ENDS_GROUP, 1, 1)))
 void settling_ends(const SettlingParams params, __global const StrandRow *strands, __global uint4 *places) {
     size_t yarn = get_global_id(0);

@@ -4,7 +4,7 @@
 
 #define TRAJECTORY_GROUP 64
 
-// A workgroup of TRAJECTORY_GROUP a row of the chunk's block table.
+// A workgroup of TRAJECTORY_GROUP for each row of the chunk's block table.
 __kernel __attribute__((reqd_work_group_size(TRAJECTORY_GROUP, 1, 1)))
 void trajectory(const Params params, const ulong window, __global const uint4 *points,
                 __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,

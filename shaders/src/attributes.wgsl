@@ -1,4 +1,4 @@
-// How long yarns are at each block's start, and the attributes of vertices. After common.wgsl.
+// Lengths along yarns up to each block's start, and the attributes of vertices. After common.wgsl.
 //
 // The twin of attributes.cl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm
 // (Rust: ArcLength), the lower half first, so the order of the sums does not matter.
@@ -6,7 +6,7 @@
 const ATTRIBUTES_GROUP = 64u;
 const YARN_LENGTHS_GROUP = 256u;
 
-// How long its yarn is at each block's start.
+// The length of its yarn up to each block's start.
 @group(0) @binding(42) var<storage, read_write> arc_lengths: array<vec2<u32>>;
 // An attribute (Rust: Attribute) is three of these: the yarn and the bits of the angle, of the
 // length and the tangent's x, and of its y and z.
@@ -33,20 +33,20 @@ fn length_mm(length: vec2<u32>) -> f32 {
     return f32(length.y) + f32(length.x) / LENGTH_STEPS;
 }
 
-// How fast the centre moves at t.
+// The speed of the spline at t.
 fn segment_speed(segment: Segment, t: f32) -> f32 {
     let velocity = segment.c1.xyz + (segment.c2.xyz * 2.0 + segment.c3.xyz * (3.0 * t)) * t;
     return sqrt(dot(velocity, velocity));
 }
 
-// A length by a single rule, and the slowest and the fastest of its places.
+// A length by a single rule, and the lowest and the highest speed at its nodes.
 struct Rule {
     length: f32,
     slowest: f32,
     fastest: f32,
 }
 
-// Adds what a pair of places, `reach` to either side of the middle, have.
+// Adds a pair of nodes, `reach` to either side of the middle.
 fn rule_with(rule: Rule, segment: Segment, middle: f32, reach: f32, weight: f32) -> Rule {
     let before = segment_speed(segment, middle - reach);
     let behind = segment_speed(segment, middle + reach);
@@ -54,7 +54,7 @@ fn rule_with(rule: Rule, segment: Segment, middle: f32, reach: f32, weight: f32)
                 max(max(rule.fastest, before), behind));
 }
 
-// The length between two parameters, by Gauss and Legendre's rule with eight points.
+// The length between two parameters, by the Gauss-Legendre rule with eight nodes.
 fn length_by_rule(segment: Segment, start: f32, end: f32) -> Rule {
     let middle = (start + end) * 0.5;
     let half_way = (end - start) * 0.5;
@@ -68,7 +68,7 @@ fn length_by_rule(segment: Segment, start: f32, end: f32) -> Rule {
     return rule;
 }
 
-// The length between two parameters; in parts where the speed is uneven.
+// The length between two parameters. Where the speed is uneven it is added up from parts.
 fn segment_length(segment: Segment, start: f32, end: f32) -> f32 {
     let rule = length_by_rule(segment, start, end);
     if rule.slowest >= ARC_EVEN * rule.fastest {
@@ -83,22 +83,22 @@ fn segment_length(segment: Segment, start: f32, end: f32) -> f32 {
     return sum;
 }
 
-// The length from ring `k` of the block, which is not the yarn's last, to the next ring.
+// The length from ring number `k` of the block, which is not the yarn's last, to the next ring.
 fn step_length(block: Block, k: u32) -> vec2<u32> {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + k;
     let interval = quotient(place, per_interval);
     let part = place - interval * per_interval;
     let segment = segment_new(block.first_point + interval, params.s);
-    // Not by the step, whose last multiple may be a bit off 1.
+    // Set to 1 at the end: the last multiple of the step may be a bit off 1.
     let end = select(f32(part + 1u) * params.step, 1.0, part + 1u == per_interval);
     return length_from_mm(segment_length(segment, f32(part) * params.step, end));
 }
 
 var<workgroup> length_sums: array<vec2<u32>, YARN_LENGTHS_GROUP>;
 
-// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `length_sums` until
-// the next barrier. Every lane must come here.
+// The sum of the lengths of all lanes up to and with this one. Until the next barrier `length_sums`
+// also holds the sum of all `lanes`. Every lane must call it.
 fn running_length(lane: u32, lanes: u32, length: vec2<u32>) -> vec2<u32> {
     length_sums[lane] = length;
     for (var reach = 1u; reach < lanes; reach *= 2u) {
@@ -114,7 +114,7 @@ fn running_length(lane: u32, lanes: u32, length: vec2<u32>) -> vec2<u32> {
     return length_sums[lane];
 }
 
-// The length from ring `lane` of a block to the next; none where no quads start from it.
+// The length from ring `lane` of a block to the next; 0 where no quads start from it.
 fn lane_length(block: Block, lane: u32) -> vec2<u32> {
     if lane >= block.quads {
         return vec2(0u, 0u);
@@ -122,8 +122,8 @@ fn lane_length(block: Block, lane: u32) -> vec2<u32> {
     return step_length(block, lane);
 }
 
-// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first
-// ring to the next block's.
+// The length of each block, from its first ring to the next block's. A workgroup of
+// ATTRIBUTES_GROUP for each row of a chunk's block table.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {
@@ -138,8 +138,8 @@ fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
     }
 }
 
-// A workgroup of YARN_LENGTHS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on:
-// the lengths of its blocks become those of all blocks before each, tile by tile.
+// Replaces the length of each of a yarn's blocks by the sum of all blocks before it, tile by tile.
+// A workgroup of YARN_LENGTHS_GROUP for each of `params.blocks` yarns from `params.first_yarn` on.
 @compute @workgroup_size(YARN_LENGTHS_GROUP)
 fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                 @builtin(local_invocation_index) lane: u32) {
@@ -169,7 +169,8 @@ fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups
 // Length, tangent.
 var<workgroup> attribute_rings: array<vec4<f32>, ATTRIBUTES_GROUP>;
 
-// A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the attributes of its vertices.
+// The attributes of the vertices of tubes. A workgroup of ATTRIBUTES_GROUP for each row of a
+// chunk's block table.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
@@ -204,7 +205,7 @@ fn attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// A lane a cap vertex: the attribute of the end ring's again.
+// The attributes of caps, which repeat those of the end rings. A lane for each cap vertex.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn cap_attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                   @builtin(local_invocation_index) lane: u32) {

@@ -9,8 +9,8 @@ const CAPS_GROUP = 64u;
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 
-// A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's
-// sides - 2 triangles, one a lane.
+// The vertices and triangles of caps. A lane for each cap vertex repeats the end ring's position
+// with the end's own normal; all lanes of a cap but two also write one of its sides - 2 triangles.
 @compute @workgroup_size(CAPS_GROUP)
 fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {

@@ -1,4 +1,4 @@
-// What every stage reads: the tables, the turn, the spline, the frame and the vertex.
+// What all stages share: tables, turns, the spline, frames and vertices.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
 // spline.rs, sampling.rs, frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no
@@ -69,13 +69,13 @@ struct Params {
 
 // ---- Turn: an angle as a u32 fraction of a full turn ----
 
-// `turns` full turns, reduced to one and rounded to the nearest step.
+// An angle of `turns` full turns, reduced to one turn and rounded to the nearest step.
 fn turn_from_turns(turns: f32) -> u32 {
     let wrapped = max(turns - floor(turns + 0.5), -0.5);
     return bitcast<u32>(i32(floor(wrapped * TURN_STEPS + 0.5)));
 }
 
-// Sine (x) and cosine (y).
+// Sine (x) and cosine (y) of a turn.
 fn turn_sin_cos(turn: u32) -> vec2<f32> {
     let quarter = (turn + (1u << 29u)) >> 30u;
     let rest = bitcast<i32>(turn - (quarter << 30u));
@@ -147,7 +147,7 @@ struct Sample {
     half_width: f32,
     half_height: f32,
     tangent: vec3<f32>,
-    // How both grow along the yarn.
+    // Growth of both halves along the yarn.
     width_growth: f32,
     height_growth: f32,
 }
@@ -157,7 +157,7 @@ fn point_wide(point: vec4<u32>) -> vec4<f32> {
     return vec4(bitcast<vec3<f32>>(point.xyz), unpack2x16float(point.w).x);
 }
 
-// Its half height.
+// Half height of a control point.
 fn point_height(point: vec4<u32>) -> f32 {
     return unpack2x16float(point.w).y;
 }
@@ -167,7 +167,8 @@ fn size_terms(a: f32, b: f32, c: f32, s: f32) -> vec3<f32> {
     return vec3((b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0));
 }
 
-// From four control points, the first of which is number `first`.
+// The segment from its four control points, from number `first` on: before it, at its start, at its
+// end, and after it.
 fn segment_new(first: u32, s: f32) -> Segment {
     let before = points[first];
     let here = points[first + 1u];
@@ -223,7 +224,7 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     let offset = (segment.c1.xyz + (segment.c2.xyz + segment.c3.xyz * t) * t) * t;
     let velocity = segment.c1.xyz + (segment.c2.xyz * 2.0 + segment.c3.xyz * (3.0 * t)) * t;
     let speed_squared = dot(velocity, velocity);
-    // Where the yarn does not move nothing grows along it.
+    // Where the spline stands still nothing grows along it.
     var inverse = 0.0;
     var sample: Sample;
     if speed_squared > segment.at_rest {
@@ -263,7 +264,7 @@ struct RingSample {
     ends_interval: bool,
 }
 
-// Ring `k` from the block's first on; also the one after the block's last.
+// Ring number `k` of the block, from 0. The ring after the block's last counts too.
 fn ring_sample(yarn: YarnRow, block: Block, k: u32) -> RingSample {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + k;
@@ -289,7 +290,7 @@ fn chord_to(here: RingSample, next_offset: vec3<f32>) -> vec3<f32> {
     return select(next_offset, here.span, here.ends_interval) - here.sample.offset;
 }
 
-// The normal of a closed end: the tangent there, out of the yarn.
+// The normal of a cap: the tangent at the yarn's end, pointing out of the yarn.
 fn cap_normal(cap: CapRow) -> vec3<f32> {
     // The start is t = 0 of the first interval, the finish t = 1 of the last.
     let segment = segment_new(cap.first_point, params.s);
@@ -370,8 +371,8 @@ fn frame_step(frame: u32, tangent: vec3<f32>, next_tangent: vec3<f32>, chord: ve
     return turn_from_turns(turns + twist * sqrt(dot(chord, chord)));
 }
 
-// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of
-// its whole turn, so that its last ring meets its first.
+// The roll of ring `ring`, where steps up to it add up to `sum`. Along a closed yarn the whole turn
+// is taken away bit by bit, so that its last ring meets its first.
 fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
     let steps = yarn.rings - 1u;
     if yarn.closed == 0u {
@@ -382,7 +383,7 @@ fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
 
 // ---- Vertex ----
 
-// How a section stands on a ring: the same for all its vertices.
+// How a section stands on a ring, which all its vertices share.
 struct Stance {
     // Centre, half width.
     centre: vec4<f32>,
@@ -396,21 +397,20 @@ struct Stance {
     round: bool,
 }
 
-// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth.
-// Round rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex
-// hangs on yarns elsewhere.
+// Whether a yarn is round and stays so. `width` and `height` are each a half and its growth. Round
+// rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex depends on
+// other yarns.
 fn is_round(width: vec2<f32>, height: vec2<f32>) -> bool {
     return !FLATTENED || all(width == height);
 }
 
-// The side that a section stands with. A round one turns with the roll. The outline of a flattened
-// one leans, and the section turns inside.
+// The side that a section stands with. A round section turns with the roll. The outline of a
+// flattened one leans, and the section turns inside it.
 fn side_of(tangent: vec3<f32>, roll: u32, lean: u32, round: bool) -> vec3<f32> {
     return side_standing(tangent, select(lean, roll, round));
 }
 
-// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the
-// roll's.
+// `side` is that of `side_of`, `height` the half height and its growth, `sin_cos` that of the roll.
 fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, height: vec2<f32>, sin_cos: vec2<f32>) -> Stance {
     var stance: Stance;
     stance.centre = centre;
@@ -428,7 +428,7 @@ fn rolled(stance: Stance, q: vec2<f32>) -> vec2<f32> {
     return vec2(stance.sin_cos.y * q.x - stance.sin_cos.x * q.y, stance.sin_cos.x * q.x + stance.sin_cos.y * q.y);
 }
 
-// Where the vertex at `point` of a section lies.
+// The position of the vertex at `point` of a section.
 fn position_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     if !stance.round {
         let q = rolled(stance, point.xy);
@@ -438,12 +438,13 @@ fn position_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     return stance.centre.xyz + outward * stance.centre.w;
 }
 
-// Its normal.
+// The normal of the vertex at `point` of a section.
 fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     let tangent = stance.tangent;
     if !stance.round {
         let q = rolled(stance, point.xy);
-        // Each times the other's half: the inverse transpose, times the product of both halves.
+        // Each component times the other half: the inverse transpose, times the product of both
+        // halves.
         let normal = rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);
         let lean = tangent.w * q.x * normal.x + stance.height.y * q.y * normal.y;
         let inverse = 1.0 / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);
@@ -451,7 +452,7 @@ fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
         return across - tangent.xyz * (lean * inverse);
     }
     let across = stance.side * point.z + stance.up * point.w;
-    // Most yarns are as thick here as there, and need no square root.
+    // Where the radius is constant no square root is needed.
     if tangent.w == 0.0 {
         return across;
     }

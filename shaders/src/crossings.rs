@@ -16,7 +16,8 @@ const SOURCE: &str = concat!(
     include_str!("crossings_pass.wgsl")
 );
 
-/// The step of each crossing, and a row of what was seen for each workgroup: a lane a crossing.
+/// The step of each crossing. A lane for each crossing; each workgroup writes a row of what it has
+/// seen.
 pub const MOVE: Shader = Shader {
     entry_point: "crossings_move",
     source: SOURCE,
@@ -32,7 +33,7 @@ pub const MOVE: Shader = Shader {
     ],
 };
 
-/// What a pass has seen, from the rows of all workgroups: one workgroup.
+/// What a pass has seen, from the rows of all workgroups. One workgroup.
 pub const SEEN: Shader = Shader {
     entry_point: "crossings_seen",
     source: SOURCE,
@@ -44,5 +45,5 @@ pub const SEEN: Shader = Shader {
     ],
 };
 
-/// All of them.
+/// All shaders of crossings.
 pub const ALL: [&Shader; 2] = [&MOVE, &SEEN];

@@ -38,7 +38,7 @@ struct ThreadRow {
 @group(0) @binding(34) var<uniform> cloth: CrossingsParams;
 @group(0) @binding(35) var<storage, read> threads: array<ThreadRow>;
 @group(0) @binding(36) var<storage, read> ups: array<u32>;
-// As others find them in this pass.
+// The crossings as others find them in this pass.
 @group(0) @binding(37) var<storage, read> found: array<vec4<f32>>;
 
 const WARP = 0u;
@@ -48,7 +48,8 @@ const WEFT = 1u;
 
 const NOWHERE = 0xffffffffu;
 
-// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
+// The number `by` further on than `at` among `count`. Where they repeat, the first follows the
+// last.
 fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     let way = bitcast<i32>(at) + by;
     let whole = bitcast<i32>(count);
@@ -58,7 +59,7 @@ fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     return select(NOWHERE, bitcast<u32>(select(way - whole, way + whole, by < 0)), repeats);
 }
 
-// The crossing so many further along a thread of `set`, and so many threads of that set across.
+// The crossing `along` further along a thread of `of_set`, and `across` threads of that set aside.
 fn beside(site: vec2<u32>, of_set: u32, along: i32, across: i32) -> vec2<u32> {
     let ends = select(along, across, of_set == WARP);
     let picks = select(across, along, of_set == WARP);
@@ -76,7 +77,7 @@ fn number_of(site: vec2<u32>) -> u32 {
     return site.y * cloth.ends + site.x;
 }
 
-// How the thread of a set lies at a site.
+// The lie of a set's thread at a site.
 fn lie_of(site: vec2<u32>, of_set: u32) -> vec4<f32> {
     return found[2u * number_of(site) + of_set];
 }
@@ -86,7 +87,7 @@ fn thread_of(site: vec2<u32>, of_set: u32) -> ThreadRow {
     return threads[select(cloth.ends + site.y, site.x, of_set == WARP)];
 }
 
-// From the thread of a set at a site to the one so many after it.
+// The way from a set's thread at a site to the one `steps` after it.
 fn way_of(site: vec2<u32>, of_set: u32, steps: i32) -> f32 {
     var way = thread_of(site, of_set).gap;
     for (var step = 1; step < steps; step++) {
@@ -107,9 +108,9 @@ fn side_of(site: vec2<u32>, of_set: u32) -> f32 {
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
-// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of
-// `own_own` has the unknowns of its own with its unknown k, row k of `own_crossed` those of the
-// other set with it. Rows count up to the diagonal.
+// A block is seen from one set: `own` are the set's four unknowns, `crossed` those of the other
+// set. Row k of `own_own` holds unknown k with all own unknowns, row k of `own_crossed` holds it
+// with those of the other set. Only entries up to the diagonal are used.
 struct CrossingBlock {
     own: vec4<f32>,
     crossed: vec4<f32>,
@@ -119,7 +120,7 @@ struct CrossingBlock {
     clearance: f32,
 }
 
-// The same seen from the other set.
+// The block, seen from the other set.
 fn turned(block: CrossingBlock) -> CrossingBlock {
     let rows = block.own_crossed;
     return CrossingBlock(
@@ -137,12 +138,13 @@ fn turned(block: CrossingBlock) -> CrossingBlock {
     );
 }
 
-// A distance of two threads over what they need.
+// Notes a distance of two threads, as a share of what they need.
 fn see(block: ptr<function, CrossingBlock>, clearance: f32) {
     (*block).clearance = min((*block).clearance, clearance);
 }
 
-// Adds a term for each unknown of its own, whose residual has that slope in it alone.
+// Adds a term for each own unknown, whose residual depends on that unknown alone, with slope
+// `slope`.
 fn add_alone(block: ptr<function, CrossingBlock>, weights: vec4<f32>, share: f32, residuals: vec4<f32>, slope: f32) {
     (*block).own += weights * residuals * slope;
     let more = weights * share * slope * slope;
@@ -152,7 +154,7 @@ fn add_alone(block: ptr<function, CrossingBlock>, weights: vec4<f32>, share: f32
     (*block).own_own[3].w += more.w;
 }
 
-// Adds a term whose residual has these slopes in its own unknowns.
+// Adds a term whose residual has `slopes` in the own unknowns.
 fn add_own(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residual: f32, slopes: vec4<f32>) {
     (*block).own += (weight * residual) * slopes;
     let weighted = (weight * share) * slopes;
@@ -162,8 +164,8 @@ fn add_own(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residua
     (*block).own_own[3] += weighted.w * slopes;
 }
 
-// Adds one with these slopes in its own height and half height, and in what is unknown of the other
-// set.
+// Adds a term whose residual has `slopes` in the own height and half height, and `crossed` in the
+// unknowns of the other set.
 fn add_between(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residual: f32, slopes: vec2<f32>, crossed: vec4<f32>) {
     let height = slopes.x;
     let thickness = slopes.y;
@@ -182,7 +184,7 @@ fn add_between(block: ptr<function, CrossingBlock>, weight: f32, share: f32, res
     (*block).crossed_crossed[3] += weighted.w * crossed;
 }
 
-// Adds one with these slopes in all that is unknown here.
+// Adds a term whose residual has slopes in all eight unknowns.
 fn add_both(block: ptr<function, CrossingBlock>, weight: f32, residual: f32, own: vec4<f32>, crossed: vec4<f32>) {
     add_own(block, weight, 1.0, residual, own);
     let weighted = weight * crossed;

@@ -3,22 +3,22 @@
 // crossings_pass.cl is the twin of this file; CrossingBlock::step and CrossingsPlan in texere-core
 // (crossings/) are the definitions.
 
-// As crossings are.
+// The crossings as they are.
 @group(0) @binding(38) var<storage, read_write> crossings: array<vec4<f32>>;
-// As others find them in the next pass.
+// The crossings as others find them in the next pass.
 @group(0) @binding(39) var<storage, read_write> next: array<vec4<f32>>;
-// What groups have seen, and what passes have: the longest step and the least clearance.
+// What workgroups have seen, and what passes have seen: the longest step and the least clearance.
 @group(0) @binding(40) var<storage, read_write> group_rows: array<vec2<f32>>;
 @group(0) @binding(41) var<storage, read_write> pass_rows: array<vec2<f32>>;
 
 // ---- Eight equations by Cholesky's method, in two halves of four ----
 
-// What is added to a pivot, and the least that it may be.
+// The square root of a regularised pivot, which is no less than CROSSINGS_PIVOT.
 fn pivot(left: f32, whole: f32) -> f32 {
     return sqrt(max(left + CROSSINGS_DAMPING + CROSSINGS_DAMPING * whole, CROSSINGS_PIVOT));
 }
 
-// The root of four rows, of which some is taken off; `whole` is their diagonal before that.
+// The root of four rows. `whole` is their diagonal before anything was subtracted from them.
 fn root_of(rows: array<vec4<f32>, 4>, whole: vec4<f32>) -> array<vec4<f32>, 4> {
     var root: array<vec4<f32>, 4>;
     root[0].x = pivot(rows[0].x, whole.x);
@@ -37,7 +37,7 @@ fn root_of(rows: array<vec4<f32>, 4>, whole: vec4<f32>) -> array<vec4<f32>, 4> {
     return root;
 }
 
-// What the root turns into `right`.
+// Solves root * x = `right`.
 fn forwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
     let x = right.x / root[0].x;
     let y = (right.y - root[1].x * x) / root[1].y;
@@ -46,7 +46,7 @@ fn forwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
     return vec4(x, y, z, w);
 }
 
-// What the root's transpose turns into `right`.
+// Solves transpose of root * x = `right`.
 fn backwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
     let w = right.w / root[3].w;
     let z = (right.z - root[3].z * w) / root[2].z;
@@ -59,13 +59,13 @@ fn dot4(one: vec4<f32>, other: vec4<f32>) -> f32 {
     return one.x * other.x + one.y * other.y + one.z * other.z + one.w * other.w;
 }
 
-// How both threads of a crossing lie, or step.
+// A value for both threads of a crossing: their lies, or their steps.
 struct Pair {
     warp: vec4<f32>,
     weft: vec4<f32>,
 }
 
-// The step down to the least of the equations.
+// The step that solves the block's equations.
 fn step_of(block: CrossingBlock) -> Pair {
     let own = block.own_own;
     let warp = root_of(own, vec4(own[0].x, own[1].y, own[2].z, own[3].w));
@@ -95,7 +95,7 @@ fn step_of(block: CrossingBlock) -> Pair {
 
 // ---- Pass ----
 
-// As far as what is unknown of a thread may go.
+// A lie, limited to what its thread allows.
 fn bounded(lie: vec4<f32>, thread: ThreadRow) -> vec4<f32> {
     let most = vec4(
         thread.freedom,
@@ -117,19 +117,19 @@ fn largest(one: vec4<f32>) -> f32 {
     return max(max(all.x, all.y), max(all.z, all.w));
 }
 
-// Moves one thread of a crossing, and gives back by how much that differs from where it was.
+// Moves one thread of a crossing, and returns how far it moved.
 fn move_thread(number: u32, site: vec2<u32>, of_set: u32, step: vec4<f32>) -> f32 {
     let thread = thread_of(site, of_set);
     let lie = 2u * number + of_set;
     let was = crossings[lie];
     let moved = bounded(found[lie] + step, thread);
-    // Momentum carries it on: there others find it.
+    // Others find it further on, where momentum carries it.
     next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), thread);
     crossings[lie] = moved;
     return largest(moved - was);
 }
 
-// Moves a crossing. Gives back the longest step and the least clearance.
+// Moves a crossing. Returns the longest step and the least clearance.
 fn move_crossing(number: u32) -> vec2<f32> {
     let site = vec2(number % cloth.ends, number / cloth.ends);
     let block = gathered(site);
@@ -153,7 +153,8 @@ const CROSSINGS_MOVE_GROUP = 64u;
 
 var<workgroup> lane_seen: array<vec2<f32>, CROSSINGS_MOVE_GROUP>;
 
-// A lane a crossing. A row of what it has seen from each group, by a fixed tree.
+// Moves all crossings: a lane for each. Each workgroup writes a row of what it has seen, joined by
+// a fixed tree.
 @compute @workgroup_size(CROSSINGS_MOVE_GROUP)
 fn crossings_move(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                   @builtin(local_invocation_index) lane: u32) {
@@ -179,7 +180,7 @@ const CROSSINGS_SEEN_GROUP = 256u;
 
 var<workgroup> lane_rows: array<vec2<f32>, CROSSINGS_SEEN_GROUP>;
 
-// One group: what all rows have seen, into the row of this pass.
+// Joins the rows of all workgroups into the row of this pass: one workgroup.
 @compute @workgroup_size(CROSSINGS_SEEN_GROUP)
 fn crossings_seen(@builtin(local_invocation_index) lane: u32) {
     let count = (cloth.crossings + CROSSINGS_MOVE_GROUP - 1u) / CROSSINGS_MOVE_GROUP;

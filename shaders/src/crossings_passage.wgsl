@@ -3,16 +3,16 @@
 // crossings_passage.cl is the twin of this file, and StraightPassage in texere-core
 // (crossings/passage.rs) the definition.
 
-// A straight passage over the first of two crossed threads and under the second one, at the slope
-// that leaves most room.
+// A straight passage over the first of two crossed threads and under the second, at the slope that
+// leaves most room.
 struct StraightPassage {
     // Cosine and sine of the slope.
     slope: vec2<f32>,
     // How far both ellipses reach across the slope.
     reach: vec2<f32>,
-    // Between the middles of both ellipses, across the slope.
+    // The distance of the middles of both ellipses, across the slope.
     between: f32,
-    // What is left when both ellipses and the thread have theirs.
+    // The room that both ellipses and the thread leave.
     room: f32,
 }
 
@@ -23,7 +23,7 @@ fn reach_of(slope: vec2<f32>, halves: vec4<f32>) -> vec2<f32> {
     return sqrt(x * x + z * z);
 }
 
-// What a slope leaves beside both ellipses.
+// The room that a slope leaves beside both ellipses.
 fn left_by(across: f32, rise: f32, halves: vec4<f32>, slope: vec2<f32>) -> f32 {
     let reach = reach_of(slope, halves);
     return across * slope.y + rise * slope.x - reach.x - reach.y;
@@ -32,8 +32,8 @@ fn left_by(across: f32, rise: f32, halves: vec4<f32>, slope: vec2<f32>) -> f32 {
 fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> StraightPassage {
     let distance = sqrt(across * across + rise * rise);
     let excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // The best slope of round threads, level or upright: wide ellipses leave most room at one of
-    // these.
+    // Candidates: the best slope of round threads, level, and upright. Wide ellipses leave most
+    // room at one of these.
     var slope = vec2(0.0, 1.0);
     if rise > 0.0 {
         slope = vec2(rise, across) / distance;

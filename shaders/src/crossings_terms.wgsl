@@ -1,5 +1,5 @@
-// The energy: what threads want, and what keeps them apart. After crossings.wgsl and
-// crossings_passage.wgsl.
+// The energy of a crossing: terms for what threads want, and terms that keep them apart. After
+// crossings.wgsl and crossings_passage.wgsl.
 //
 // crossings_terms.cl is the twin of this file, and texere-core (crossings/terms.rs) the definition.
 
@@ -7,7 +7,7 @@
 struct Along {
     site: vec2<u32>,
     there: bool,
-    // How the thread lies there, and how far it is to the next crossing.
+    // The thread's lie there, and the way to the next crossing.
     lie: vec4<f32>,
     gap: f32,
 }
@@ -23,7 +23,7 @@ fn along_of(site: vec2<u32>, of_set: u32, steps: i32) -> Along {
     return along;
 }
 
-// Shape, area, and the press.
+// Terms of the section: its shape, its area, and the press.
 fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, radius: f32) {
     let wide = lie.z / radius;
     let thick = lie.w / radius;
@@ -36,7 +36,8 @@ fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, radius: f32)
     add_alone(block, vec4(0.0, press, 0.0, 0.0), 1.0, lie, 1.0);
 }
 
-// A second difference along the thread, which has this slope in what is unknown here.
+// The term of a bend: a second difference along the thread, with slope `slope` in the unknowns of
+// this crossing.
 fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Along, middle: Along, after: Along, slope: f32, share: f32) {
     if !before.there || !middle.there || !after.there {
         return;
@@ -48,8 +49,8 @@ fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Alon
     add_alone(block, weights, share, before.lie - 2.0 * middle.lie + after.lie, slope);
 }
 
-// First differences along the thread to a crossing `gap` away: tension, and sections that change
-// little.
+// Terms of first differences along the thread, to a crossing `gap` away: tension, and evenness of
+// sections.
 fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Along, gap: f32, tension: f32, evenness: f32) {
     if other.there {
         let taut = tension / gap;
@@ -58,19 +59,19 @@ fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Al
     }
 }
 
-// What a thread does to what it crosses between two crossings, the `second` of which is this one or
-// else the first.
+// How a thread meets the threads that it crosses, between two crossings. This crossing is the
+// `second` of them, or else the first.
 struct Meeting {
     room: f32,
-    // Slopes in its own height and half height, and in what is unknown of the thread that it
-    // crosses here.
+    // Slopes in its own height and half height, and in the unknowns of the thread that it crosses
+    // here.
     slopes: vec2<f32>,
     crossed: vec4<f32>,
     clearance: f32,
 }
 
-// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its
-// upper end.
+// The meeting of a thread that stays on its side. Where it slopes, it has to clear the shoulder of
+// the thread under its upper end.
 fn shoulder(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>, second: bool) -> Meeting {
     let rises = side * (last.lie.y - first.lie.y) > 0.0;
     let upper = select(first.lie, last.lie, rises);
@@ -78,7 +79,7 @@ fn shoulder(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>
     let under = select(one, two, rises);
     let across = first.gap + two.x - one.x;
     let slope = side * (upper.y - lower.y) / across;
-    // Upright, not across the slope.
+    // The distance is measured upright, not across the slope.
     let length = sqrt(1.0 + slope * slope);
     let x = under.z * slope;
     let z = under.w;
@@ -97,7 +98,7 @@ fn shoulder(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>
     return Meeting(room, vec2(side * rise, 0.0), vec4(shift, 0.0, 0.0, 0.0), above / need);
 }
 
-// The thread changes sides.
+// The meeting of a thread that changes sides.
 fn passage(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>, second: bool) -> Meeting {
     let across = first.gap + two.x - one.x;
     let rise = side * (two.y - one.y);
@@ -132,8 +133,8 @@ fn add_meeting(block: ptr<function, CrossingBlock>, of_set: u32, first: Along, l
     }
 }
 
-// What the thread has to clear between this crossing and the one so many further along it, past
-// threads of other levels.
+// Adds what the thread has to clear between this crossing and the one `steps` further along it,
+// past threads of other levels.
 fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Along, steps: i32) {
     let other = along_of(here.site, of_set, steps);
     if !other.there {
@@ -150,7 +151,7 @@ fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Alon
     add_meeting(block, of_set, first, last, second);
 }
 
-// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
+// Keeps two ellipses clear of one another. `part` is the share of this crossing's thread in them.
 fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: f32, thick: f32, sign: f32, part: f32) {
     let x = apart / wide;
     let z = rise / thick;
@@ -168,7 +169,8 @@ fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: 
     }
 }
 
-// Neighbours of one set `gap` apart half way from this crossing to the `next` one, as ellipses.
+// Keeps neighbours of one set clear half way from this crossing to the `next`. There they are
+// ellipses `gap` apart.
 fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
     if !next.there {
         return;
@@ -182,8 +184,9 @@ fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>
     keep_clear(block, apart, rise, wide, thick, sign, 0.5);
 }
 
-// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of
-// two lie side by side or one above the other, as ellipses. All are clear of one another beside it.
+// Keeps a thread and a neighbour of its set clear. At a crossing, neighbours of one level keep to
+// their own places, whatever their heights; neighbours of two levels lie side by side or one above
+// the other, as ellipses. Beside a crossing all are clear of one another.
 fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, across: i32, of_level: bool) {
     let site = beside(here.site, of_set, 0, across);
     if !is_there(site) {
@@ -211,8 +214,8 @@ fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along
     add_half_way(block, of_set, here.lie, after, other, across, gap);
 }
 
-// The neighbours of a thread to one side: `steps` is how many threads away the next one of its
-// level lies.
+// Adds the neighbours of a thread on one side. The nearest of its own level lies `steps` threads
+// away.
 fn add_neighbours(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, side: i32, steps: i32) {
     if steps != 0 {
         add_neighbour(block, of_set, before, here, after, side * steps, true);
@@ -222,7 +225,7 @@ fn add_neighbours(block: ptr<function, CrossingBlock>, of_set: u32, before: Alon
     }
 }
 
-// How steeply a thread rises or falls next to a crossing, on the steeper side.
+// How steeply a thread rises or falls beside a crossing, on its steeper side.
 fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
     let before = along_of(site, of_set, -1);
     let here = along_of(site, of_set, 0);
@@ -237,12 +240,13 @@ fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
     return steepest;
 }
 
-// Both threads of a crossing lie one on top of the other. The block is seen from the warp.
+// Adds the contact of both threads of a crossing, one on top of the other. The block is seen from
+// the warp.
 fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);
     let side = side_of(site, WARP);
-    // Threads of two layers slope where they cross: along the slope of the other one an ellipse
+    // Threads of two layers slope where they cross, and along the other thread's slope an ellipse
     // reaches further.
     var slope = vec2(0.0);
     if (cloth.flags & LAYERED) != 0u && thread_of(site, WARP).level != thread_of(site, WEFT).level {
@@ -263,7 +267,7 @@ fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     }
 }
 
-// All terms of one set that a crossing is part of.
+// Adds all terms of one set that a crossing is part of.
 fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     let thread = thread_of(site, of_set);
     let radius = thread.radius;

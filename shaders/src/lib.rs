@@ -1,5 +1,5 @@
-//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. No GPU
-//! interface is used here; `texere-wgpu` runs them.
+//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. This crate uses
+//! no GPU interface; `texere-wgpu` runs the shaders.
 //!
 //! | file | entry points | work |
 //! |---|---|---|
@@ -15,8 +15,8 @@
 //! | `attributes.wgsl` | `block_lengths`, `yarn_lengths`, `attributes`, `cap_attributes` | attributes of vertices |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
-//! Those that bring yarns to rest are in [`settling`] and [`crossings`], those that make pictures
-//! in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
+//! The shaders that bring yarns to rest are in [`settling`] and [`crossings`], the shaders that
+//! make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
 //!
 //! ```
 //! use texere_shaders::{MESH, Resource};
@@ -29,8 +29,7 @@ pub mod picture;
 pub mod settling;
 
 /// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every
-/// device allows, and there are as few workgroups without work as can be, since these take time
-/// too.
+/// device allows. As few workgroups as possible are without work, since these take time too.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));
@@ -42,7 +41,7 @@ pub const fn grid(workgroups: u32) -> (u32, u32) {
     if rows == 0 { (0, 0) } else { (workgroups.div_ceil(rows), rows) }
 }
 
-/// A resource that a shader reads or writes; its number is that of its binding in group 0.
+/// A resource that a shader reads or writes. Its number is that of its binding in group 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Resource {
@@ -52,7 +51,7 @@ pub enum Resource {
     Points = 1,
     /// `YarnRow`s.
     Yarns = 2,
-    /// `Block`s of a chunk; for the schedule per-yarn one row a part.
+    /// `Block`s of a chunk; in the schedule per-yarn a row for each part.
     Blocks = 3,
     /// The whole turn of each yarn, then the roll at each block's start: `u32`s.
     Rolls = 4,
@@ -68,11 +67,11 @@ pub enum Resource {
     Rings = 9,
     /// `CapRow`s of a chunk.
     CapRows = 10,
-    /// Cap indices, as `texere_gpu::cap_pattern` has them.
+    /// Cap indices, from `texere_gpu::cap_pattern`.
     CapPattern = 11,
     /// `SettlingParams` of `texere-gpu`.
     SettlingParams = 12,
-    /// `PlaceRow`s, and one more that ends the last interval's chords.
+    /// `PlaceRow`s, and one more, which ends the last interval's chords.
     PlaceRows = 13,
     /// `StrandRow`s.
     Strands = 14,
@@ -90,19 +89,19 @@ pub enum Resource {
     ListStarts = 20,
     /// Chords' neighbours.
     Neighbours = 21,
-    /// The length that each interval is to have.
+    /// The length that each interval shall have, mm.
     Lengths = 22,
-    /// What pulls at intervals' control points, plane by plane.
+    /// Pulls at intervals' control points, plane by plane.
     Pulls = 23,
     /// What each workgroup of places has seen.
     SeenRows = 24,
-    /// How far chords extend, by workgroup.
+    /// The extent of chords, a row from each workgroup.
     Extents = 25,
-    /// What is scanned.
+    /// Values that are scanned.
     ScanValues = 26,
-    /// The sum of each group of that.
+    /// The sum of each workgroup's values.
     ScanSums = 27,
-    /// The step that each place has taken last.
+    /// The last step of each place, mm.
     Steps = 28,
     /// `Place`s after a pass.
     NextPlaces = 29,
@@ -112,13 +111,13 @@ pub enum Resource {
     SettledParams = 31,
     /// `SettledRow`s.
     SettledRows = 32,
-    /// How far control points reach, by workgroup.
+    /// The box round control points, a row from each workgroup.
     Bounds = 33,
     /// `CrossingsParams` of `texere-gpu`.
     CrossingsParams = 34,
     /// `ThreadRow`s, ends first.
     ThreadRows = 35,
-    /// Where the warp lies on the face: a bit a crossing.
+    /// Where the warp lies on the face: a bit for each crossing.
     Ups = 36,
     /// `CrossingState`s as others find them.
     FoundCrossings = 37,
@@ -130,7 +129,7 @@ pub enum Resource {
     CrossingsGroupRows = 40,
     /// What each pass since the last wait has seen.
     CrossingsPassRows = 41,
-    /// How long its yarn is at each block's start: `ArcLength`s.
+    /// The length of its yarn up to each block's start: `ArcLength`s.
     ArcLengths = 42,
     /// `Attribute`s of a chunk.
     Attributes = 43,
@@ -145,11 +144,11 @@ pub enum Access {
     Uniform,
     /// A storage buffer that is only read.
     Read,
-    /// A storage buffer that is written, too.
+    /// A storage buffer that is also written.
     Write,
 }
 
-/// A resource that a shader uses, and how.
+/// A resource that a shader uses, and its access.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Binding {
     /// The resource; its number is the binding's.
@@ -167,8 +166,8 @@ pub struct Shader {
     pub source: &'static str,
     /// Lanes of a workgroup, in one dimension.
     pub workgroup: u32,
-    /// All that it uses, by number; all in group 0. At most eight are storage buffers, which is
-    /// what WebGPU promises.
+    /// All resources that it uses, by number, in group 0. At most eight are storage buffers, the
+    /// number that WebGPU guarantees.
     pub bindings: &'static [Binding],
 }
 
@@ -199,7 +198,7 @@ const PACKED_SOURCE: &str =
 const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
-/// Turns of each block of a chunk: a workgroup a row.
+/// The turn of each block of a chunk. A workgroup for each row.
 pub const BLOCK_TURNS: Shader = Shader {
     entry_point: "block_turns",
     source: SCAN_SOURCE,
@@ -213,7 +212,7 @@ pub const BLOCK_TURNS: Shader = Shader {
     ],
 };
 
-/// Turns to rolls, in place: a workgroup a yarn.
+/// Rolls from turns, in place. A workgroup for each yarn.
 pub const YARN_ROLLS: Shader = Shader {
     entry_point: "yarn_rolls",
     source: SCAN_SOURCE,
@@ -221,7 +220,7 @@ pub const YARN_ROLLS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::Rolls)],
 };
 
-/// Rings of a chunk: a workgroup a row.
+/// Rings of a chunk. A workgroup for each row.
 pub const TRAJECTORY: Shader = Shader {
     entry_point: "trajectory",
     source: concat!(include_str!("common.wgsl"), rings!(), include_str!("trajectory.wgsl")),
@@ -248,14 +247,14 @@ const MESH_BINDINGS: &[Binding] = &[
     write(Resource::Indices),
 ];
 
-/// Vertices and indices of a chunk's tubes for an even number of sides: a workgroup a row.
+/// Vertices and indices of a chunk's tubes, for an even number of sides. A workgroup for each row.
 pub const MESH: Shader =
     Shader { entry_point: "mesh", source: MESH_SOURCE, workgroup: 128, bindings: MESH_BINDINGS };
 
-/// The same for an odd number of sides.
+/// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: Shader = Shader { entry_point: "mesh_odd", ..MESH };
 
-/// Vertices and indices of a chunk's caps: a lane a vertex.
+/// Vertices and indices of a chunk's caps. A lane for each vertex.
 pub const CAPS: Shader = Shader {
     entry_point: "caps",
     source: concat!(include_str!("common.wgsl"), include_str!("caps.wgsl")),
@@ -270,7 +269,7 @@ pub const CAPS: Shader = Shader {
     ],
 };
 
-/// Packed vertices of a chunk's tubes for an even number of sides: a workgroup a row.
+/// Packed vertices of a chunk's tubes, for an even number of sides. A workgroup for each row.
 pub const PACKED: Shader = Shader {
     entry_point: "packed",
     source: PACKED_SOURCE,
@@ -286,10 +285,10 @@ pub const PACKED: Shader = Shader {
     ],
 };
 
-/// The same for an odd number of sides.
+/// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: Shader = Shader { entry_point: "packed_odd", ..PACKED };
 
-/// Packed vertices of a chunk's caps: a lane a vertex.
+/// Packed vertices of a chunk's caps. A lane for each vertex.
 pub const PACKED_CAPS: Shader = Shader {
     entry_point: "packed_caps",
     source: PACKED_SOURCE,
@@ -302,11 +301,10 @@ pub const PACKED_CAPS: Shader = Shader {
     ],
 };
 
-/// What unpacks packed vertices in shaders of a caller's, `unpacked_position` and
-/// `unpacked_normal`: to be put before them, it binds nothing.
+/// WGSL functions for a caller's shaders that unpack packed vertices: `unpacked_position` and
+/// `unpacked_normal`. Put this text before the shader. It binds nothing.
 ///
-/// A vertex shader that draws a cloth, whose middle lies at (50, 50, 0) mm, from its packed
-/// vertices:
+/// This vertex shader draws a cloth whose middle lies at (50, 50, 0) mm from its packed vertices:
 ///
 /// ```
 /// let source = format!("{}{}", texere_shaders::UNPACK, "
@@ -321,7 +319,7 @@ pub const PACKED_CAPS: Shader = Shader {
 /// ```
 pub const UNPACK: &str = include_str!("unpack.wgsl");
 
-/// The length of each block of a chunk: a workgroup a row.
+/// The length of each block of a chunk. A workgroup for each row.
 pub const BLOCK_LENGTHS: Shader = Shader {
     entry_point: "block_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -335,7 +333,7 @@ pub const BLOCK_LENGTHS: Shader = Shader {
     ],
 };
 
-/// How long yarns are at each block's start, in place: a workgroup a yarn.
+/// Lengths along yarns up to each block's start, in place. A workgroup for each yarn.
 pub const YARN_LENGTHS: Shader = Shader {
     entry_point: "yarn_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -343,7 +341,7 @@ pub const YARN_LENGTHS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::ArcLengths)],
 };
 
-/// Attributes of a chunk's tubes: a workgroup a row.
+/// Attributes of a chunk's tubes. A workgroup for each row.
 pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     entry_point: "attributes",
     source: ATTRIBUTES_SOURCE,
@@ -358,7 +356,7 @@ pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     ],
 };
 
-/// Attributes of a chunk's caps: a lane a vertex.
+/// Attributes of a chunk's caps. A lane for each vertex.
 pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     entry_point: "cap_attributes",
     source: ATTRIBUTES_SOURCE,
@@ -366,7 +364,7 @@ pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::CapRows), write(Resource::Attributes)],
 };
 
-/// The paper's algorithm 2: a lane a part.
+/// The paper's algorithm 2. A lane for each part.
 pub const TRAJECTORY_PER_YARN: Shader = Shader {
     entry_point: "trajectory_per_yarn",
     source: PER_YARN_SOURCE,
@@ -380,7 +378,7 @@ pub const TRAJECTORY_PER_YARN: Shader = Shader {
     ],
 };
 
-/// The paper's algorithm 4: a lane a part.
+/// The paper's algorithm 4. A lane for each part.
 pub const MESH_PER_YARN: Shader = Shader {
     entry_point: "mesh_per_yarn",
     source: PER_YARN_SOURCE,
@@ -397,7 +395,7 @@ pub const MESH_PER_YARN: Shader = Shader {
     ],
 };
 
-/// All shaders.
+/// All shaders of meshes, attributes and packed vertices.
 pub const ALL: [&Shader; 15] = [
     &BLOCK_TURNS,
     &YARN_ROLLS,

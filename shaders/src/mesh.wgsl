@@ -18,7 +18,7 @@ const MESH_GROUP = 128u;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
-// even number: so they hold floats of at most one normal and one position.
+// even number. So they hold floats of at most one normal and one position.
 fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, normal_point);
@@ -27,7 +27,7 @@ fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: v
     return select(later, vec4(position, normal.x), first == 0u);
 }
 
-// Two consecutive floats, likewise.
+// Two consecutive floats of ring `ring`'s vertices, likewise.
 fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, point);
@@ -35,8 +35,9 @@ fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     return select(select(normal.yz, vec2(position.z, normal.x), first == 2u), position.xy, first == 0u);
 }
 
-// A workgroup of MESH_GROUP a row of the chunk's block table. Indices first: they wait for nothing,
-// and are on their way while the points are fetched.
+// Meshes an even number of sides. A workgroup of MESH_GROUP for each row of the chunk's block
+// table. Indices come first: they wait for nothing, and are on their way while the points are
+// fetched.
 @compute @workgroup_size(MESH_GROUP)
 fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {
@@ -69,7 +70,7 @@ fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     }
 }
 
-// The same for an odd number of sides, 8 bytes at a time.
+// Meshes an odd number of sides, 8 bytes at a time.
 @compute @workgroup_size(MESH_GROUP)
 fn mesh_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
             @builtin(local_invocation_index) lane: u32) {

@@ -13,8 +13,8 @@ const PACKED_GROUP = 64u;
 @group(0) @binding(44) var<storage, read_write> packed_words: array<u32>;
 @group(0) @binding(10) var<storage, read> packed_cap_rows: array<CapRow>;
 
-// The lowest bits of the whole quanta that are nearest to a coordinate. Products are by powers of
-// two, so nothing but the last step rounds.
+// The lowest bits of the number of whole quanta nearest to a coordinate. Factors are powers of two,
+// so only the last step rounds.
 fn packed_coordinate(mm: f32) -> u32 {
     let quanta = mm * params.quanta_per_mm;
     let rest = quanta - round(quanta * (1.0 / QUANTA_WRAP)) * QUANTA_WRAP;
@@ -29,7 +29,8 @@ fn packed_position(position: vec3<f32>) -> vec2<u32> {
     return vec2(x | (y << COORDINATE_BITS), (y >> (32u - COORDINATE_BITS)) | (z << (2u * COORDINATE_BITS - 32u)));
 }
 
-// The word of a normal: on the octahedron |x| + |y| + |z| = 1, whose lower half is folded outwards.
+// The word of a normal, projected to the octahedron |x| + |y| + |z| = 1, whose lower half is folded
+// outwards.
 fn packed_normal(normal: vec3<f32>) -> u32 {
     let scale = 1.0 / (abs(normal.x) + abs(normal.y) + abs(normal.z));
     var level = normal.xy * scale;
@@ -41,8 +42,8 @@ fn packed_normal(normal: vec3<f32>) -> u32 {
 }
 
 // Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at
-// `point`, the second of the vertex at `next`, which is another one only where the first is the
-// word of a normal.
+// `point`, the second is of the vertex at `next`. The two vertices differ only where the first word
+// is a normal's.
 fn two_words(ring: u32, first: u32, point: vec4<f32>, next: vec4<f32>) -> vec2<u32> {
     let stance = stance_of(ring);
     let position = packed_position(position_at(stance, next));
@@ -53,7 +54,7 @@ fn two_words(ring: u32, first: u32, point: vec4<f32>, next: vec4<f32>) -> vec2<u
     return select(vec2(position.y, normal), vec2(normal, position.x), first == 2u);
 }
 
-// One word, likewise.
+// One word of ring `ring`'s vertices, likewise.
 fn one_word(ring: u32, first: u32, point: vec4<f32>) -> u32 {
     let stance = stance_of(ring);
     if first == 2u {
@@ -63,7 +64,8 @@ fn one_word(ring: u32, first: u32, point: vec4<f32>) -> u32 {
     return select(position.y, position.x, first == 0u);
 }
 
-// A workgroup of PACKED_GROUP a row of the chunk's block table. For an even number of sides.
+// Packs an even number of sides. A workgroup of PACKED_GROUP for each row of the chunk's block
+// table.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
           @builtin(local_invocation_index) lane: u32) {
@@ -89,7 +91,7 @@ fn packed(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     }
 }
 
-// The same for an odd number of sides, 4 bytes at a time.
+// Packs an odd number of sides, 4 bytes at a time.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
@@ -113,7 +115,8 @@ fn packed_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// A lane a cap vertex: the end ring's position again, with the end's own normal.
+// The packed vertices of caps: the end ring's position again, with the end's own normal. A lane for
+// each cap vertex.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {

@@ -1,10 +1,10 @@
 // The paper's algorithms 2 and 4, one lane a yarn: the yardstick that the schedule per-ring is
 // measured against. After common.wgsl.
 //
-// The twin of per_yarn.cl. Only what the paper does: upright, untwisted, open yarns without caps. A
-// lane's share is a part, a run of one yarn's rings in a chunk, so that a fabric larger than a
-// device's buffers can be made at all. Here `blocks` has one row a part: its first block's, with
-// all of the part's rings.
+// The twin of per_yarn.cl. It does what the paper does: upright, untwisted, open yarns without
+// caps. A lane makes a part, a run of one yarn's rings in a chunk, so that a fabric may be larger
+// than a device's buffers. Here `blocks` has one row a part: its first block's, with all of the
+// part's rings.
 
 const PER_YARN_GROUP = 64u;
 
@@ -14,7 +14,7 @@ const PER_YARN_GROUP = 64u;
 @group(0) @binding(8) var<storage, read_write> indices: array<u32>;
 @group(0) @binding(9) var<storage, read_write> rings: array<vec4<u32>>;
 
-// Algorithm 2: for each control interval, K + 1 rings.
+// Algorithm 2: K + 1 rings for each control interval.
 @compute @workgroup_size(PER_YARN_GROUP)
 fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -63,7 +63,7 @@ fn stance_at(at: u32) -> Stance {
     return stance_new(centre, vec4(tangent, size.y), side_of(tangent, 0u, 0u, true), size.xz, vec2(0.0, 1.0));
 }
 
-// Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.
+// Algorithm 4: `sides` vertices for each ring, and the triangles to the next ring.
 @compute @workgroup_size(PER_YARN_GROUP)
 fn mesh_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

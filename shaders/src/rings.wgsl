@@ -1,4 +1,4 @@
-// A block's rings in workgroup memory: what the stages of the schedule per-ring begin with. After
+// A block's rings in workgroup memory, with which all stages of the schedule per-ring begin. After
 // common.wgsl, and after RINGS_BEYOND: 1 where the ring that the block's last quads lead to is
 // wanted, too, else 0.
 //
@@ -18,13 +18,13 @@ struct BlockRings {
     centre: array<vec4<f32>, RINGS_HELD>,
     // Unit tangent, growth of the half width.
     tangent: array<vec4<f32>, RINGS_HELD>,
-    // As `side_of` gives it, and the half height.
+    // The side of `side_of`, and the half height.
     side: array<vec4<f32>, RINGS_HELD>,
     height_growth: array<f32, RINGS_HELD>,
     // Sine and cosine of the roll against the outline: where yarns are FLATTENED.
     sin_cos: array<vec2<f32>, RINGS_HELD>,
     roll: array<u32, RINGS_HELD>,
-    // The turns of each eight rings.
+    // Sums of the turns of eight rings each.
     eights: array<u32, RINGS_HELD / 8u>,
 }
 
@@ -43,8 +43,8 @@ fn lean_of(yarn: YarnRow, ring: u32) -> u32 {
     return rolls[params.yarns + params.leans + yarn.first_block * BLOCK_RINGS + ring];
 }
 
-// Makes the rings of `block`: one lane a ring. Every lane of the workgroup, which has
-// at least RINGS_HELD, must come here.
+// Makes the rings of `block`: a lane for each ring. The workgroup has at least RINGS_HELD lanes,
+// and every lane must call it.
 fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     let rings = rings_made(block);
     var here: RingSample;
@@ -53,7 +53,7 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     if lane < rings {
         here = ring_sample(yarn, block, lane);
         standing.tangent[lane] = vec4(here.sample.tangent, here.sample.width_growth);
-        // The step from the ring before needs the offset; the side takes its place afterwards.
+        // The step from the ring before needs the offset. The side takes its place afterwards.
         standing.side[lane] = vec4(here.sample.offset, 0.0);
     }
     if params.rolled != 0u {
@@ -85,7 +85,8 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
             let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block.first_ring + lane, start + sum - turn, rolls[block.yarn]);
             lean = lean_of(yarn, block.first_ring + lane);
-            // An upright section leans with its outline; one that is carried along starts so.
+            // An upright section leans with its outline. A section that is carried along only
+            // starts with that lean.
             if yarn.frame == ROTATION_MINIMIZING {
                 roll += lean_of(yarn, 0u);
             } else {

@@ -14,7 +14,8 @@ var<workgroup> turn_tangents: array<vec3<f32>, TURNS_GROUP>;
 var<workgroup> turn_offsets: array<vec3<f32>, TURNS_GROUP>;
 var<workgroup> turn_sums: array<u32, TURNS_GROUP>;
 
-// A workgroup of TURNS_GROUP a row of a chunk's block table, chunk after chunk.
+// The turn of each block, chunk after chunk. A workgroup of TURNS_GROUP for each row of a chunk's
+// block table.
 @compute @workgroup_size(TURNS_GROUP)
 fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
@@ -32,8 +33,8 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         turn_offsets[lane] = here.sample.offset;
     }
     workgroupBarrier();
-    // The steps to the ring after each: as many as quads, so the last leads to the next block's
-    // first ring.
+    // A step leads from a ring to the next. There are as many as quads, so the last leads to the
+    // next block's first ring.
     var turn = 0u;
     if lane < block.quads {
         var next_tangent: vec3<f32>;
@@ -50,7 +51,7 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     }
     turn_sums[lane] = turn;
     workgroupBarrier();
-    // Eight lanes add up eight turns each, then one the eight sums.
+    // Eight lanes add up eight turns each, then one lane adds up the eight sums.
     if lane < TURNS_GROUP / 8u {
         for (var further = lane + 8u; further < TURNS_GROUP; further += 8u) {
             turn += turn_sums[further];
@@ -68,8 +69,8 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
 
 var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
 
-// A workgroup of ROLLS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on: turns
-// become rolls in place, tile by tile, and their total the yarn's whole turn.
+// Turns become rolls in place, tile by tile, and their total becomes the yarn's whole turn. A
+// workgroup of ROLLS_GROUP for each of `params.blocks` yarns from `params.first_yarn` on.
 @compute @workgroup_size(ROLLS_GROUP)
 fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {

@@ -20,7 +20,7 @@ const PULL_SOURCE: &str = concat!(
 );
 const STEP_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_step.wgsl"));
 
-/// Chords from places: a lane a chord.
+/// Chords from places. A lane for each chord.
 pub const CHORDS: Shader = Shader {
     entry_point: "settling_chords",
     source: concat!(include_str!("settling.wgsl"), include_str!("settling_chords.wgsl")),
@@ -34,7 +34,7 @@ pub const CHORDS: Shader = Shader {
     ],
 };
 
-/// The longest chord and where chords' middles lie: a row a workgroup.
+/// The longest chord, and the box round all middles. A row from each workgroup.
 pub const EXTENT: Shader = Shader {
     entry_point: "settling_extent",
     source: LIST_SOURCE,
@@ -42,7 +42,7 @@ pub const EXTENT: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::Extents)],
 };
 
-/// How many chords each cell has: a lane a chord.
+/// The number of chords in each cell. A lane for each chord.
 pub const CELL_COUNT: Shader = Shader {
     entry_point: "settling_cell_count",
     source: LIST_SOURCE,
@@ -50,7 +50,7 @@ pub const CELL_COUNT: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::CellStarts)],
 };
 
-/// Each cell's chords: a lane a chord.
+/// Chords sorted by cells. A lane for each chord.
 pub const CELL_FILL: Shader = Shader {
     entry_point: "settling_cell_fill",
     bindings: &[
@@ -62,7 +62,7 @@ pub const CELL_FILL: Shader = Shader {
     ..CELL_COUNT
 };
 
-/// Sums of all values before each one, in place: a workgroup each [`SCAN_VALUES`] of them.
+/// Replaces each value by the sum of those before it. A workgroup scans [`SCAN_VALUES`] values.
 pub const SCAN: Shader = Shader {
     entry_point: "settling_scan",
     source: include_str!("settling_scan.wgsl"),
@@ -70,13 +70,14 @@ pub const SCAN: Shader = Shader {
     bindings: &[write(Resource::ScanValues), write(Resource::ScanSums)],
 };
 
-/// Adds what all groups before have: likewise.
+/// Adds to each value the sum of all workgroups before its own. The workgroups are those of
+/// [`SCAN`].
 pub const SCAN_ADD: Shader = Shader { entry_point: "settling_scan_add", ..SCAN };
 
 /// Values of a workgroup of [`SCAN`].
 pub const SCAN_VALUES: u32 = 1024;
 
-/// How many neighbours each chord has: a lane a chord.
+/// The number of each chord's neighbours. A lane for each chord.
 pub const COUNT: Shader = Shader {
     entry_point: "settling_count",
     source: LIST_SOURCE,
@@ -94,11 +95,11 @@ pub const COUNT: Shader = Shader {
     ],
 };
 
-/// Each chord's neighbours: a lane a chord.
+/// The neighbours of each chord. A lane for each chord.
 pub const FILL: Shader = Shader { entry_point: "settling_fill", ..COUNT };
 
-/// What pulls at intervals in the weighted form, and a row of what was seen for each workgroup: a
-/// lane a place.
+/// Pulls at each interval's points, in the weighted form. A lane for each place; each workgroup
+/// writes a row of what it has seen.
 pub const PULL_WEIGHTED: Shader = Shader {
     entry_point: "settling_pull_weighted",
     source: PULL_SOURCE,
@@ -116,11 +117,11 @@ pub const PULL_WEIGHTED: Shader = Shader {
     ],
 };
 
-/// The same in the block form.
+/// [`PULL_WEIGHTED`] in the block form.
 pub const PULL_BLOCK: Shader = Shader { entry_point: "settling_pull_block", ..PULL_WEIGHTED };
 
-/// The step of each control point in the weighted form, and the longest one in each workgroup's
-/// row: a lane a place.
+/// The step of each point, in the weighted form. A lane for each place; the longest step goes into
+/// the workgroup's row.
 pub const STEP_WEIGHTED: Shader = Shader {
     entry_point: "settling_step_weighted",
     source: STEP_SOURCE,
@@ -138,10 +139,10 @@ pub const STEP_WEIGHTED: Shader = Shader {
     ],
 };
 
-/// The same in the block form.
+/// [`STEP_WEIGHTED`] in the block form.
 pub const STEP_BLOCK: Shader = Shader { entry_point: "settling_step_block", ..STEP_WEIGHTED };
 
-/// Places beyond yarns' ends: a lane a yarn.
+/// The places beyond yarns' ends. A lane for each yarn.
 pub const ENDS: Shader = Shader {
     entry_point: "settling_ends",
     source: STEP_SOURCE,
@@ -149,7 +150,7 @@ pub const ENDS: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Strands), write(Resource::NextPlaces)],
 };
 
-/// What a pass has seen, from the rows of all workgroups: one workgroup.
+/// What a pass has seen, from the rows of all workgroups. One workgroup.
 pub const SEEN: Shader = Shader {
     entry_point: "settling_seen",
     source: PULL_SOURCE,
@@ -159,7 +160,7 @@ pub const SEEN: Shader = Shader {
 
 const POINTS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_points.wgsl"));
 
-/// Control points from places, where yarns have come to rest: a lane a place.
+/// Control points from settled places. A lane for each place.
 pub const POINTS: Shader = Shader {
     entry_point: "settling_points",
     source: POINTS_SOURCE,
@@ -173,8 +174,7 @@ pub const POINTS: Shader = Shader {
     ],
 };
 
-/// How far control points reach: any number of workgroups, each of which takes every so many
-/// places.
+/// The box round all control points. Any number of workgroups share the places.
 pub const BOUNDS: Shader = Shader {
     entry_point: "settling_bounds",
     source: POINTS_SOURCE,
@@ -187,7 +187,7 @@ pub const BOUNDS: Shader = Shader {
     ],
 };
 
-/// All of them.
+/// All shaders of settling.
 pub const ALL: [&Shader; 16] = [
     &CHORDS,
     &EXTENT,

@@ -87,12 +87,12 @@ fn length3(a: vec3<f32>) -> f32 {
     return sqrt(dot3(a, a));
 }
 
-// Within 0 and 1.
+// `value`, limited to 0 to 1.
 fn share(value: f32) -> f32 {
     return min(max(value, 0.0), 1.0);
 }
 
-// A way of so many units, mm.
+// A way in units, in mm.
 fn to_mm(units: vec3<i32>) -> vec3<f32> {
     return vec3<f32>(units) * settling.unit;
 }
@@ -111,7 +111,7 @@ fn halves(place: vec4<i32>) -> vec2<f32> {
 
 struct Interval {
     start: vec3<i32>,
-    // What goes with u, u^2 and u^3, mm.
+    // Coefficients of u, u^2 and u^3, mm.
     c1: vec3<f32>,
     c2: vec3<f32>,
     c3: vec3<f32>,
@@ -161,13 +161,13 @@ fn interval_reach(interval: Interval, u: f32, towards: vec3<f32>) -> f32 {
     if width == height || level <= VERTICAL * square {
         return width;
     }
-    // Side is (-y, x, 0), up is t x side, both over their lengths.
+    // Side is (-y, x, 0), up is tangent x side, both over their lengths.
     let aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
     let up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
     return sqrt((aside * aside + up * up / square) / level);
 }
 
-// Its length by Gauss's rule of three places, mm.
+// The length of an interval by Gauss's rule of three nodes, mm.
 fn interval_arc(interval: Interval) -> f32 {
     let outer = length3(interval_velocity(interval, GAUSS_1)) + length3(interval_velocity(interval, GAUSS_3));
     return outer * GAUSS_OUTER + length3(interval_velocity(interval, GAUSS_2)) * GAUSS_MIDDLE;
@@ -186,26 +186,26 @@ fn chord_of(first: vec4<u32>, second: vec4<u32>) -> Chord {
     return Chord(bitcast<vec3<i32>>(first.xyz), first.w, bitcast<vec3<f32>>(second.xyz), bitcast<f32>(second.w));
 }
 
-// Where a chord's middle lies, units.
+// The middle of a chord, units.
 fn chord_middle(chord: Chord) -> vec3<i32> {
     return chord.at + to_units(chord.span * 0.5);
 }
 
-// How many repeats away the image of a chord lies that is nearest to another one, which begins
-// `way` before it.
+// The number of repeats to a chord's image that is nearest to another chord, which begins `way`
+// before it.
 fn nearest_image(one: vec3<f32>, other: vec3<f32>, way: vec3<i32>) -> vec2<i32> {
     let apart = to_mm(way) + (other - one) * 0.5;
     let frequency = vec2(settling.frequency_x, settling.frequency_y);
     return -vec2<i32>(floor(apart.xy * frequency + 0.5));
 }
 
-// A way to something, to the image of that so many repeats away.
+// The way to the image that is `image` repeats away.
 fn to_image(way: vec3<i32>, image: vec2<i32>) -> vec3<i32> {
     return vec3(way.x + image.x * settling.period_x, way.y + image.y * settling.period_y, way.z);
 }
 
-// Shares of two chords where they come nearest to one another; the second begins `way` from the
-// first.
+// The places where two chords come nearest to one another, as shares of them. The second begins
+// `way` from the first.
 fn chords_nearest(one: vec3<f32>, other: vec3<f32>, way: vec3<f32>) -> vec2<f32> {
     let a = max(dot3(one, one), SHORT);
     let e = max(dot3(other, other), SHORT);
@@ -213,7 +213,7 @@ fn chords_nearest(one: vec3<f32>, other: vec3<f32>, way: vec3<f32>) -> vec2<f32>
     let c = -dot3(one, way);
     let f = -dot3(other, way);
     let determinant = a * e - b * b;
-    // Of parallel chords one place does as well as another.
+    // On parallel chords one place does as well as another.
     var first = 0.5;
     if determinant > PARALLEL * (a * e) {
         first = share((b * f - c * e) / determinant);

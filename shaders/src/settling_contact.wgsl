@@ -1,11 +1,11 @@
-// Where two intervals come near one another, and what that does. After settling.wgsl, before
-// settling_pull.wgsl.
+// Contacts: where two intervals come near one another, and the pulls that follow. After
+// settling.wgsl, before settling_pull.wgsl.
 //
 // settling_contact.cl is the twin of this file, and contact.rs and the first half of pass.rs of
 // texere-core the definition.
 
-// What an interval has seen: the least distance to another yarn, mm, the same over both reaches,
-// the least radius of curvature in diameters.
+// What an interval has seen: the least distance to another yarn, mm; the least distance over the
+// sum of both reaches; the least radius of curvature, in diameters.
 struct Sight {
     near: f32,
     clearance: f32,
@@ -20,7 +20,7 @@ struct Contact {
 }
 
 // What a contact asks of the first interval's points: the step of its place, mm, the direction to
-// the other yarn, and what each of the four counts. The weights are all 0 where it asks for
+// the other yarn, and the weight of each of the four points. Weights are all 0 where it asks for
 // nothing.
 struct Push {
     back: vec3<f32>,
@@ -28,8 +28,8 @@ struct Push {
     weights: vec4<f32>,
 }
 
-// What four points count, where one of them stands beyond an open yarn's end: those that it is made
-// of count instead.
+// The weights of four points. A point beyond an open yarn's end hands its weight to the points that
+// it is made of.
 fn folded(tags: u32, weights: vec4<f32>) -> vec4<f32> {
     var own = weights;
     if (tags & TAG_OPENS) != 0u {
@@ -41,7 +41,7 @@ fn folded(tags: u32, weights: vec4<f32>) -> vec4<f32> {
     return own;
 }
 
-// What each of an interval's four control points counts at `u`.
+// The weight of each of an interval's four control points at `u`.
 fn point_weights(u: f32) -> vec4<f32> {
     let s = settling.s;
     let square = u * u;
@@ -57,7 +57,7 @@ fn contact_at(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>) -> 
     return Contact(at, between, length3(between));
 }
 
-// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes
+// The exact places near `at`: one step of Newton's method, at most `stride` long, if it comes
 // nearer.
 fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride: vec2<f32>) -> Contact {
     let start = contact_at(one, other, way, at);
@@ -81,7 +81,7 @@ fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride
     return start;
 }
 
-// The direction from the first place to the second. Where both are one, it is square to both yarns.
+// The direction from the first place to the second. Where both coincide it is square to both yarns.
 fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3<f32>) -> vec3<f32> {
     var way = contact.way;
     if contact.distance <= ONE_PLACE {
@@ -98,14 +98,14 @@ fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3
     return vec3(0.0, 0.0, 1.0);
 }
 
-// The chord whose neighbours are gone through: its number, where its list ends, and where it lies.
+// The chord whose neighbours are visited: its number, where its list ends, and the chord itself.
 struct ListedChord {
     number: u32,
     end: u32,
     chord: Chord,
 }
 
-// Goes on to the chord that entry `next` of an interval's lists is a neighbour of.
+// Goes on to the chord that has entry `next` of an interval's lists.
 fn go_to(here: ptr<function, ListedChord>, next: u32) {
     while next >= (*here).end {
         (*here).number += 1u;
@@ -119,12 +119,12 @@ fn go_to(here: ptr<function, ListedChord>, next: u32) {
 struct Meeting {
     interval: Interval,
     tags: u32,
-    // Its first chord, and one over how many there are.
+    // Its first chord, and one over the number of its chords.
     first: u32,
     step: f32,
 }
 
-// Another chord where it comes nearest to the one here.
+// Another chord at the place where it comes nearest to the one here.
 struct Approach {
     there: Chord,
     image: vec2<i32>,
@@ -144,7 +144,7 @@ fn approach_of(here: Chord, number: u32) -> Approach {
     return approach;
 }
 
-// Whether chord `number` may touch the one here. Of one that may not, how far it is off is seen.
+// Whether chord `number` may touch the one here. The distance of one that may not is noted.
 fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
     let approach = approach_of(here, number);
     let most = here.thickest + approach.there.thickest;
@@ -158,15 +158,15 @@ fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
 
 const MOST_AT_ONCE = 32u;
 
-// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort
-// them out first meet those few together.
+// The neighbours that may touch, of the `count` from entry `begin` on, a bit for each. Lanes first
+// sort them out, and then meet those few together.
 fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sight>) -> u32 {
     var here = start;
     var bits = 0u;
     for (var entry = 0u; entry < count; entry++) {
         go_to(&here, begin + entry);
         let number = neighbours[begin + entry];
-        // A number that is no chord's is no neighbour.
+        // An entry whose number is no chord's is left over.
         if number < settling.chords {
             bits |= u32(may_touch(here.chord, number, sight)) << entry;
         }
@@ -174,7 +174,7 @@ fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sig
     return bits;
 }
 
-// What chord `number` does to the one here.
+// The contact of chord `number` with the one here.
 fn meet(one: Meeting, here: ListedChord, number: u32, sight: ptr<function, Sight>) -> Push {
     var push: Push;
     let approach = approach_of(here.chord, number);

@@ -1,4 +1,4 @@
-// Which chords are neighbours. After settling.wgsl.
+// Lists of neighbours. After settling.wgsl.
 //
 // settling_list.cl is the twin of this file, and neighbours.rs of texere-core the definition.
 // Chords are sorted into cells in any order, but a chord's neighbours end in the order of their
@@ -7,12 +7,14 @@
 @group(0) @binding(14) var<storage, read> strands: array<StrandRow>;
 @group(0) @binding(16) var<storage, read> chord_rows: array<vec4<u32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
-// Behind each cell lies its count; then where its next chord goes; in the end, where it ends.
+// The entry behind each cell is first its count, then where its next chord goes, and in the end
+// where the cell ends.
 @group(0) @binding(18) var<storage, read_write> cell_counts: array<atomic<u32>>;
 @group(0) @binding(18) var<storage, read> cells: array<u32>;
 @group(0) @binding(19) var<storage, read_write> to_sort: array<u32>;
 @group(0) @binding(19) var<storage, read> sorted: array<u32>;
-// How many neighbours each chord has; then where they begin, and the end of the last one's.
+// First the number of each chord's neighbours, then where they begin, and the end of the last
+// chord's.
 @group(0) @binding(20) var<storage, read_write> starts: array<u32>;
 @group(0) @binding(21) var<storage, read_write> neighbours: array<u32>;
 @group(0) @binding(25) var<storage, read_write> extents: array<ExtentRow>;
@@ -36,7 +38,7 @@ fn extent_of_both(one: ExtentRow, other: ExtentRow) -> ExtentRow {
     );
 }
 
-// Groups that go through all chords: the longest one, and where the outermost middles lie.
+// The longest chord, and the box round all middles. Any number of workgroups share the chords.
 @compute @workgroup_size(SETTLING_EXTENT_GROUP)
 fn settling_extent(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {
@@ -62,7 +64,7 @@ fn settling_extent(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgro
 
 // ---- Cells ----
 
-// The cell along one axis: `low` is 0 where that repeats.
+// The number of a cell along one axis. `low` is 0 where the axis repeats.
 fn cell_along(middle: i32, period: i32, low: i32, size: u32, count: u32) -> u32 {
     var beyond = bitcast<u32>(middle - low);
     if period > 0 {
@@ -86,7 +88,8 @@ fn chord_cell(number: u32) -> u32 {
 
 const SETTLING_CELL_GROUP = 64u;
 
-// A lane a chord: adds it to its cell's count, which lies one behind the cell.
+// Counts the chords of each cell: a lane for each chord. A cell's count lies one entry behind the
+// cell.
 @compute @workgroup_size(SETTLING_CELL_GROUP)
 fn settling_cell_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -96,7 +99,7 @@ fn settling_cell_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
     }
 }
 
-// A lane a chord: writes it into its cell.
+// Sorts chords into cells: a lane for each chord.
 @compute @workgroup_size(SETTLING_CELL_GROUP)
 fn settling_cell_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                       @builtin(local_invocation_index) lane: u32) {
@@ -109,14 +112,13 @@ fn settling_cell_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_work
 
 // ---- Neighbours ----
 
-// Whether so little of the yarn is between an end and a start.
+// Whether no more than `window` of the yarn lies between an end and a start.
 fn between(end: u32, start: u32, window: i32) -> bool {
     let units = bitcast<i32>(start - end);
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of
-// one another.
+// Whether two chords of one yarn lie so close along it that they can't be clear of one another.
 fn leads_on(one: vec4<u32>, other: vec4<u32>, image: vec2<i32>, window: i32, strand: StrandRow) -> bool {
     let shift = vec2(strand.shift_x, strand.shift_y);
     let here = all(image == vec2(0)) && (between(one.z, other.y, window) || between(other.z, one.y, window));
@@ -144,8 +146,8 @@ fn are_neighbours(number: u32, one: Chord, other_number: u32, other: Chord) -> b
     return !leads_on(chord_rows[number], chord_rows[other_number], image, window, strands[yarn]);
 }
 
-// The first cell to visit along an axis (x) and how many (y): its own and those beside it, each
-// once.
+// The first cell to visit along an axis (x) and the number of cells (y): a chord's own cell and
+// those beside it, each once.
 fn cells_beside(cell: u32, period: i32, count: u32) -> vec2<u32> {
     if count < 3u {
         return vec2(0u, count);
@@ -157,8 +159,8 @@ fn cells_beside(cell: u32, period: i32, count: u32) -> vec2<u32> {
     return vec2(first, min(cell + 1u, count - 1u) - first + 1u);
 }
 
-// Finds the neighbours of chord `number`, and gives back how many there are. It puts up to `room`
-// of them into the list from `start` on, each where it belongs in the order of numbers.
+// Finds the neighbours of chord `number`, and returns their number. It puts up to `room` of them
+// into the list from `start` on, sorted by number.
 fn find_neighbours(number: u32, start: u32, room: u32) -> u32 {
     let one = chord(number);
     let cell = cell_of(chord_middle(one));
@@ -190,7 +192,7 @@ fn find_neighbours(number: u32, start: u32, room: u32) -> u32 {
 
 const SETTLING_LIST_GROUP = 64u;
 
-// A lane a chord: how many neighbours it has.
+// Counts the neighbours of each chord: a lane for each.
 @compute @workgroup_size(SETTLING_LIST_GROUP)
 fn settling_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                   @builtin(local_invocation_index) lane: u32) {
@@ -200,8 +202,9 @@ fn settling_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgrou
     }
 }
 
-// A lane a chord: its neighbours. What is left, if the compiler made other roundings of this shader
-// than of the one that has counted, gets a number that is no chord's.
+// Lists the neighbours of each chord: a lane for each. The compiler may round differently here than
+// in the shader that counted. Entries that are left over for that reason get a number that is no
+// chord's.
 @compute @workgroup_size(SETTLING_LIST_GROUP)
 fn settling_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

@@ -1,4 +1,4 @@
-// Control points from where yarns have come to rest, and how far they reach. After settling.wgsl.
+// Control points from settled places, and the box round them. After settling.wgsl.
 //
 // The formulas are those of texere-core (Scale::point, renew_virtual_ends), and settling_points.cl
 // is the twin of this file.
@@ -37,8 +37,8 @@ struct BoundsRow {
 @group(0) @binding(32) var<storage, read> settled_rows: array<SettledRow>;
 @group(0) @binding(33) var<storage, read_write> bounds: array<BoundsRow>;
 
-// Where a place lies, mm: origin + units * unit, rounded once. Units are split in two parts that
-// floats hold exactly, and what the first sum loses is added to the other part.
+// The position of a place, mm: origin + units * unit, rounded once. Units are split into two parts
+// that floats hold exactly. What the first sum loses is added to the other part.
 fn position(place: u32) -> vec3<f32> {
     let units = places[place].xyz;
     let high = vec3<f32>(units >> vec3(12u)) * (f32(4096) * settled.unit);
@@ -53,7 +53,8 @@ fn control_point(position: vec3<f32>, halves: u32) -> vec4<u32> {
     return vec4(bitcast<vec3<u32>>(position), halves);
 }
 
-// A lane a place: the control point there, and the virtual ends that hang on it.
+// Writes control points: a lane for each place, which also writes the virtual ends that depend on
+// it.
 @compute @workgroup_size(64)
 fn settling_points(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {
@@ -91,7 +92,8 @@ const BOUNDS_GROUP = 256u;
 var<workgroup> lane_low: array<vec3<i32>, BOUNDS_GROUP>;
 var<workgroup> lane_high: array<vec3<i32>, BOUNDS_GROUP>;
 
-// How far control points reach: a row a workgroup, each of which takes every so many places.
+// The box round control points: a row from each workgroup. Any number of workgroups share the
+// places.
 @compute @workgroup_size(BOUNDS_GROUP)
 fn settling_bounds(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {

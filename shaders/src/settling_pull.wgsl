@@ -1,14 +1,13 @@
-// What pulls at the four control points of each interval. After settling.wgsl and
-// settling_contact.wgsl.
+// Pulls at the four control points of each interval. After settling.wgsl and settling_contact.wgsl.
 //
 // settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs the definition. Sums
 // go in the order of the lists.
 //
-// Lanes write planes of one number for each place, side by side. First those of the slots: in the
-// weighted form eight for each, contacts' ways (x, y, z) and their weights, and the same of bends;
-// in the block form nine, all ways and the squares of their directions (xx, xy, xz, yy, yz, zz).
-// Then half of the length that is too much (x, y, z), the length, the least distance seen, mm, and
-// the least one over both reaches.
+// Lanes write planes, each with one number for each place. The planes of the four slots come first.
+// A slot of the weighted form has eight: ways (x, y, z) and weight of contacts, then the same of
+// bends. A slot of the block form has nine: all ways, and the squares of their directions (xx, xy,
+// xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the length, the least distance
+// seen, mm, and the least distance over the sum of both reaches.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
@@ -26,8 +25,8 @@ fn interval_at(place: u32) -> Interval {
     return interval_of(places[place - 1u], places[place], places[place + 1u], places[place + 2u]);
 }
 
-// A bend at one place of an interval: where it would go, and how much each point counts. All 0
-// where it may bend so.
+// A bend at one place of an interval: where it would go, and the weight of each point. All 0 where
+// the bend is allowed.
 struct Bend {
     towards: vec3<f32>,
     way: vec3<f32>,
@@ -73,7 +72,7 @@ fn meeting_at(place: u32) -> Meeting {
     return one;
 }
 
-// Before the first neighbour of an interval whose chords begin with number `first`.
+// The start of an interval's visits to neighbours. The number of its first chord is `first`.
 fn before_listed(first: u32) -> ListedChord {
     var here: ListedChord;
     here.number = first - 1u;
@@ -95,8 +94,8 @@ fn write(plane: u32, place: u32, value: f32) {
     pulls[plane * settling.places + place] = value;
 }
 
-// Writes what an interval knows of itself from plane `plane` on, and gives back its share in what
-// all have seen.
+// Writes the length and distances of an interval from plane `plane` on, and returns its share in
+// what all have seen.
 fn write_own(plane: u32, place: u32, length: vec3<f32>, arc: f32, sight: Sight) -> SeenRow {
     let wanted = lengths[place];
     write(plane, place, length.x);
@@ -115,7 +114,7 @@ fn write_way(plane: u32, place: u32, way: vec4<f32>) {
     write(plane + 3u, place, way.w);
 }
 
-// Writes four slots' ways and weights from plane `plane` of each on.
+// Writes the ways and weights of four slots, from plane `plane` of each slot on.
 fn write_ways(plane: u32, place: u32, ways: Ways) {
     write_way(plane, place, ways.a);
     write_way(WEIGHTED_SLOT + plane, place, ways.b);
@@ -131,7 +130,7 @@ struct Ways {
     d: vec4<f32>,
 }
 
-// The same with one more, where the four count `ways` of `way`, and weigh `weights`.
+// The sums with one more pull: each point adds `ways` times `way`, and `weights`.
 fn add_ways(sums: Ways, way: vec3<f32>, ways: vec4<f32>, weights: vec4<f32>) -> Ways {
     return Ways(
         sums.a + vec4(way * ways.x, weights.x),
@@ -176,7 +175,7 @@ fn pull_weighted(place: u32) -> SeenRow {
     return write_own(4u * WEIGHTED_SLOT, place, length, arc, sight);
 }
 
-// All ways at a point, and the squares of their directions.
+// The sum of all ways at a point, and of the squares of their directions.
 struct Block {
     way: vec3<f32>,
     // xx, xy, xz and yy, yz, zz.
@@ -200,7 +199,7 @@ struct Blocks {
     d: Block,
 }
 
-// The same with one more, where the four count `ways` of `way`, and `weights` in `direction`.
+// The sums with one more pull: each point adds `ways` times `way`, and `weights` in `direction`.
 fn add_blocks(sums: Blocks, way: vec3<f32>, ways: vec4<f32>, direction: vec3<f32>, weights: vec4<f32>) -> Blocks {
     return Blocks(
         add_block(sums.a, way * ways.x, direction, weights.x),
@@ -257,7 +256,7 @@ fn pull_block(place: u32) -> SeenRow {
     return write_own(4u * BLOCK_SLOT, place, length, arc, sight);
 }
 
-// The least of what both have seen near, the most of lengths and steps.
+// What both have seen: the least distances and radii, the most of lengths and steps.
 fn seen_by_both(one: SeenRow, other: SeenRow) -> SeenRow {
     return SeenRow(
         min(one.clearance, other.clearance),
@@ -271,7 +270,7 @@ const SETTLING_PULL_GROUP = 64u;
 
 var<workgroup> lane_seen: array<SeenRow, SETTLING_PULL_GROUP>;
 
-// Writes the row of a group: what its lanes have seen, by a fixed tree.
+// Writes the row of a workgroup: what its lanes have seen, joined by a fixed tree.
 fn write_row(number: u32, lane: u32, seen: SeenRow) {
     lane_seen[lane] = seen;
     for (var reach = SETTLING_PULL_GROUP / 2u; reach > 0u; reach /= 2u) {
@@ -289,8 +288,8 @@ fn has_interval(place: u32) -> bool {
     return place < settling.places && (place_rows[place].tags & TAG_INTERVAL) != 0u;
 }
 
-// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each
-// group.
+// Pulls of all intervals in the weighted form: a lane for each place, at which an interval begins.
+// Each workgroup writes a row of what it has seen.
 @compute @workgroup_size(SETTLING_PULL_GROUP)
 fn settling_pull_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                           @builtin(local_invocation_index) lane: u32) {
@@ -303,7 +302,7 @@ fn settling_pull_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_
     write_row(number, lane, seen);
 }
 
-// The same in the block form.
+// Pulls of all intervals in the block form, likewise.
 @compute @workgroup_size(SETTLING_PULL_GROUP)
 fn settling_pull_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -320,7 +319,7 @@ const SETTLING_SEEN_GROUP = 256u;
 
 var<workgroup> lane_rows: array<SeenRow, SETTLING_SEEN_GROUP>;
 
-// One group: what all rows have seen.
+// Joins the rows of all workgroups: one workgroup.
 @compute @workgroup_size(SETTLING_SEEN_GROUP)
 fn settling_seen(@builtin(local_invocation_index) lane: u32) {
     let count = (settling.places + SETTLING_PULL_GROUP - 1u) / SETTLING_PULL_GROUP;

@@ -1,7 +1,7 @@
-// Sums of all counts before each one. It needs no other file.
+// Scans: each count is replaced by the sum of all before it. It needs no other file.
 //
-// settling_scan.cl is the twin of this file. Sums stop at the largest number, so that too many are
-// seen.
+// settling_scan.cl is the twin of this file. Sums saturate at the largest number, so that too many
+// are noticed.
 
 const SETTLING_SCAN_GROUP = 256u;
 // Counts of a lane.
@@ -18,8 +18,8 @@ fn add_sat(a: u32, b: u32) -> u32 {
     return select(sum, 0xffffffffu, sum < a);
 }
 
-// A group its SETTLING_SCAN_GROUP * SCAN_VALUES values, in place; `sums` gets the sum of each
-// group.
+// Each workgroup scans SETTLING_SCAN_GROUP * SCAN_VALUES values in place, and writes their sum to
+// `sums`.
 @compute @workgroup_size(SETTLING_SCAN_GROUP)
 fn settling_scan(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {
@@ -58,7 +58,7 @@ fn settling_scan(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
     }
 }
 
-// The same groups: adds what all groups before have, by their scanned sums.
+// Each workgroup adds to its values the scanned sum of all workgroups before.
 @compute @workgroup_size(SETTLING_SCAN_GROUP)
 fn settling_scan_add(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                      @builtin(local_invocation_index) lane: u32) {

@@ -1,4 +1,4 @@
-// The step that each control point takes. After settling.wgsl.
+// Steps of control points. After settling.wgsl.
 //
 // settling_step.cl is the twin of this file, and Gathered in texere-core's pass.rs the definition.
 
@@ -7,15 +7,16 @@
 @group(0) @binding(22) var<storage, read_write> lengths: array<f32>;
 @group(0) @binding(23) var<storage, read> pulls: array<f32>;
 @group(0) @binding(24) var<storage, read_write> rows: array<SeenRow>;
-// The step that each place has taken last, mm.
+// The last step of each place, mm.
 @group(0) @binding(28) var<storage, read_write> steps: array<vec4<f32>>;
 @group(0) @binding(29) var<storage, read_write> next: array<vec4<i32>>;
 
 const WEIGHTED_SLOT = 8u;
 const BLOCK_SLOT = 9u;
 
-// The places of the intervals that pull at a point, by the slot that it has there: the one that
-// begins a place behind it, at it, one and two places before it. NOWHERE where the yarn has none.
+// The places of the four intervals that pull at a point, by the point's slot there. They begin one
+// place behind it, at it, one place before it, and two places before it. NOWHERE where the yarn has
+// none.
 const NOWHERE = 0xffffffffu;
 
 fn interval_place(strand: StrandRow, number: i32) -> u32 {
@@ -40,7 +41,7 @@ fn intervals_of(strand: StrandRow, place: u32) -> vec4<u32> {
     );
 }
 
-// A number of the pull of interval `interval`, or what stands for nothing.
+// A number of the pull of interval `interval`; `nothing` where there is none.
 fn pulled(plane: u32, interval: u32, nothing: f32) -> f32 {
     if interval == NOWHERE {
         return nothing;
@@ -48,7 +49,7 @@ fn pulled(plane: u32, interval: u32, nothing: f32) -> f32 {
     return pulls[plane * settling.places + interval];
 }
 
-// Plane `plane` of each interval's slot of `slot` planes, added up.
+// The sum of plane `plane` over the point's slots in all four intervals. A slot has `slot` planes.
 fn gathered(intervals: vec4<u32>, slot: u32, plane: u32) -> f32 {
     return pulled(plane, intervals.x, 0.0) + pulled(slot + plane, intervals.y, 0.0)
         + pulled(2u * slot + plane, intervals.z, 0.0) + pulled(3u * slot + plane, intervals.w, 0.0);
@@ -69,7 +70,7 @@ fn least_seen(intervals: vec4<u32>, plane: u32) -> f32 {
     );
 }
 
-// The step along z that plates make a point take, mm.
+// The step along z that the plates ask of a point, mm.
 fn press(place: vec4<i32>) -> f32 {
     if (settling.flags & PLATES) == 0u {
         return 0.0;
@@ -79,7 +80,7 @@ fn press(place: vec4<i32>) -> f32 {
     return select(far, -far, z >= 0.0);
 }
 
-// No longer than a share of the least distance seen and of the diameter.
+// A step, limited to a share of the least distance seen and of the diameter.
 fn within_limits(step: vec3<f32>, place: vec4<i32>, near: f32) -> vec3<f32> {
     let both = halves(place);
     let diameter = 2.0 * min(both.x, both.y);
@@ -97,7 +98,7 @@ fn step_weighted(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec
     let contacts = gathered(intervals, WEIGHTED_SLOT, 3u);
     let bend = gathered_way(intervals, WEIGHTED_SLOT, 4u);
     let bends = gathered(intervals, WEIGHTED_SLOT, 7u);
-    // Yarns that are about to cross obey contact alone.
+    // Where yarns are about to pass through one another, contact alone counts.
     let apart = share((least_seen(intervals, own + 5u) / settling.growth - CROSSING) * CROSSING_SHARE);
     let length = vec3(
         pulled(own, intervals.y, 0.0) - pulled(own, intervals.z, 0.0),
@@ -118,7 +119,7 @@ fn step_block(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec3<f
     let yy = gathered(intervals, BLOCK_SLOT, 6u) + INERTIA;
     let yz = gathered(intervals, BLOCK_SLOT, 7u);
     let zz = gathered(intervals, BLOCK_SLOT, 8u) + INERTIA;
-    // What the symmetrical matrix turns into `right`: by its cofactors.
+    // Solves matrix * x = `right` by cofactors; the matrix is symmetric.
     let a = yy * zz - yz * yz;
     let b = xz * yz - xy * zz;
     let c = xy * yz - xz * yy;
@@ -136,8 +137,8 @@ fn step_block(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec3<f
     return within_limits(step, place, least_seen(intervals, 4u * BLOCK_SLOT + 4u));
 }
 
-// The length that an interval is to have after a pass in which lengths are free. `plane` has the
-// arcs of all intervals.
+// The length that an interval shall have after a pass in which lengths are free. `plane` holds the
+// lengths of all intervals.
 fn freed(plane: u32, intervals: vec4<u32>, length: f32, start: f32) -> f32 {
     var sum = 0.0;
     var count = 0.0;
@@ -156,7 +157,7 @@ const SETTLING_STEP_GROUP = 64u;
 
 var<workgroup> lane_longest: array<f32, SETTLING_STEP_GROUP>;
 
-// Takes the step of place `place`, and writes the longest one of the group into its row.
+// Takes the step of place `place`, and writes the workgroup's longest step into its row.
 fn take_step(group: u32, lane: u32, block: bool) {
     let number = group * SETTLING_STEP_GROUP + lane;
     var longest = 0.0;
@@ -194,14 +195,14 @@ fn take_step(group: u32, lane: u32, block: bool) {
     }
 }
 
-// A lane a place: its step, and where it takes it.
+// Steps in the weighted form: a lane for each place.
 @compute @workgroup_size(SETTLING_STEP_GROUP)
 fn settling_step_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                           @builtin(local_invocation_index) lane: u32) {
     take_step(group.y * grid.x + group.x, lane, false);
 }
 
-// The same in the block form.
+// Steps in the block form, likewise.
 @compute @workgroup_size(SETTLING_STEP_GROUP)
 fn settling_step_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -210,12 +211,12 @@ fn settling_step_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
 
 const SETTLING_ENDS_GROUP = 64u;
 
-// The place as far beyond `here` as `other` is before it.
+// The mirror image of `other` in `here`.
 fn reflected(here: vec4<i32>, other: vec4<i32>) -> vec4<i32> {
     return vec4(here.xyz + (here.xyz - other.xyz), here.w);
 }
 
-// A lane a yarn: makes the places beyond its ends anew.
+// Renews the places beyond the ends of yarns: a lane for each yarn.
 @compute @workgroup_size(SETTLING_ENDS_GROUP)
 fn settling_ends(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

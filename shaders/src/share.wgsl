@@ -2,8 +2,8 @@
 //
 // share.cl is the twin of this file.
 
-// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same
-// one, `store`, of ring `ring` and of each `step`th ring after it. So a lane fetches its part of
+// A lane's share of the stores of a workgroup's rings, which all have as many stores. A lane makes
+// store number `store` of ring `ring` and of each `step`th ring after it. So it fetches its part of
 // the outline or of the pattern only once. Where a ring has more stores than the workgroup has
 // lanes, a lane goes on `across` stores further.
 struct Share {

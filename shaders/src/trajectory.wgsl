@@ -6,7 +6,7 @@ const TRAJECTORY_GROUP = 64u;
 
 @group(0) @binding(9) var<storage, read_write> rings: array<vec4<u32>>;
 
-// A workgroup of TRAJECTORY_GROUP a row of the chunk's block table.
+// A workgroup of TRAJECTORY_GROUP for each row of the chunk's block table.
 @compute @workgroup_size(TRAJECTORY_GROUP)
 fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {

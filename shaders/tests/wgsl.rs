@@ -9,7 +9,7 @@ use std::mem::offset_of;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
 use texere_core::backend::Block;
-use texere_core::crossings::{CrossingState, Lie};
+use texere_core::crossings::{CrossingState, ThreadState};
 use texere_core::definitions::Ring;
 use texere_core::settling::Place;
 use texere_core::{ArcLength, Attribute, ControlPoint, PackedVertex, SectionPoint, Vertex};
@@ -204,8 +204,8 @@ fn tables_of_crossings_lie_as_in_rust() {
     );
     // Read as vectors: the order of the fields matters.
     assert_eq!((offset_of!(CrossingState, warp), offset_of!(CrossingState, weft)), (0, 16));
-    assert_eq!([offset_of!(Lie, shift), offset_of!(Lie, height)], [0, 4]);
-    assert_eq!([offset_of!(Lie, half_width), offset_of!(Lie, half_height)], [8, 12]);
+    assert_eq!([offset_of!(ThreadState, shift), offset_of!(ThreadState, height)], [0, 4]);
+    assert_eq!([offset_of!(ThreadState, half_width), offset_of!(ThreadState, half_height)], [8, 12]);
     assert_eq!([offset_of!(CrossingsSeenRow, step), offset_of!(CrossingsSeenRow, clearance)], [0, 4]);
 }
 

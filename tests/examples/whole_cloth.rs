@@ -1,5 +1,5 @@
-//! A whole design on a device, vertex by vertex against the CPU: for cloths that are too large for
-//! the suite.
+//! Compares the mesh of a whole design on a device with the CPU's, vertex by vertex, for cloths
+//! that are too large for the suite.
 //!
 //! ```sh
 //! cargo run --release -p texere-conformance --example whole_cloth -- designs/paper/1141x1050.toml wgpu:0 opencl:0
@@ -45,10 +45,10 @@ fn main() -> ExitCode {
 struct Worst {
     chunks: u64,
     vertices: u64,
-    /// Of a coordinate, in units of what is allowed: 1e-4 of the radius plus 4 units in the last
-    /// place.
+    /// Largest difference of a coordinate, in units of the tolerance: 1e-4 of the radius plus 4
+    /// units in the last place.
     position: f32,
-    /// Of a normal's component, in units of 1e-4.
+    /// Largest difference of a normal's component, in units of 1e-4.
     normal: f32,
     wrong_indices: u64,
 }
@@ -77,7 +77,7 @@ fn compare(yarns: &Yarns, device: &dyn Backend) -> Worst {
         ControlFlow::Continue(())
     });
     let _: ControlFlow<()> = flow.unwrap();
-    // A chunk whose pieces never came would not have been missed above.
+    // The comparison above would not notice a chunk whose pieces never came.
     assert!(
         worst.vertices >= plan.counts().vertices,
         "{} vertices of {}",
@@ -87,7 +87,7 @@ fn compare(yarns: &Yarns, device: &dyn Backend) -> Worst {
     worst
 }
 
-/// A chunk's mesh as the CPU makes it.
+/// The mesh of a chunk, made by the CPU.
 struct Expected {
     chunk: u64,
     vertices: Vec<Vertex>,
@@ -114,7 +114,7 @@ impl Worst {
                         let apart =
                             (found.position[axis] - gold.position[axis]).abs() / (1e-4 * radius + 4.0 * ulp);
                         let turned = (found.normal[axis] - gold.normal[axis]).abs() / 1e-4;
-                        // A NaN must not be lost in a comparison.
+                        // A comparison must not lose a NaN.
                         self.position = if apart <= self.position { self.position } else { apart };
                         self.normal = if turned <= self.normal { self.normal } else { turned };
                     }

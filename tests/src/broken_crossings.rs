@@ -1,5 +1,5 @@
-//! Broken settlers of crossings: each does one thing wrong, and the comparison with `cpu-serial`
-//! has to notice.
+//! Broken settlers of crossings. Each does one thing wrong, and the comparison with `cpu-serial`
+//! has to find it.
 
 use std::sync::Arc;
 
@@ -12,15 +12,15 @@ use texere_core::{BackendError, CrossingsError};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CrossingsSabotage {
-    /// Nothing.
+    /// No fault.
     None,
-    /// The first crossing finds itself in place of its next end.
+    /// The first crossing takes itself for its neighbour at the next end.
     LostNeighbour,
-    /// Crossings are found where they were a pass before.
+    /// Crossings have the positions that they had one pass before.
     StaleStep,
-    /// Beyond the last end and the last pick there is nothing.
+    /// The repeat is left out: there is nothing beyond the last end and the last pick.
     LostRepeat,
-    /// Momentum carries no crossing on.
+    /// There is no momentum.
     LostMomentum,
 }
 
@@ -29,15 +29,15 @@ impl CrossingsSabotage {
     pub const ALL: [Self; 4] = [Self::LostNeighbour, Self::StaleStep, Self::LostRepeat, Self::LostMomentum];
 }
 
-/// A settler of its own that is broken as its [`CrossingsSabotage`] says.
+/// A settler with code of its own, which is broken in the way of its [`CrossingsSabotage`].
 #[derive(Debug)]
 pub struct SabotagedCrossings {
     sabotage: CrossingsSabotage,
     plan: Arc<CrossingsPlan>,
-    /// What it works by: the same, or one without the repeat.
+    /// The plan that it works by: the given one, or one without the repeat.
     by: CrossingsPlan,
     crossings: Vec<CrossingState>,
-    /// As others find them, and as they found them a pass before.
+    /// The crossings as others see them, now and one pass before.
     found: Vec<CrossingState>,
     before: Vec<CrossingState>,
 }
@@ -47,7 +47,7 @@ impl SabotagedCrossings {
     ///
     /// # Errors
     ///
-    /// Those of [`CrossingsPlan::new`].
+    /// The errors of [`CrossingsPlan::new`].
     pub fn new(sabotage: CrossingsSabotage, problem: &Crossings) -> Result<Self, CrossingsError> {
         let plan = CrossingsPlan::new(problem)?;
         let by = match sabotage {
@@ -59,7 +59,7 @@ impl SabotagedCrossings {
         Ok(Self { sabotage, plan: Arc::new(plan), by, crossings, found, before })
     }
 
-    /// All crossings as crossing `number` finds them.
+    /// All crossings as crossing `number` sees them.
     fn found_by(&self, number: usize) -> Vec<CrossingState> {
         let mut found = match self.sabotage {
             CrossingsSabotage::StaleStep => {

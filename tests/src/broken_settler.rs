@@ -1,4 +1,4 @@
-//! Broken settlers: each does one thing wrong, and the comparison with `cpu-serial` has to notice.
+//! Broken settlers. Each does one thing wrong, and the comparison with `cpu-serial` has to find it.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use texere_core::settling::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SettlingSabotage {
-    /// Nothing.
+    /// No fault.
     None,
-    /// The chord with the most neighbours meets none of them.
+    /// The chord with the most neighbours ignores all of them.
     LostContacts,
-    /// Yarns that go on in a repeat have their places beyond their ends copied without its shift.
+    /// Positions beyond the ends of yarns that go on in a repeat lack the shift of the repeat.
     LostShift,
-    /// Neighbours are those that were listed first.
+    /// Lists of neighbours are never renewed.
     StaleList,
     /// A point's pulls begin one interval too early.
     WrongSlot,
@@ -30,8 +30,8 @@ impl SettlingSabotage {
     pub const ALL: [Self; 4] = [Self::LostContacts, Self::LostShift, Self::StaleList, Self::WrongSlot];
 }
 
-/// A settler of its own that compares every chord with every other, and that is broken as its
-/// [`SettlingSabotage`] says.
+/// A settler with code of its own. It compares every chord with every other, and is broken in the
+/// way of its [`SettlingSabotage`].
 #[derive(Debug)]
 pub struct SabotagedSettler {
     sabotage: SettlingSabotage,
@@ -41,11 +41,11 @@ pub struct SabotagedSettler {
     kept: Vec<Place>,
     steps: Vec<Vec3>,
     lengths: Vec<f32>,
-    /// Of each chord.
+    /// The neighbours of each chord.
     neighbours: Vec<Vec<u32>>,
 }
 
-/// An interval that begins at a place, where one does, and all chords with their places.
+/// For each place, the interval that begins there, if one does; and all chords with their places.
 type Lines = (Vec<Option<Interval>>, Vec<(usize, Chord)>);
 
 impl SabotagedSettler {

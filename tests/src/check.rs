@@ -1,4 +1,4 @@
-//! The check of one fabric on one device, every way through a session.
+//! The check of one fabric on one device, in every way through a session.
 
 use std::sync::Arc;
 
@@ -14,9 +14,9 @@ use crate::drive::{DriveError, Way, drive};
 use crate::limits::Tight;
 use crate::oracle::Oracle;
 
-/// Runs `yarns` under `settings` on `device` every way through a session, and compares: with the
-/// oracle, with the gold reference (to the bit where `exact`), the whole with chunks of a few
-/// blocks, a closed yarn's end with its start.
+/// Runs `yarns` with `settings` on `device` in every way through a session, and compares the
+/// output. It is compared with the oracle and with the gold reference (to the bit where `exact` is
+/// set). The whole is compared with chunks of a few blocks, and a closed yarn's end with its start.
 ///
 /// ```
 /// use texere_conformance::{DeferredBackend, cases, check};
@@ -36,7 +36,7 @@ pub fn check(
     check_within(yarns, settings, Tight::Blocks, device, exact)
 }
 
-/// [`check`], with chunks cut to the limit that is `tight`.
+/// [`check`] with chunks that are cut to the limit `tight`.
 ///
 /// **Errors**: [`DriveError`] where the device fails.
 pub fn check_within(

@@ -1,4 +1,4 @@
-//! Whether a device does what it says that it can, and nothing else.
+//! A device can do what it claims, and nothing else.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use texere_core::{Backend, BackendError, Pipeline, PipelineError, Settings, Yarn
 
 use crate::{cases, rest};
 
-/// Passes where all that [`DeviceInfo::can`](texere_core::DeviceInfo::can) names opens, and all
-/// else is refused as what it is. Pictures are left to those who draw them.
+/// Passes if every capability in [`DeviceInfo::can`](texere_core::DeviceInfo::can) opens, and every
+/// other one is refused by name. Pictures have tests of their own.
 pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     let can = device.info().can;
     let yarns = cases::winding(100, Yarn::default());
@@ -32,7 +32,7 @@ pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     holds("pack", can.pack, Pipeline::new(&yarns).packed(device), refused)
 }
 
-/// Passes where `done` succeeds just if the device says that it can.
+/// Passes if `done` succeeds exactly where the device claims the capability.
 fn holds<T, E: std::error::Error + Send + Sync + 'static>(
     what: &str,
     said: bool,
@@ -56,7 +56,7 @@ mod tests {
 
     use super::*;
 
-    /// A device that says something else of itself than what it does; it settles nothing.
+    /// A device whose claims differ from what it does. It settles nothing.
     #[derive(Debug)]
     struct Boasting(DeviceInfo, Box<dyn Backend>);
 

@@ -1,9 +1,9 @@
-//! A backend that behaves like a GPU, and gives the gold reference's output.
+//! A backend that behaves like a GPU, with the output of the gold reference.
 //!
-//! Launches only record what to do; the work is done when it is read. Chunks are as small as they
-//! get, results come in small pieces from memory that held NaN before, and a third chunk takes the
-//! memory of the first. So it shows where the core or the suite relies on results being there
-//! early, as they are on a CPU.
+//! A launch only records the work, which is done when it is read. Chunks are as small as possible.
+//! Results come in small pieces from memory that held NaN before, and a third chunk takes the
+//! memory of the first. The backend thus shows whether the core or the suite relies on results
+//! being there early, as they are on a CPU.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 /// The most bytes of a lent piece.
 const PIECE_BYTES: usize = 4096;
 
-/// A block, and the row for the ring that a cut repeats.
+/// The memory of a chunk: one block, and the row of the ring that a cut repeats.
 const LIMITS: Limits = Limits { blocks: 2, ..Limits::NONE };
 
 /// The serial backend behind a queue.
@@ -156,7 +156,7 @@ impl Engine for DeferredEngine {
     }
 }
 
-/// Lends `all` in pieces of [`PIECE_BYTES`], each with the number of its first.
+/// Lends `all` in pieces of [`PIECE_BYTES`], each with the number of its first element.
 fn lend<T>(all: &[T], mut sink: impl FnMut(u32, &[T]) -> ControlFlow<()>) -> ControlFlow<()> {
     let each = PIECE_BYTES / size_of::<T>();
     all.chunks(each).enumerate().try_for_each(|(number, piece)| sink((number * each) as u32, piece))

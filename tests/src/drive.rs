@@ -1,4 +1,4 @@
-//! Drives a backend's session by hand, into poisoned memory, and keeps all that it hands over.
+//! Drives the session of a backend by hand, into poisoned memory, and keeps all of its output.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DriveError {
-    /// The case's settings can't be planned for, or its chunks don't fit the device.
+    /// The case's settings give no plan, or its chunks do not fit the device.
     #[error("the case can't be planned")]
     Plan(#[from] PlanError),
     /// The session, or the backend behind it, failed.
@@ -23,13 +23,13 @@ pub enum DriveError {
     Session(#[from] SessionError),
 }
 
-/// The ways through a session; all must give the same output.
+/// The ways through a session. All have to give the same output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Straight into the caller's memory, both stages in one; rings from a stage of their own
-    /// afterwards.
+    /// Both stages in one, straight into the caller's memory; rings afterwards, from a stage of
+    /// their own.
     Into,
-    /// Two chunks in flight: one is worked on while the one before is read. Control points come in
+    /// Two chunks in flight: one is computed while the one before is read. Control points come in
     /// pieces.
     Streamed,
     /// Stage 1, read, stage 2, read; control points come in pieces, the last piece first.
@@ -43,11 +43,11 @@ pub struct DeviceOutput {
     pub plan: Arc<Plan>,
     /// The chunks.
     pub chunks: Vec<Chunk>,
-    /// What came for each of them.
+    /// The output of each chunk.
     pub meshes: Vec<ChunkOutput>,
 }
 
-/// A backend's output for a chunk, as long as planned.
+/// The output of a backend for one chunk, with the planned length.
 #[derive(Debug)]
 pub struct ChunkOutput {
     /// Its rings.
@@ -68,18 +68,18 @@ impl ChunkOutput {
     }
 }
 
-/// Control points that a piecewise upload sends at a time: many pieces even for a small fabric, and
-/// never whole yarns.
+/// Control points in one piece of a piecewise upload. Even a small fabric takes many pieces, and no
+/// piece is a whole yarn.
 const PIECE_POINTS: usize = 7;
 
-/// Pieces that a piecewise upload is cut into at most.
+/// The most pieces of a piecewise upload.
 const PIECES: usize = 100;
 
-/// Runs `yarns` through a new session of `device`, chunks cut to `limits` and the device's own, by
-/// `way`.
+/// Runs `yarns` through a new session of `device` in the way of `way`. Chunks are cut to `limits`
+/// and to the limits of the device.
 ///
-/// Breaches of a session's rules (too many pieces, or out of order) go to `report`; whether the
-/// output is right is for a comparison to find.
+/// Breaches of a session's rules, such as too many pieces or pieces out of order, go to `report`.
+/// The output itself is not checked.
 ///
 /// **Errors**: [`DriveError`] where planning or the backend fails.
 pub fn drive(
@@ -137,8 +137,8 @@ fn upload(session: &mut Session, yarns: &Yarns, way: Way) -> Result<(), SessionE
     pieces.into_iter().try_for_each(|(first, piece)| session.upload(first, piece))
 }
 
-/// Copies `piece` to `out` from `at` on, if it follows the piece before and fits; gives back
-/// whether it does.
+/// Copies `piece` to `out` from `at` on, if it follows the previous piece and fits. Returns whether
+/// it does.
 fn take<T: Copy>(
     what: &str,
     done: &mut usize,
@@ -240,7 +240,7 @@ fn proceed(fits: bool) -> ControlFlow<()> {
     if fits { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
 
-/// Reports missing output, unless the sink itself broke off.
+/// Reports missing output, unless the sink itself stopped.
 fn note_end(what: &str, answer: ControlFlow<()>, done: usize, planned: usize, report: &mut Report) {
     if answer.is_continue() && done < planned {
         report.note(Fault::Missing, RingPlace::default(), format_args!("{planned} {what}"), done);

@@ -1,14 +1,14 @@
-//! The proof that every backend of texere gives matching output.
+//! The conformance suite: it proves that all backends of texere give matching output.
 //!
 //! Every [case](cases) runs on every device that a [registry](REGISTRY) opens, and is compared with
 //! an [f64 oracle](oracle) that shares no geometry with the core, and with the gold reference, the
 //! serial CPU backend. [`compare`] has the tolerances; the broken backends of [`Sabotage`] show
 //! that the comparison can fail.
 //!
-//! [`rest`] has starts for cloth that settles, and a check of how it came to rest.
+//! [`rest`] has starts for settling, and checks of the cloth at rest.
 //!
-//! A session's times, and the bytes that an edit moves, are checked on each device too. A backend
-//! from elsewhere runs the whole suite with one line: see [`run`].
+//! The suite also checks a session's times and the bytes that an edit moves, on each device. A
+//! backend from elsewhere runs the whole suite with one line: see [`run`].
 
 mod broken_crossings;
 mod broken_settler;

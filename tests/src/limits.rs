@@ -1,16 +1,16 @@
-//! Limits so tight that a plan is cut into several chunks.
+//! Tight limits, which cut a plan into several chunks.
 
 use texere_core::backend::Plan;
 use texere_core::{Limits, PlanError};
 
-/// The suite's own chunks hold at most this share of a plan's blocks: every case of more than one
-/// block is cut, and none into so many chunks that it takes long.
+/// The suite's own chunks hold at most this share of a plan's blocks. Every case of more than one
+/// block is cut, but none into so many chunks that it takes long.
 const CUTS: u64 = 40;
 
 /// The limit that chunks are cut to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tight {
-    /// None: all in one chunk, as far as the device takes it.
+    /// No limit: one chunk, if the device takes it.
     Nothing,
     /// The blocks of a launch.
     Blocks,
@@ -21,8 +21,8 @@ pub enum Tight {
 }
 
 impl Tight {
-    /// Limits that leave room for the largest block of `plan`, `room` times over, beside the ring
-    /// that a cut repeats.
+    /// Limits with room for `room` times the largest block of `plan`, and for the ring that a cut
+    /// repeats.
     #[must_use]
     pub fn limits(self, plan: &Plan, room: u64) -> Limits {
         let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
@@ -39,12 +39,12 @@ impl Tight {
     }
 }
 
-/// The least value of a limit that holds the largest block of `plan`, found from the errors for
-/// anything less.
+/// The least value of a limit that holds the largest block of `plan`. It is found from the errors
+/// of smaller values.
 ///
 /// # Panics
 ///
-/// Where a refusal names another limit than it was given, or asks for no more than that.
+/// If a refusal names another limit than the given one, or does not ask for more than that.
 #[must_use]
 pub fn least(plan: &Plan, limits: impl Fn(u64) -> Limits) -> u64 {
     let mut limit = 0;

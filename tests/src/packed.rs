@@ -1,5 +1,4 @@
-//! Packed vertices against the mesh that they stand for, unpacked in f64 by code of this file's
-//! own.
+//! Packed vertices against the mesh, unpacked in f64 by code of this file.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -10,14 +9,14 @@ use texere_core::backend::{Plan, Session, SessionError};
 use texere_core::{Backend, Limits, MeshPiece, MeshPlace, PackedVertex, Quantum, Settings, Vertex, Yarns};
 use thiserror::Error;
 
-/// How far a normal may be turned by packing, rad: half a step of either coordinate where a step
-/// turns it most, in the middle of a face.
+/// Angle by which packing may turn a normal, rad: half a step of either coordinate in the middle of
+/// a face, where a step turns it most.
 const NORMAL: f64 = 6.6e-5;
 
-/// How much further a GPU's may be, whose two kernels need not round alike, rad.
+/// Further angle that is allowed on a GPU, rad, because its two kernels need not round alike.
 const NORMAL_NEAR: f64 = 1e-5;
 
-/// What packed vertices are wrong in.
+/// An error of packed vertices.
 #[derive(Debug, Error)]
 pub enum PackedError {
     /// The device failed, or packs nothing.
@@ -28,19 +27,19 @@ pub enum PackedError {
     Position {
         /// The vertex.
         place: MeshPlace,
-        /// Where the mesh has it, mm.
+        /// Its position in the mesh, mm.
         expected: DVec3,
-        /// Where it unpacks, mm.
+        /// Its unpacked position, mm.
         actual: DVec3,
     },
-    /// A normal points elsewhere than the mesh's.
+    /// A normal differs too much from the mesh's.
     #[error("{place:?} points to {actual}, not {expected}")]
     Normal {
         /// The vertex.
         place: MeshPlace,
         /// The mesh's normal.
         expected: DVec3,
-        /// The normal that it unpacks to.
+        /// The unpacked normal.
         actual: DVec3,
     },
     /// Two vertices of one corner of one ring, in two chunks or in two cuts, are packed
@@ -49,17 +48,19 @@ pub enum PackedError {
     Crack {
         /// The vertex.
         place: MeshPlace,
-        /// As it is packed here.
+        /// Its bits in the one place.
         one: PackedVertex,
-        /// As it is packed there.
+        /// Its bits in the other place.
         other: PackedVertex,
     },
 }
 
-/// Packs the vertices of `yarns` on `device`, in chunks of `limits` and in those of the device's
-/// own, and checks that each lies within half a quantum of the mesh's (within one unless `exact`),
-/// that its normal is as near, and that the same corner of the same ring is packed alike wherever
-/// it is: in a cap, where a chunk repeats it, where a closed yarn does, and in both cuts.
+/// Packs the vertices of `yarns` on `device`, in chunks of `limits` and in chunks of the device's
+/// own limits, and checks them.
+///
+/// Each has to lie within half a quantum of the mesh's vertex, or within one quantum unless `exact`
+/// is set, with a normal as near. A corner of a ring has to be packed alike wherever it occurs: in
+/// a cap, in a ring that a chunk or a closed yarn repeats, and in both cuts.
 ///
 /// ```
 /// use texere_conformance::{cases, check_packed};
@@ -88,14 +89,14 @@ pub fn check_packed(
             let near = control_point(yarns, &plan, &place);
             let (actual, expected) =
                 (position(packed, near, settings.quantum), DVec3::from(vertex.position.map(f64::from)));
-            // Where f32 has no finer digits, two kernels may differ by its last one.
+            // Two kernels may differ in the last digit of f32, where that is coarser.
             let digits =
                 if exact { 0.0 } else { 4.0 * f64::from(f32::EPSILON) * expected.abs().max_element() };
             if !(actual - expected).abs().cmple(DVec3::splat(most + digits)).all() {
                 return Err(PackedError::Position { place, expected, actual });
             }
             let (actual, expected) = (normal(packed), DVec3::from(vertex.normal.map(f64::from)));
-            // Not by the cosine, which says nothing of small angles.
+            // The cosine is useless for small angles.
             if !(actual.cross(expected).length() <= turned && actual.dot(expected) > 0.0) {
                 return Err(PackedError::Normal { place, expected, actual });
             }
@@ -115,7 +116,7 @@ pub fn check_packed(
     Ok(())
 }
 
-/// All packed vertices and those of the mesh, with their places.
+/// All packed vertices, with the mesh's vertices and their places.
 fn both(
     yarns: &Yarns,
     plan: &Arc<Plan>,
@@ -160,8 +161,8 @@ fn control_point(yarns: &Yarns, plan: &Plan, place: &MeshPlace) -> DVec3 {
     DVec3::new(point.x.into(), point.y.into(), point.z.into())
 }
 
-/// The position nearest to `near` that the bits may stand for: bits 0 to 20, 21 to 41 and 42 to 62
-/// of the 64.
+/// The position nearest to `near` that the 64 bits may stand for. Coordinates are bits 0 to 20, 21
+/// to 41 and 42 to 62.
 fn position(packed: PackedVertex, near: DVec3, quantum: Quantum) -> DVec3 {
     let bits = u64::from(packed.position[0]) | u64::from(packed.position[1]) << 32;
     let (step, range) = (f64::from(quantum.mm()), f64::from(1u32 << 21));
@@ -172,7 +173,7 @@ fn position(packed: PackedVertex, near: DVec3, quantum: Quantum) -> DVec3 {
     DVec3::new(coordinate(0), coordinate(1), coordinate(2))
 }
 
-/// The unit vector through the place of the octahedron that was unfolded to the steps.
+/// The unit vector of a normal that is packed as steps on an unfolded octahedron.
 fn normal(packed: PackedVertex) -> DVec3 {
     let flat = DVec2::from(packed.normal.map(|steps| f64::from(steps) / 32767.0));
     let z = 1.0 - flat.x.abs() - flat.y.abs();

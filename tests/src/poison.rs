@@ -1,9 +1,9 @@
-//! What memory is filled with before a stage runs.
+//! Poison: the values that fill memory before a stage runs.
 
 use texere_core::Vertex;
 use texere_core::definitions::{Ring, Turn};
 
-/// A NaN that no arithmetic gives: memory that still holds it was never written.
+/// A NaN that no arithmetic gives. Memory that still holds it was never written.
 const POISON: f32 = f32::from_bits(0x7fc0_bad1);
 
 /// A vertex that was never written.
@@ -21,10 +21,10 @@ pub(crate) const POISONED_RING: Ring = Ring {
     lean: Turn(0x7fc0_bad1),
 };
 
-/// An index that was never written; no chunk has so many vertices.
+/// An index that was never written. No chunk has so many vertices.
 pub(crate) const POISONED_INDEX: u32 = u32::MAX;
 
-/// Whether `value` is what memory was filled with before the backend ran.
+/// Whether `value` is poison.
 pub(crate) fn is_poison(value: f32) -> bool {
     value.to_bits() == POISON.to_bits()
 }

@@ -11,7 +11,8 @@ use texere_wgpu::WgpuBackend;
 use crate::DeferredBackend;
 use crate::cases::{self, Case};
 
-/// All devices on which yarns of a mesh are edited, and for each that does not open the reason.
+/// All devices on which yarns of a mesh can be edited, and for each device that does not open the
+/// reason.
 #[must_use]
 pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
     let (devices, missing): (Vec<_>, Vec<_>) = REGISTRY.iter().map(Entry::devices).unzip();
@@ -31,14 +32,14 @@ pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// Its name in `TEXERE_REQUIRE`.
+    /// The backend's name in `TEXERE_REQUIRE`.
     pub name: &'static str,
-    /// Whether its output must equal the gold reference to the bit.
+    /// Whether its output has to equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all its devices, each once for every schedule. A device that does not open counts as
-    /// missing, and so does a backend without devices.
+    /// Opens all of its devices, once for every schedule. A device that does not open counts as
+    /// missing, and a backend without devices does, too.
     pub open: OpenAll,
-    /// The cases that its devices get.
+    /// The cases that its devices run.
     pub cases: fn() -> Vec<Case>,
 }
 
@@ -52,19 +53,21 @@ impl Entry {
         Self { exact: true, ..Self::near(name, open) }
     }
 
-    /// A backend whose output equals it within the bounds of [`compare`](crate::compare).
+    /// A backend whose output equals the gold reference within the bounds of
+    /// [`compare`](crate::compare).
     #[must_use]
     pub const fn near(name: &'static str, open: OpenAll) -> Self {
         Self { name, exact: false, open, cases: cases::all }
     }
 
-    /// The same backend with other cases than [`cases::all`].
+    /// Replaces the cases, which are [`cases::all`] otherwise.
     #[must_use]
     pub const fn with_cases(self, cases: fn() -> Vec<Case>) -> Self {
         Self { cases, ..self }
     }
 
-    /// The devices that open, and for each that does not, or for a backend without any, the reason.
+    /// The devices that open. For each that does not, and for a backend without devices, the
+    /// reason.
     #[must_use]
     pub fn devices(&self) -> (Vec<Arc<dyn Backend>>, Vec<String>) {
         let (mut devices, mut missing) = (Vec::new(), Vec::new());
@@ -94,10 +97,10 @@ pub const REGISTRY: &[Entry] = &[
     Entry::near("wgpu", || open_each(WgpuBackend::devices(), WgpuBackend::open)),
 ];
 
-/// All devices of [`REGISTRY`] that are not held to the bits of `cpu-serial`, opened once: for
-/// stages without a schedule, so each under one of them.
+/// All devices of [`REGISTRY`] that need not equal the bits of `cpu-serial`. Each is opened once,
+/// with one schedule, for stages without a schedule.
 ///
-/// **Panics** where a backend that `TEXERE_REQUIRE` names has a device that does not open.
+/// **Panics** if a backend in `TEXERE_REQUIRE` has a device that does not open.
 #[must_use]
 pub fn near_devices() -> &'static [Arc<dyn Backend>] {
     static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
@@ -117,7 +120,7 @@ pub fn near_devices() -> &'static [Arc<dyn Backend>] {
     })
 }
 
-/// Opens each of the devices `listed`, with either schedule.
+/// Opens each device of `listed` with both schedules.
 fn open_each<B: Backend + 'static>(
     listed: Result<Vec<DeviceInfo>, BackendError>,
     open: fn(usize, Schedule) -> Result<B, BackendError>,

@@ -1,4 +1,4 @@
-//! Broken backends: each does one thing wrong, and the suite has to notice.
+//! Broken backends. Each does one thing wrong, and the suite has to find it.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -17,17 +17,18 @@ use texere_cpu::SerialBackend;
 use crate::compare::Fault;
 use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
-/// The fault of a broken backend. Unless it says otherwise, it happens once, in the second chunk.
+/// The fault of a broken backend. It happens once, in the second chunk, unless its doc says
+/// otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Sabotage {
-    /// Nothing.
+    /// No fault.
     None,
-    /// One vertex lies a thousandth of the radius off its place.
+    /// One vertex is off its place by a thousandth of the radius.
     ShiftedVertex,
     /// Two indices have changed places.
     SwappedIndices,
-    /// Only zeros, as from a device that lost its launch.
+    /// The output is zeros, as from a device that lost its launch.
     Zeros,
     /// One coordinate is NaN.
     NotANumber,
@@ -39,10 +40,9 @@ pub enum Sabotage {
     MissingPiece,
     /// A piece comes under the wrong number.
     MisplacedPiece,
-    /// One ring's section is turned by a hundredth of a radian.
+    /// The section of one ring is turned by a hundredth of a radian.
     RolledSection,
-    /// No outline leans, whatever the up directions of its yarn: a fault only of yarns that have
-    /// some.
+    /// Outlines do not lean. It is a fault only for yarns with up directions.
     LevelOutlines,
     /// Two yarns of the same length have changed places, in the first chunk.
     SwappedYarns,
@@ -56,9 +56,10 @@ pub enum Sabotage {
     LooseSeam,
     /// The last ring of every closed yarn differs from its first in the last bit.
     LooseEnd,
-    /// One vertex differs in the last bit: a fault only of a backend that promises equal bits.
+    /// One vertex differs in the last bit. It is a fault only for a backend that promises equal
+    /// bits.
     LastBit,
-    /// A cap covers a part of itself twice, in every chunk that has one.
+    /// Every cap covers a part of itself twice.
     OpenCap,
     /// Stage 2 takes no time.
     StoppedClock,
@@ -74,9 +75,9 @@ pub enum Sabotage {
     InwardPacked,
     /// The ring that a cut repeats is packed a quantum off.
     CrackedPacked,
-    /// It calls itself per-yarn, and refuses nothing.
+    /// The backend calls itself per-yarn, and refuses nothing.
     Eager,
-    /// It calls itself per-yarn, and refuses everything.
+    /// The backend calls itself per-yarn, and refuses everything.
     Lazy,
 }
 
@@ -101,7 +102,7 @@ impl Sabotage {
         Self::OpenCap,
     ];
 
-    /// The faults that the comparer must find in its output, and no others.
+    /// The faults that the comparison has to find in its output. It may find no others.
     #[must_use]
     pub const fn faults(self) -> &'static [Fault] {
         match self {
@@ -118,14 +119,14 @@ impl Sabotage {
             | Self::Lazy => &[],
             Self::ShiftedVertex => &[Fault::Position],
             Self::SwappedIndices | Self::OpenCap => &[Fault::Index],
-            // Bits, since the rings that it shares with the chunks beside it differ.
+            // Bits differ, too, because the chunks beside it share rings with it.
             Self::Zeros => {
                 &[Fault::Position, Fault::Normal, Fault::Size, Fault::Tangent, Fault::Index, Fault::Bits]
             }
             Self::NotANumber | Self::Infinity => &[Fault::NotFinite],
             Self::MissingChunk => &[Fault::Missing, Fault::Bits],
             Self::MissingPiece => &[Fault::Missing],
-            // Nothing after the misplaced piece is taken.
+            // Pieces after the misplaced one are not taken.
             Self::MisplacedPiece => &[Fault::Count, Fault::Missing, Fault::Bits],
             Self::RolledSection => &[Fault::Position, Fault::Normal, Fault::Roll],
             Self::LevelOutlines => &[Fault::Lean],
@@ -181,11 +182,11 @@ struct SabotagedEngine {
     plan: Arc<Plan>,
     serial: Box<dyn Engine>,
     sabotage: Sabotage,
-    /// The first upload, which [`Sabotage::LostEdit`] keeps.
+    /// The points of the first upload, which [`Sabotage::LostEdit`] keeps.
     kept: Vec<ControlPoint>,
 }
 
-/// The chunk that most sabotage happens in.
+/// The chunk in which most sabotage happens.
 const VICTIM: u64 = 1;
 
 impl SabotagedEngine {
@@ -279,8 +280,7 @@ fn roll(ring: &mut [Vertex]) {
     }
 }
 
-/// Exchanges the first two parts of a chunk that are equally long; `per_ring` values belong to each
-/// ring.
+/// Exchanges the first two parts of a chunk that are equally long. Each ring has `per_ring` values.
 fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
     if let [first, second, ..] = chunk.parts()
         && first.rings == second.rings

@@ -1,5 +1,5 @@
-//! The cases that a schedule does not do: decided here from the case, so that no backend can excuse
-//! itself.
+//! The cases that a schedule leaves out. They are decided here from the case, so that no backend
+//! can excuse itself.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use texere_core::{Backend, BackendError, DeviceInfo, Frame, Settings, Yarns};
 use crate::REGISTRY;
 use crate::registry::names;
 
-/// Whether `device` must refuse `yarns` under `settings`. Only [`Schedule::PerYarn`] leaves
+/// Whether `device` has to refuse `yarns` with `settings`. Only [`Schedule::PerYarn`] leaves
 /// anything out.
 #[must_use]
 pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
@@ -22,12 +22,12 @@ pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
             || (0..yarns.layout().yarns().len()).any(|yarn| yarns.layout().is_steep(yarn)))
 }
 
-/// All devices of [`REGISTRY`] on this machine that must do `yarns` under `settings`.
+/// All devices of [`REGISTRY`] on this machine that have to do `yarns` with `settings`.
 ///
 /// # Panics
 ///
-/// Where a device is missing of a backend that `TEXERE_REQUIRE` names. For other backends the
-/// reason is printed.
+/// If a device is missing of a backend in `TEXERE_REQUIRE`. For other backends the reason is
+/// printed.
 pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = Arc<dyn Backend>> {
     let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let opened = REGISTRY.iter().flat_map(move |entry| {
@@ -41,7 +41,7 @@ pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = 
     opened.filter(|device| !beyond(device.info(), yarns, settings))
 }
 
-/// Passes where `device` refuses `yarns` under `settings` as [`BackendError::Unsupported`].
+/// Passes if `device` refuses `yarns` with `settings` as [`BackendError::Unsupported`].
 pub(crate) fn refuses(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> Result<(), Failed> {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
     match device.engine(plan) {

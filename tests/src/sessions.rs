@@ -1,5 +1,5 @@
-//! Guarantees of every session besides its output: plausible times, and an edit that moves one
-//! yarn.
+//! Guarantees of every session besides its output: plausible times, and edits that move only their
+//! own bytes.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
@@ -17,7 +17,7 @@ use crate::packed::check_packed;
 use crate::schedule::beyond;
 use crate::{cases, rest};
 
-/// A guarantee's name, and the check of a device for it.
+/// The name of a guarantee, and its check on a device.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
 
 const PROMISES: [Promise; 6] = [
@@ -38,7 +38,7 @@ pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
     PROMISES.into_iter().map(trial).collect()
 }
 
-/// Settings and a yarn that use all stages: scan and caps too, unless the device's schedule does
+/// Settings and a yarn that use all stages, with scan and caps unless the device's schedule does
 /// neither.
 fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     if device.info().schedule == Schedule::PerYarn {
@@ -48,7 +48,7 @@ fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     (settings, Yarn { twist: 1.0, ..Yarn::default() })
 }
 
-/// Each stage takes time, and all of them together no more than the host's clock saw go by.
+/// Each stage takes time. All of them together take no more than the host's clock measured.
 fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);
@@ -60,7 +60,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     session.scan()?;
     for chunk in plan.chunks(&device.info().limits)? {
         session.trajectory(&chunk)?;
-        // Waits for the stage, so that reading is not a wait for it.
+        // Wait for the stage, so that reading does not.
         session.timings();
         let _ = session.read_trajectory(&chunk, &mut |_| ControlFlow::Continue(()))?;
         session.mesh(&chunk)?;
@@ -76,7 +76,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
         ("scan", scan, plan.needs_scan()),
         ("trajectory", trajectory, true),
         ("mesh", mesh, true),
-        // A device that works in the host's memory reads nothing back.
+        // A device in the host's memory reads nothing back.
         ("readback", readback, device.info().timed_by_device),
     ];
     for (stage, time, takes_time) in idle {
@@ -90,7 +90,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// A second scan without an upload in between does nothing.
+/// A second scan without an upload between does nothing.
 fn a_second_scan_is_no_work(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);
@@ -118,14 +118,14 @@ fn cloth() -> &'static Yarns {
     CLOTH.get_or_init(|| cases::design("paper/815x750.toml").yarns().unwrap())
 }
 
-/// Blocks of a chunk of that cloth: a few yarns each, and a yarn in two chunks now and then.
+/// Blocks per chunk of that cloth. A chunk has a few yarns, and some yarns lie in two chunks.
 const EDIT_LIMITS: Limits = Limits { blocks: 64, ..Limits::NONE };
 
 /// The edited yarn, a pick in the middle.
 const EDITED: usize = 815 + 375;
 
-/// A yarn that is uploaded again moves its own bytes and no more, reading its chunks moves theirs
-/// and no more, and they are what a new session makes of the edited cloth.
+/// A yarn that is uploaded again moves its own bytes and no others. Reading its chunks moves their
+/// bytes and no others. The chunks equal those of a new session with the edited cloth.
 fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
     let mut yarns = cloth().clone();
     let plan = Arc::new(Plan::new(yarns.layout().clone(), all_of(device).0)?);
@@ -191,7 +191,7 @@ fn meshes(session: &mut Session, chunks: &[Chunk]) -> Result<Vec<Lent>, SessionE
     chunks.iter().map(read).collect()
 }
 
-/// Packed vertices lie where the mesh's do, in chunks as in the whole.
+/// Packed vertices lie where the mesh's vertices do, in chunks and in the whole.
 fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
     if !device.info().can.pack {
         return Ok(());
@@ -205,8 +205,9 @@ fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Yarns that a settler has moved are meshed where it left them: as those that are read from it and
-/// sent again, but no byte goes over the host where that is not the device's own memory.
+/// Yarns that a settler has moved are meshed where it left them. The mesh equals that of yarns that
+/// are read and sent again. No byte goes through the host, unless the host's memory is the device's
+/// own.
 fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
     if !device.info().can.settle {
         return Ok(());
@@ -242,7 +243,7 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
         sent.upload(0, &points)?;
         sent.scan()?;
         let sent = meshes(&mut sent, &chunks)?;
-        // A unit of places, and the last bit of coordinates of a few mm.
+        // A unit of settling positions, and the last bit of coordinates of a few mm.
         let most = 4.0 * settling.scale().unit() + 2e-6;
         let vertices = |meshes: Vec<Lent>| meshes.into_iter().flat_map(|mesh| mesh.vertices);
         let mut count = 0;
@@ -255,7 +256,7 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
             }
             count += 1;
         }
-        // An edit of one point: virtual ends hang on others that were never sent.
+        // An edit of one point. Virtual ends depend on points that this edit does not send.
         let raised = [ControlPoint { z: points[1].z + 1.0, ..points[1] }];
         session.upload(1, &raised)?;
         session.scan()?;
@@ -277,7 +278,7 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
     Ok(())
 }
 
-/// Where in a chunk's vertices the edited yarn's lie: its tube's, and those of its caps.
+/// The ranges of a chunk's vertices that belong to the edited yarn: its tube and its caps.
 fn own_vertices(chunk: &Chunk, sides: u32) -> Vec<Range<u32>> {
     let parts = chunk.parts().iter().filter(|part| part.yarn as usize == EDITED);
     let caps = chunk.caps().iter().filter(|cap| cap.yarn as usize == EDITED);

@@ -16,22 +16,22 @@ use crate::schedule::{beyond, refuses};
 use crate::sessions;
 use crate::worst::Table;
 
-/// The flag that prints the largest errors, beside what is allowed.
+/// The flag that prints the largest errors beside their tolerances.
 const WORST: &str = "--worst";
 
 /// The flag that adds the product of all factors: [`cases::product`].
 const FULL: &str = "--full";
 
-/// Runs the suite on the backends of `registry` and says whether all is well.
+/// Runs the suite on the backends of `registry`. Returns whether all trials pass.
 ///
-/// `args` are those of a test program, its name first: `--list` and a filter among them. `--full`
-/// adds the cases of [`cases::product`], and `--worst` prints the largest errors, beside what is
-/// allowed.
+/// `args` are the arguments of a test program, its name first, such as `--list` and a filter.
+/// `--full` adds the cases of [`cases::product`], and `--worst` prints the largest errors beside
+/// their tolerances.
 ///
-/// Each trial is named `case::device`. A backend that is missing, or a device of it that does not
-/// open, shows as ignored with the reason, or as failed where the backend is among `required`:
-/// names with commas between them. To run the suite on a backend of your own takes one line in a
-/// test target without harness:
+/// Each trial is named `case::device`. A missing backend, or a device that does not open, shows as
+/// ignored with the reason. It shows as failed if the backend is in `required`, a list of names
+/// with commas between them. Running the suite on a backend of your own takes one line in a test
+/// target without harness:
 ///
 /// ```no_run
 /// # use texere_wgpu::{Schedule, WgpuBackend as MyBackend};
@@ -91,7 +91,7 @@ fn trial(case: Arc<Case>, device: Arc<dyn Backend>, exact: bool, worst: &Table) 
     })
 }
 
-/// A trial in place of those of a backend, or of a device of it, that is missing.
+/// A trial that stands for a missing backend, or for a missing device.
 fn missing(name: &str, must: bool, reason: String) -> Trial {
     Trial::ignorable_test(format!("{name}::missing"), move || {
         if must { Err(reason.into()) } else { Ok(Completion::ignored_with(reason)) }

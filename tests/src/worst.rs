@@ -1,4 +1,4 @@
-//! The table that `--worst` prints: the largest errors, beside what is allowed.
+//! The table that `--worst` prints: the largest errors beside their tolerances.
 
 use std::sync::{Arc, Mutex};
 
@@ -7,7 +7,7 @@ use crate::compare::{Quantity, Report, Worst};
 /// One trial's worst values, in the order of [`Quantity::ALL`].
 type Row = (String, [Worst; Quantity::ALL.len()]);
 
-/// The worst values of each trial, from all the threads that trials run on.
+/// The worst values of each trial, collected from all threads.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Table(Arc<Mutex<Vec<Row>>>);
 
@@ -16,8 +16,8 @@ impl Table {
         self.0.lock().unwrap().push((trial, Quantity::ALL.map(|quantity| report.worst(quantity))));
     }
 
-    /// Prints one line a trial and the worst of all last: each quantity's error, and its share of
-    /// what is allowed.
+    /// Prints one line for each trial, and the worst of all at the end: the error of each quantity,
+    /// and its share of the tolerance.
     pub(crate) fn print(&self) {
         let mut rows = self.0.lock().unwrap();
         rows.sort_by(|(a, _), (b, _)| a.cmp(b));

@@ -1,4 +1,4 @@
-//! Cloth that is moved, put together and taken apart keeps its mesh.
+//! Cloth keeps its mesh when it is moved, put together and taken apart.
 
 use glam::DVec3;
 use texere_conformance::cases;
@@ -13,8 +13,8 @@ fn vertices(yarns: &Yarns) -> Vec<Vertex> {
     Pipeline::new(yarns).settings(settings).mesh(&SerialBackend::new()).unwrap().vertices
 }
 
-/// A twisted, a closed and a flattened yarn. None runs straight up, where the upright frame has no
-/// side of its own.
+/// A twisted, a closed and a flattened yarn. None of them runs straight up, where the upright frame
+/// is not defined.
 fn cloth() -> Yarns {
     let twisted = cases::winding(60, Yarn { twist: 3.0, ..Yarn::default() });
     let closed = cases::winding(40, Yarn { closed: true, ..Yarn::default() });
@@ -62,7 +62,7 @@ fn cloths_are_put_together_and_taken_apart() {
     let both = Yarns::merged([&one, &other, &one]).unwrap();
     let counts = [&one, &other].map(|cloth| cloth.layout().yarns().len());
     assert_eq!(both.layout().yarns().len(), 2 * counts[0] + counts[1]);
-    // The third cloth brought nothing new.
+    // The third cloth adds nothing new.
     assert_eq!(both.layout().sections(), Yarns::merged([&one, &other]).unwrap().layout().sections());
     for (cloth, first) in [(&one, 0), (&other, counts[0]), (&one, counts[0] + counts[1])] {
         let own = both.only(first..first + cloth.layout().yarns().len()).unwrap();
@@ -111,7 +111,7 @@ fn yarns_keep_their_tension_wherever_they_go() {
         moved,
     ];
     assert_eq!(kept.map(|yarns| yarns.tension()), [0.3; 7]);
-    // Nothing else has changed: back at the first tension it is the first mesh.
+    // Nothing else has changed: with the first tension the mesh is the first one again.
     assert!(vertices(&taut.clone().with_tension(0.0).unwrap()) == vertices(&slack));
     let refused = Yarns::merged([&taut, &slack]).unwrap_err();
     assert_eq!(refused, YarnError::OtherTension { given: 0.0, tension: 0.3 });

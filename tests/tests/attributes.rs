@@ -1,4 +1,4 @@
-//! Attributes of vertices against the oracle and a length of its own, on every backend.
+//! Attributes of vertices on every backend, against the oracle and lengths that the test measures.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -10,13 +10,13 @@ use texere_core::backend::{Chunk, Plan, Session, SessionError};
 use texere_core::{Attribute, Backend, End, Frame, Settings, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Parts that the test's own lengths cut each control interval into; half as many are tried beside
-/// them.
+/// Parts of each control interval by which the test measures lengths. It also measures with half as
+/// many.
 const PARTS: u32 = 256;
 
-/// The length of each yarn from its start to each of its rings, mm: chords of a much finer spline
-/// of the oracle's, and of one half as fine, from which Richardson's extrapolation takes their own
-/// error.
+/// The length of each yarn from its start to each of its rings, mm. It is the sum of the chords of
+/// a much finer spline of the oracle. Richardson's extrapolation, with a spline half as fine,
+/// removes most of the error.
 fn lengths(yarns: &Yarns, settings: &Settings) -> Vec<Vec<f64>> {
     let per_interval = settings.subdivisions + 1;
     let per_ring = (PARTS / per_interval).max(2) / 2 * 2;
@@ -42,14 +42,14 @@ fn lengths(yarns: &Yarns, settings: &Settings) -> Vec<Vec<f64>> {
     oracle.yarns.iter().map(of_yarn).collect()
 }
 
-/// The cases whose yarns the fine spline of the test is not too much for, which are most.
-/// Attributes do not depend on the frame.
+/// The cases, without the few whose yarns are too long for the fine spline. Attributes do not
+/// depend on the frame.
 fn small() -> Vec<Case> {
     let is_small = |case: &Case| case.settings.frame == Frame::Upright && case.yarns().points().len() <= 500;
     cases::all().into_iter().filter(is_small).collect()
 }
 
-/// The attributes of all vertices that `chunks` have, each in turn.
+/// The attributes of all vertices of `chunks`, in order.
 fn made(device: &dyn Backend, plan: &Arc<Plan>, yarns: &Yarns, chunks: &[Chunk]) -> Vec<Vec<Attribute>> {
     let mut session = Session::new(device, plan.clone()).unwrap();
     session.upload(0, yarns.points()).unwrap();
@@ -68,7 +68,7 @@ fn made(device: &dyn Backend, plan: &Arc<Plan>, yarns: &Yarns, chunks: &[Chunk])
     chunks.iter().map(read).collect()
 }
 
-/// Compares the attributes of chunks with those that there should be.
+/// Compares the attributes of chunks with the expected ones.
 fn check(
     name: &str,
     plan: &Plan,
@@ -139,7 +139,7 @@ fn attributes_agree_with_the_oracle_on_every_backend_and_however_it_is_cut() {
     assert!(cases.len() > 50 && cut > 10, "{} cases, {cut} of them in several chunks", cases.len());
 }
 
-/// Lengths of the old points would be of no use.
+/// Lengths of the old points are out of date.
 #[test]
 fn yarns_are_measured_before_attributes_and_again_after_uploads() {
     let device = SerialBackend::new();

@@ -1,4 +1,4 @@
-//! Whatever comes in, a named error comes out: never a panic, never a great deal of memory first.
+//! Bad input gives a named error: never a panic, and never much memory before the error.
 
 use std::sync::Arc;
 
@@ -276,7 +276,7 @@ fn a_polygon_needs_its_own_number_of_sides() {
     assert!(matches!(error, PipelineError::Plan(error) if error == expected));
 }
 
-/// A layout is all that a plan needs, so these ask for no memory at all.
+/// A plan needs only a layout, so that these take no memory at all.
 #[test]
 fn more_rings_than_can_be_counted() {
     let plan = |offsets: Vec<u64>, subdivisions| {
@@ -291,7 +291,7 @@ fn more_rings_than_can_be_counted() {
     );
     assert!(matches!(plan(vec![0, u64::MAX], 0), PlanError::YarnRings { yarn: 0, .. }));
     assert!(matches!(plan(vec![0, 2, u64::MAX], 1023), PlanError::YarnRings { yarn: 1, .. }));
-    // Each yarn can be counted, all together can't.
+    // Each yarn can be counted, but all together can't.
     let many = (0..=40).map(|yarn| yarn * 4_000_000).collect();
     assert!(matches!(plan(many, 1000), PlanError::Rings { limit, .. } if limit == 1 << 36));
 }
@@ -328,7 +328,7 @@ fn limits_that_hold_no_block() {
     }
 }
 
-/// The largest and smallest numbers that are taken make finite output, and normals of length 1.
+/// The largest and the smallest numbers that are taken give finite output, and normals of length 1.
 #[test]
 fn the_edges_of_what_is_taken() {
     let line = |points: &[(f32, f32)]| -> Vec<ControlPoint> {
@@ -336,9 +336,9 @@ fn the_edges_of_what_is_taken() {
     };
     let vast = line(&[(1e9, 3e4), (-1e9, 3e4), (1e9, 1e-4), (1e9, 3e4), (-1e9, 3e4)]);
     let tiny = line(&[(0.0, 1e-4), (1e-30, 1e-4), (1e-20, 1e-4), (1.0, 1e-4)]);
-    // A cliff: a growth of 1e19, whose square f32 can't hold.
+    // A step in the radius: a growth of 1e19, whose square f32 can't hold.
     let steep = line(&[(0.0, 1e-4), (1e-15, 3e4), (2e-15, 1e-4), (3e-15, 3e4)]);
-    // As flat as can be, and on edge.
+    // Yarns as flat as possible, and on edge.
     let flat = |points: &[ControlPoint], height: f32| -> Vec<ControlPoint> {
         points.iter().map(|point| point.flattened(point.half_width(), height)).collect()
     };

@@ -1,5 +1,6 @@
-//! Chunked equals whole: parts cover every ring once, each part's vertices are that ring range of
-//! the whole, indices are equal after adding the base, and what is drawn is the same.
+//! Chunked output equals whole output. Parts cover every ring once, the vertices of a part are
+//! those of its rings in the whole, indices are equal after the base is added, and the triangles
+//! are the same.
 
 use std::sync::Arc;
 
@@ -17,8 +18,8 @@ use texere_cpu::SerialBackend;
 
 const TOPOLOGIES: [Topology; 3] = [Topology::Indexed, Topology::Shared, Topology::None];
 
-/// Open and closed, short and long yarns of many sections; a long one of each kind; yarns round the
-/// size of a block.
+/// Open and closed, short and long yarns of many sections; a long yarn of each kind; and yarns of
+/// about a block.
 fn fabrics() -> Vec<(String, Yarns)> {
     let mut fabrics = vec![("mixed".into(), mixed())];
     for closed in [false, true] {
@@ -44,8 +45,7 @@ fn settings() -> Vec<Settings> {
     all
 }
 
-/// Limits down to one block, each kind of limit tight once: as tight as it gets, and with room for
-/// a few blocks.
+/// Limits down to one block. Each kind of limit is tight once: for one block, and for a few blocks.
 fn limits(plan: &Plan) -> Vec<Limits> {
     let by_blocks = |blocks| Limits { blocks, ..Limits::NONE };
     let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
@@ -109,8 +109,8 @@ fn parts_cover_every_ring_once() {
                 assert_eq!((part.yarn, part.first_ring), (yarn, ring), "{name}");
                 assert_eq!(part.first_vertex, rings * plan.settings().sides, "{name}");
                 rings += part.rings;
-                // The ring that a cut repeats is the first of the next chunk, even where it is a
-                // yarn's last.
+                // The ring that a cut repeats is the first of the next chunk, even if it is the
+                // last ring of a yarn.
                 let again = u32::from(chunk.repeats_ring() && at + 1 == chunk.parts().len());
                 assert!(part.rings > again, "{name}");
                 ring += part.rings - again;
@@ -216,7 +216,7 @@ fn the_block_table_says_the_same_as_the_parts() {
                     assert!((1..=64).contains(&row.rings), "{name}");
                     own += row.rings;
                     ring += row.rings;
-                    // Only the last ring of a part has no quads to the ring after it.
+                    // Each ring of a part, except the last one, has quads to the ring after it.
                     assert_eq!(row.quads, row.rings - u32::from(own == part.rings), "{name}");
                     if plan.settings().topology == Topology::Indexed {
                         index += row.quads * sides * 6;
@@ -270,11 +270,11 @@ fn bits<T: bytemuck::Pod>(values: &[T]) -> &[u8] {
     bytemuck::cast_slice(values)
 }
 
-/// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the
+/// A corner of a triangle: the yarn, its ring or (beyond all rings) its cap, and the point of the
 /// section.
 type Corner = (u32, u64, u64);
 
-/// What is drawn, as corners that do not depend on chunks.
+/// All triangles, by corners that do not depend on chunks.
 fn drawn(mesh: &Mesh) -> Vec<[Corner; 3]> {
     let sides = u64::from(mesh.plan.settings().sides);
     let mut corners = vec![None; mesh.vertices.len()];
@@ -327,7 +327,7 @@ fn draws_make_the_triangles_of_the_whole() {
     });
 }
 
-/// A shared pattern is no longer than it has to be, also for a yarn longer than it covers.
+/// A shared pattern is only as long as it has to be, also for a yarn longer than it covers.
 #[test]
 fn a_yarn_longer_than_the_shared_pattern_is_drawn_in_several_goes() {
     let yarns = winding(1_000, Yarn::default());
@@ -341,7 +341,7 @@ fn a_yarn_longer_than_the_shared_pattern_is_drawn_in_several_goes() {
     assert!(drawn(&shared) == drawn(&indexed));
 }
 
-/// A session takes chunks of one cut and then of another, though they have the same numbers.
+/// A session takes chunks of one cut and then of another, although their numbers are the same.
 #[test]
 fn chunks_of_two_cuts_do_not_mix() {
     let yarns = winding(400, Yarn { twist: 0.7, ..Yarn::default() });

@@ -1,5 +1,5 @@
-//! Curves whose tubes are known in closed form: a torus and a helix. They check the oracle as well
-//! as the backends.
+//! Tubes that are known in closed form: a torus and a helix. They check the oracle and the
+//! backends.
 
 use std::f64::consts::TAU;
 
@@ -15,14 +15,13 @@ struct Ring {
 }
 
 impl Ring {
-    /// Where the section's x axis points: the first point of a circle lies on it.
+    /// Direction of the section's x axis, on which the first point of a circle lies.
     fn side(&self) -> DVec3 {
         (self.vertices[0].0 - self.centre).normalize()
     }
 }
 
-/// The one yarn of `yarns` as the oracle has it, then as the CPU backends have it, each with how
-/// exact it can be.
+/// The single yarn of `yarns` by the oracle and by the CPU backends, each with its accuracy.
 fn tubes(yarns: &Yarns, settings: Settings) -> Vec<(&'static str, Vec<Ring>, f64)> {
     let sides = settings.sides as usize;
     let oracle = Oracle::new(yarns, &settings);
@@ -71,9 +70,9 @@ fn planes() -> [(&'static str, DVec3, DVec3); 3] {
 const AROUND: f64 = 4.0;
 const POINTS: u32 = 32;
 
-/// Half way between two of the points that it passes through, h radians apart on a circle of radius
-/// R, a Catmull-Rom spline lies 9/8 cos(h/2) - 1/8 cos(3h/2) = 1 - 3h⁴/128 + … radii from the
-/// middle, and nowhere further off.
+/// A Catmull-Rom spline through points of a circle, h radians apart, is furthest off half way
+/// between two points. It lies 9/8 cos(h/2) - 1/8 cos(3h/2) = 1 - 3h⁴/128 + … radii from the centre
+/// there.
 fn deviation() -> f64 {
     AROUND * 3.0 / 128.0 * (TAU / f64::from(POINTS)).powi(4)
 }
@@ -97,7 +96,7 @@ fn a_closed_circle_makes_a_torus() {
                         let off = (u.hypot(v) - AROUND).hypot(across) - 0.5;
                         let place = format!("{who}, {name}, {frame:?}, ring {number}");
                         assert!(off.abs() < deviation() + exact * 4.0, "{place}: {off} off the torus");
-                        // The torus' own normal points away from the nearest place of its core.
+                        // The normal of a torus points away from the nearest place of its core.
                         let core = (x * u + y * v).normalize() * AROUND;
                         let outward = (*vertex - core).normalize();
                         assert!(normal.dot(outward) > 1.0 - 1e-5, "{place}: {normal} is not {outward}");
@@ -108,7 +107,7 @@ fn a_closed_circle_makes_a_torus() {
     }
 }
 
-/// In a plane nothing turns: the section keeps its angle to the plane, all the way round and
+/// In a plane nothing turns. The section keeps its angle to the plane all the way round, also
 /// through the vertical.
 #[test]
 fn a_rotation_minimising_frame_does_not_turn_round_a_circle() {
@@ -131,9 +130,9 @@ fn a_rotation_minimising_frame_does_not_turn_round_a_circle() {
     }
 }
 
-/// Against the Frenet frame of a helix (its normal points at the axis) a frame that does not turn
-/// about the tangent turns by minus torsion times arc length (Bishop 1975). Torsion is b / (a² +
-/// b²) for radius a and rise b per radian.
+/// The normal of a helix's Frenet frame points at the axis. A frame that does not turn about the
+/// tangent turns against it by minus torsion times arc length (Bishop 1975). The torsion is b / (a²
+/// + b²) for radius a and rise b per radian.
 #[test]
 fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
     let per_turn = 64.0;
@@ -144,7 +143,7 @@ fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
         });
         let settings = Settings { frame: Frame::RotationMinimizing, subdivisions: 3, ..Settings::default() };
         for (who, rings, exact) in tubes(&yarns, settings) {
-            // Off the yarn's ends, where the virtual points bend the spline away from the helix.
+            // Away from the yarn's ends, where virtual points bend the spline away from the helix.
             let inner = 12..rings.len() - 12;
             let angle = |ring: usize| {
                 let turned = TAU * ring as f64 / (per_turn * 4.0);
@@ -159,8 +158,8 @@ fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
                 let (torsion, length) = (b / (a * a + b * b), a.hypot(b) * radians);
                 let off = angle(ring) - start + torsion * length;
                 let off = off - (off / TAU).round() * TAU;
-                // The spline's tangents and chords miss those of the helix by the fourth power of a
-                // step.
+                // Tangents and chords of the spline differ from those of the helix by the fourth
+                // power of a step.
                 let allowed = 1e-6 * length + 1e-4 + 10.0 * exact;
                 assert!(off.abs() < allowed, "{who}, radius {a}, rise {b}, ring {ring}: {off} rad");
             }
@@ -168,7 +167,7 @@ fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
     }
 }
 
-/// A yarn along `at` with these half widths and half heights at its points.
+/// A yarn along `at`, with these half widths and half heights at its points.
 fn flattened_yarn(
     closed: bool,
     count: u32,
@@ -185,13 +184,13 @@ fn flattened_yarn(
     yarns.build().unwrap()
 }
 
-/// How far a half float may be off, in shares of it, and the spline between two of them.
+/// Relative error of a half float, and of the spline between two of them.
 const HALF_FLOAT: f64 = 1e-3;
 
-/// Round a level circle of radius R the upright side points at the middle and the up along z. So
-/// with half width a and half height b the surface is ((ρ - R)/a)² + (z/b)² = 1 at each angle, ρ
-/// being the distance from the axis, and the normal has the direction of that function's gradient,
-/// where a and b grow by so much along the yarn's own arc.
+/// On a level circle of radius R the upright side points at the centre, and the up along z. With
+/// half width a, half height b and distance ρ from the axis, the surface is ((ρ - R)/a)² + (z/b)² =
+/// 1 at each angle. The normal has the direction of that function's gradient, in which a and b grow
+/// along the yarn's arc.
 #[test]
 fn a_flattened_circle_makes_a_torus_of_ellipses() {
     let turned = |k: f64| TAU * k / f64::from(POINTS);
@@ -215,15 +214,15 @@ fn a_flattened_circle_makes_a_torus_of_ellipses() {
                 let gradient = outward * (x / a) + DVec3::Z * (y / b)
                     - along * (x * x * a_growth / a + y * y * b_growth / b);
                 let away = (gradient.normalize() - *normal).length();
-                // A spline's derivative is less near than the spline.
+                // The derivative of a spline is less accurate than the spline.
                 assert!(away < 6.0 * HALF_FLOAT, "{place}: {normal} is {away} off the gradient");
             }
         }
     }
 }
 
-/// Along a helix about z the upright side points at the axis, and the up at right angles to it and
-/// to the tangent.
+/// On a helix about z the upright side points at the axis. The up is at right angles to it and to
+/// the tangent.
 #[test]
 fn a_flattened_helix_has_an_ellipse_in_each_of_its_normal_planes() {
     let (out, rise, per_turn) = (2.0, 0.6, 48.0);
@@ -236,7 +235,7 @@ fn a_flattened_helix_has_an_ellipse_in_each_of_its_normal_planes() {
         halves,
     );
     for (who, rings, _) in tubes(&yarns, Settings { subdivisions: 5, ..Settings::default() }) {
-        // Off the yarn's ends, where the virtual points bend the spline away from the helix.
+        // Away from the yarn's ends, where virtual points bend the spline away from the helix.
         for (number, ring) in rings.iter().enumerate().take(rings.len() - 18).skip(18) {
             let k = number as f64 / 6.0;
             let tangent = DVec3::new(-out * turned(k).sin(), out * turned(k).cos(), rise) / out.hypot(rise);

@@ -1,10 +1,10 @@
-//! Kernels and shaders take the core's constants from one place, and have none of their own.
+//! Kernels and shaders take all constants from the core, and have none of their own.
 
 use texere_gpu::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, SETTLING_CONSTANTS};
 use texere_kernels::{ATTRIBUTES, CROSSINGS, KernelProgram, PACKING, PER_RING, PER_YARN, SETTLING};
 
-/// All that is compiled for a mesh, for a settling or for crossings, without what stands before it,
-/// and the constants that it is to use.
+/// The sources that are compiled for meshes, for settling and for crossings, without their
+/// preludes; and the constants that they may use.
 fn sources() -> [(&'static str, String, &'static [Constant]); 6] {
     let kernels =
         |programs: &[KernelProgram]| programs.iter().flat_map(|program| program.sources).copied().collect();
@@ -26,7 +26,7 @@ fn sources() -> [(&'static str, String, &'static [Constant]); 6] {
     ]
 }
 
-/// Words and numbers of the code, comments left out.
+/// Words and numbers of the code without comments.
 fn words(source: &str) -> impl Iterator<Item = &str> {
     let code = source.lines().map(|line| line.split("//").next().unwrap_or_default());
     code.flat_map(|line| {
@@ -47,8 +47,7 @@ fn sources_use_every_constant_and_define_none_of_them() {
     }
 }
 
-/// Any other number with a fraction or an exponent would be a constant that the core does not know
-/// of.
+/// Any other number with a fraction or an exponent is a constant that the core does not know.
 #[test]
 fn formulas_have_no_other_number_than_small_ones() {
     const PLAIN: [f32; 9] = [0.0, 0.125, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0];

@@ -1,5 +1,5 @@
-//! Crossings on every device of the registry, against `cpu-serial`: where threads lie, what passes
-//! see, and whole courses.
+//! Settling of crossings on every device of the registry, against `cpu-serial`: positions of
+//! threads, what passes see, and whole courses.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use texere_cpu::SerialBackend;
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
 
-/// Threads of a diameter every so many of it.
+/// Threads of one diameter at this pitch, in diameters.
 fn even(
     pitch: [f32; 2],
     diameter: [f32; 2],
@@ -32,7 +32,7 @@ fn even(
     Crossings::new(ups, vec![warp; ends], vec![weft; picks])
 }
 
-/// Uneven threads in a drawdown without any order.
+/// Uneven threads in a random drawdown.
 fn uneven(ends: usize, picks: usize) -> Crossings {
     let mut bits = 7_u32;
     let mut chance = || {
@@ -53,8 +53,8 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
     Crossings::new(ups, warp, weft).tension(0.7, 1.4).press(2.0)
 }
 
-/// Threads by turns on so many levels of each set, in plain weave within a layer where there are as
-/// many of both; else in a twill for each level.
+/// Threads that take the levels of their set in turn. With equally many levels of both sets each
+/// layer is plain weave; otherwise each level is a twill.
 fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
     let threads = |count: usize, levels: u32, spacing: f32| -> Vec<CrossingThread> {
         let thread = |number: usize| CrossingThread {
@@ -78,7 +78,7 @@ fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
     Crossings::new(ups, warp, weft)
 }
 
-/// Cloths that between them have everything that passes distinguish.
+/// Cloths that together have everything that passes distinguish.
 fn cloths() -> Vec<(&'static str, Crossings)> {
     let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);
     let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
@@ -116,19 +116,19 @@ fn read(settler: &mut dyn CrossingsSettler) -> Result<Vec<CrossingState>, Backen
     Ok(crossings)
 }
 
-/// What eight passes came to.
+/// The result of eight passes.
 #[derive(Debug, Clone, PartialEq)]
 struct Course {
     seen: Vec<CrossingsSeen>,
     crossings: Vec<CrossingState>,
 }
 
-/// By how much that unknown differs which differs most, in mean diameters.
+/// The largest difference of any unknown, in mean diameters.
 fn apart(one: &[CrossingState], other: &[CrossingState]) -> f32 {
     one.iter().zip(other).map(|(one, other)| one.difference(other)).fold(0.0, f32::max)
 }
 
-/// Eight passes from number `first` of the course on: some at once, some alone.
+/// Runs eight passes from number `first` of the course on: some together, some alone.
 fn eight_passes(
     settler: &mut dyn CrossingsSettler,
     begin: &[CrossingState],
@@ -147,13 +147,13 @@ fn eight_passes(
     Ok(Course { seen, crossings: read(settler)? })
 }
 
-/// How far an unknown may be off, in mean diameters.
+/// Tolerance of an unknown, in mean diameters.
 const OFF: f32 = 1e-4;
 
-/// A rounding of an unknown, likewise.
+/// The rounding of an unknown, in mean diameters.
 const ROUNDING: f32 = 5e-7;
 
-/// Where eight passes begin: with the course, where threads are thin, and where they have almost
+/// First passes: at the start of the course, where threads are thin, and where they have almost
 /// grown.
 fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<CrossingState>); 2] {
     let thin = plan.start().expect("crossings");
@@ -170,14 +170,14 @@ fn reference(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32) -> 
     eight_passes(serial.as_mut(), begin, first).expect("a course")
 }
 
-/// By how much two passes differ in what they saw.
+/// The largest difference in what two passes saw.
 fn seen_apart(one: &CrossingsSeen, other: &CrossingsSeen) -> f32 {
     (one.step - other.step).abs().max((one.clearance - other.clearance).abs())
 }
 
-/// How far a course may be off: threads that only just touch, or have two slopes to choose from,
-/// make much of a rounding. So ten times what the reference's own course is off when it begins a
-/// rounding beside, and [`OFF`] at least.
+/// Tolerance of a course. Threads that only just touch, or that can take either of two slopes,
+/// amplify a rounding. The tolerance is ten times the change of the reference's own course when it
+/// begins one rounding off, and [`OFF`] at least.
 fn certain(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32, expected: &Course) -> f32 {
     let mut beside = begin.to_vec();
     for (number, value) in bytemuck::cast_slice_mut::<_, f32>(&mut beside).iter_mut().enumerate() {
@@ -188,7 +188,7 @@ fn certain(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32, expec
     OFF.max(10.0 * seen.fold(apart(&expected.crossings, &other.crossings), f32::max))
 }
 
-/// What is wrong with a course, by the reference's: what is off by more than `most`.
+/// Errors of a course against the reference's course: values that are off by more than `most`.
 fn faults(found: &Course, expected: &Course, most: f32) -> Vec<String> {
     let mut faults = Vec::new();
     for (pass, (found, expected)) in found.seen.iter().zip(&expected.seen).enumerate() {
@@ -219,7 +219,7 @@ fn devices_move_crossings_as_the_reference_does() {
                 let here = format!("{}: {name}, from pass {first}", device.info().name);
                 println!("{here}: {:.1e} of {most:.1e}", apart(&found.crossings, &expected.crossings));
                 failed.extend(faults(&found, &expected, most).iter().map(|fault| format!("{here}: {fault}")));
-                // The same settler, after other passes.
+                // The settler is used again, after other passes.
                 let again = eight_passes(settler.as_mut(), &begin, first).expect("a course");
                 if bytemuck::cast_slice::<_, u8>(&again.crossings)
                     != bytemuck::cast_slice::<_, u8>(&found.crossings)
@@ -233,7 +233,7 @@ fn devices_move_crossings_as_the_reference_does() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// The proof that the comparison can fail: each broken settler is caught, and an honest one is not.
+/// The comparison can fail: each broken settler is caught, and a sound one is not.
 #[test]
 fn broken_settlers_are_caught() {
     let problem = uneven(7, 6);
@@ -252,11 +252,11 @@ fn broken_settlers_are_caught() {
     }
 }
 
-/// The mean of half widths, half heights and areas of each set.
+/// For each set, the mean of half widths, of half heights and of areas.
 fn means(plan: &CrossingsPlan, crossings: &[CrossingState]) -> Vec<f32> {
     let mean = |of: &dyn Fn(usize) -> f32| (0..crossings.len()).map(of).sum::<f32>() / crossings.len() as f32;
     let each = Set::BOTH.into_iter().flat_map(|set| {
-        let lie = move |number: usize| crossings[number].lie(set);
+        let lie = move |number: usize| crossings[number].thread(set);
         let radius = move |number: usize| plan.rows(set)[plan.site(number).thread(set)].radius;
         [
             mean(&move |number| lie(number).half_width),
@@ -268,10 +268,10 @@ fn means(plan: &CrossingsPlan, crossings: &[CrossingState]) -> Vec<f32> {
     each.collect()
 }
 
-/// Crossings with each set's mean shift taken off: a repeat lies as well a little further on.
+/// Crossings without the mean shift of each set, because a repeat may lie a little further on.
 fn centred(crossings: &[CrossingState]) -> Vec<CrossingState> {
     let mean = |set: Set| {
-        crossings.iter().map(|crossing| crossing.lie(set).shift).sum::<f32>() / crossings.len() as f32
+        crossings.iter().map(|crossing| crossing.thread(set).shift).sum::<f32>() / crossings.len() as f32
     };
     let [warp, weft] = Set::BOTH.map(mean);
     let centre = |mut crossing: CrossingState| {
@@ -288,7 +288,7 @@ fn rest(device: &dyn Backend, plan: &Arc<CrossingsPlan>) -> (CrossingsRest, Vec<
     (rest, read(settler.as_mut()).expect("crossings"))
 }
 
-/// Whole courses: at rest, cloth measures the same.
+/// Whole courses: cloth at rest has the same measures.
 #[test]
 fn cloths_come_to_the_same_rest_on_every_device() {
     let (mut failed, mut at_rest) = (Vec::new(), 0);
@@ -304,8 +304,8 @@ fn cloths_come_to_the_same_rest_on_every_device() {
             let furthest = apart(&centred(&read), &centred(&crossings));
             let device = &device.info().name;
             println!("{device}: {name}: {off:.1e}, {furthest:.1e}, {found:?}, {expected:?}");
-            // What still moves by a ten-thousandth a pass after 400 of them is not at one place on
-            // all devices.
+            // Threads that still move by a ten-thousandth a pass after 400 passes do not lie in one
+            // place on all devices.
             let most = if expected.at_rest { 1e-3 } else { 1e-2 };
             if found.at_rest != expected.at_rest
                 || found.passes.abs_diff(expected.passes) > 10
@@ -321,7 +321,7 @@ fn cloths_come_to_the_same_rest_on_every_device() {
     assert!(at_rest >= 4, "{at_rest} come to rest");
 }
 
-/// A device does no more passes than rest takes, and as many as the problem allows.
+/// A device stops at rest, or after as many passes as the problem allows.
 #[test]
 fn passes_end_where_they_should() {
     let problem = even([0.4; 2], [0.2; 2], [2, 2], |end, pick| (end + pick).is_multiple_of(2));
@@ -341,7 +341,8 @@ fn passes_end_where_they_should() {
     }
 }
 
-/// A device with little memory, in each buffer or in all, does the same or says what is too large.
+/// A device with little memory, in each buffer or in all, gives the same result or says what is too
+/// large.
 #[test]
 fn small_memories_do_the_same_or_are_refused_by_name() {
     type Held = fn(Limits) -> Option<Box<dyn Backend>>;

@@ -1,4 +1,6 @@
-//! What documents show is what runs.
+//! What documents show is what runs, and the map of the sources is true.
+
+use std::path::Path;
 
 /// The Rust code of docs/BACKENDS.md, piece after piece, is the backend that the suite is run on.
 #[test]
@@ -14,4 +16,59 @@ fn the_backend_of_the_document_is_the_one_that_is_proved() {
     // A piece ends where the file has an empty line.
     let code = |line: &&str| !line.is_empty();
     assert_eq!(shown.filter(code).collect::<Vec<_>>(), run.filter(code).collect::<Vec<_>>());
+}
+
+/// What a path with alternatives in braces stands for.
+fn alternatives(path: &str) -> Vec<String> {
+    let Some((before, rest)) = path.split_once('{') else { return vec![path.into()] };
+    let (inside, after) = rest.split_once('}').unwrap();
+    inside.split(',').flat_map(|one| alternatives(&format!("{before}{one}{after}"))).collect()
+}
+
+/// Whether there is such a file or folder. A star in the last part stands for any letters.
+fn is_there(path: &Path) -> bool {
+    let name = path.file_name().unwrap().to_str().unwrap();
+    let Some((start, end)) = name.split_once('*') else { return path.exists() };
+    let entries = path.parent().unwrap().read_dir().into_iter().flatten();
+    let mut names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.any(|name| name.starts_with(start) && name.ends_with(end))
+}
+
+/// A path of the map is one from the root or from `crates`.
+#[test]
+fn every_path_of_the_map_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let map = include_str!("../../docs/ARCHITECTURE.md");
+    // Every other piece between backticks is code. Code with a space or a double colon is no path.
+    let code = map.lines().flat_map(|line| line.split('`').skip(1).step_by(2));
+    let paths: Vec<_> = code
+        .filter(|code| code.contains('/') && !code.contains([' ', '(']) && !code.contains("::"))
+        .flat_map(alternatives)
+        .collect();
+    assert!(paths.len() > 200, "{} paths are not all of the map", paths.len());
+    let is_lost = |path: &&String| !is_there(&root.join(path)) && !is_there(&root.join("crates").join(path));
+    let lost: Vec<_> = paths.iter().filter(is_lost).collect();
+    assert!(lost.is_empty(), "not there: {lost:?}");
+    assert!(!is_there(&root.join("docs/NOWHERE.md")) && !is_there(&root.join("docs/NO*.md")));
+}
+
+/// Where the map says "`name` in `path`", the file has that name.
+#[test]
+fn every_name_of_the_map_is_in_its_file() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let map = include_str!("../../docs/ARCHITECTURE.md");
+    let mut seen = 0;
+    for line in map.lines() {
+        let pieces: Vec<_> = line.split('`').collect();
+        for piece in pieces.windows(3).filter(|piece| piece[1] == " in " && piece[2].ends_with(".rs")) {
+            let name = piece[0].rsplit("::").next().unwrap();
+            for path in alternatives(piece[2]) {
+                let text = std::fs::read_to_string(root.join(&path)).unwrap_or_default();
+                let mut words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+                assert!(words.any(|word| word == name), "{name} is not in {path}");
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 8, "{seen} names are not all of the map");
 }

@@ -1,5 +1,5 @@
-//! The facade can be read by a stranger: few names at its root, each name in one room, and each
-//! public type's name once.
+//! The facade is easy to read: few names at its root, each name in one room, and each public type's
+//! name once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -28,7 +28,7 @@ fn is_test(attributes: &[Attribute]) -> bool {
     })
 }
 
-/// The items of a module, and the folder of its own modules' files.
+/// The items of a module, and the folder with the files of its modules.
 fn inside(module: &ItemMod, folder: &Path) -> (Vec<Item>, PathBuf) {
     let own = folder.join(module.ident.to_string());
     match &module.content {
@@ -51,7 +51,7 @@ fn used(tree: &UseTree, names: &mut Vec<String>) {
     }
 }
 
-/// The public names of a room that are no rooms, and its public modules.
+/// The public names of a room without its modules, and its public modules.
 fn room(items: &[Item]) -> (Vec<String>, Vec<&ItemMod>) {
     let (mut names, mut rooms) = (Vec::new(), Vec::new());
     for item in items {
@@ -82,7 +82,7 @@ fn room(items: &[Item]) -> (Vec<String>, Vec<&ItemMod>) {
     (names, rooms)
 }
 
-/// Where each name lies, room after room; the root is the room without a name.
+/// The rooms of each name. The root is the room without a name.
 fn rooms_of(source: &Path, is_room: impl Fn(&str) -> bool) -> BTreeMap<String, Vec<String>> {
     let items = parsed(&source.join("lib.rs"));
     let (root, modules) = room(&items);
@@ -119,22 +119,22 @@ fn the_root_of_the_facade_has_few_names() {
 
 #[test]
 fn each_name_lies_in_one_room() {
-    // Settling and crossings are two stages with a vocabulary each: both have a `settle`, a margin,
-    // a bend.
+    // Settling and crossings are two stages with the same vocabulary: both have a `settle`, a
+    // margin, a bend.
     let core = |room: &str| !matches!(room, "settling" | "crossings");
     let facade = rooms_of(&crates().join("texere/src"), |_| true);
     for (room, found) in
         [("texere", facade), ("texere-core", rooms_of(&crates().join("texere-core/src"), core))]
     {
         assert!(found.values().flatten().collect::<BTreeSet<_>>().len() >= 3, "{room}: rooms are not found");
-        // A thing that is read and written again is called alike: `read::yarns`, `write::yarns`.
+        // Reading and writing a thing have the same name: `read::yarns`, `write::yarns`.
         let twice: Vec<_> =
             found.iter().filter(|(_, rooms)| rooms.len() > 1 && **rooms != ["read", "write"]).collect();
         assert!(twice.is_empty(), "{room}: names in two rooms: {twice:?}");
     }
 }
 
-/// Public types of a module and of those below it.
+/// Public types of a module and of the modules in it.
 fn types(items: &[Item], folder: &Path, at: &str, found: &mut BTreeMap<String, BTreeSet<String>>) {
     for item in items {
         let (visibility, name) = match item {
@@ -157,7 +157,7 @@ fn types(items: &[Item], folder: &Path, at: &str, found: &mut BTreeMap<String, B
     }
 }
 
-/// Names and root files of the workspace's libraries that are published.
+/// Names and root files of the workspace's published libraries.
 fn published() -> Vec<(String, PathBuf)> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)

@@ -1,5 +1,4 @@
-//! What any tube must be, whatever the numbers: closed where it should be, facing outward, of the
-//! right volume.
+//! Properties of every tube: closed where it should be, facing outward, and of the right volume.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
@@ -20,8 +19,8 @@ fn place(position: [f32; 3]) -> DVec3 {
     DVec3::from_array(position.map(f64::from))
 }
 
-/// Triangles with corners that coincide to the bit taken for one. Yarns here never touch, so that
-/// only a closed yarn's last ring and the rim of a cap coincide with anything.
+/// Triangles in which corners that coincide to the bit are one. The yarns of these tests never
+/// touch: only the last ring of a closed yarn and the rim of a cap coincide with anything.
 fn welded(mesh: &Mesh) -> Vec<[usize; 3]> {
     let mut numbers = BTreeMap::new();
     let weld: Vec<usize> = mesh
@@ -35,11 +34,11 @@ fn welded(mesh: &Mesh) -> Vec<[usize; 3]> {
     mesh.triangles().map(|triangle| triangle.map(|corner| weld[corner as usize])).collect()
 }
 
-/// Vertices less edges plus faces: 2 for a ball, 0 for a ring.
+/// Euler characteristic: vertices less edges plus faces. It is 2 for a ball and 0 for a ring.
 ///
 /// # Panics
 ///
-/// Where the surface has an open edge, or one that more than two triangles share, or two that face
+/// If the surface has an open edge, an edge of more than two triangles, or neighbours that face
 /// differently.
 fn euler_number(triangles: &[[usize; 3]]) -> i64 {
     let mut edges = BTreeSet::new();
@@ -55,7 +54,7 @@ fn euler_number(triangles: &[[usize; 3]]) -> i64 {
     vertices.len() as i64 - edges.len() as i64 / 2 + triangles.len() as i64
 }
 
-/// Settings that between them have every topology, both frames, few and many sides.
+/// Settings that together have every topology, both frames, few and many sides.
 fn settings() -> Vec<Settings> {
     let mut all = Vec::new();
     for frame in FRAMES {
@@ -109,7 +108,8 @@ fn triangles_and_normals_face_outward_and_have_area() {
         let yarns = winding(60, Yarn { closed, twist: 0.4, ..Yarn::default() });
         for settings in settings() {
             let mesh = mesh(&yarns, settings);
-            // Of a triangle as wide as a side and as long as the step from ring to ring, by far.
+            // Bound for a triangle as wide as a side and as long as the step from ring to ring,
+            // with a large margin.
             let least = 1e-4 / f64::from(settings.sides * (settings.subdivisions + 1));
             for triangle in mesh.triangles() {
                 let corners = triangle.map(|corner| &mesh.vertices[corner as usize]);
@@ -125,7 +125,7 @@ fn triangles_and_normals_face_outward_and_have_area() {
     }
 }
 
-/// By the divergence theorem.
+/// Volume by the divergence theorem.
 fn volume(mesh: &Mesh) -> f64 {
     let corner = |number: u64| place(mesh.vertices[number as usize].position);
     mesh.triangles().map(|[a, b, c]| corner(a).dot(corner(b).cross(corner(c))) / 6.0).sum()
@@ -144,21 +144,21 @@ fn a_straight_tube_holds_its_sections_area_times_its_length() {
         volume(&mesh(&yarns.build().unwrap(), settings)) / (length * radius * radius)
     };
     for sides in [3u32, 6, 7, 64] {
-        // A regular polygon in the unit circle.
+        // Area of a regular polygon in the unit circle.
         let area = f64::from(sides) / 2.0 * (TAU / f64::from(sides)).sin();
         assert!((straight(Section::Circle, sides) - area).abs() < 1e-5, "{sides} sides");
         let ellipse = straight(Section::Ellipse { aspect: 3.0 }, sides);
         assert!((ellipse - area).abs() < 1e-5, "{sides} sides, squeezed");
     }
     assert!((straight(Section::Polygon(polygon), 6) - 2.4375).abs() < 1e-5);
-    // Every other section holds as much as the round one, so that a yarn keeps its weight.
+    // Every other section has the area of the round one, so that a yarn keeps its weight.
     for (name, section) in sections() {
         let area = straight(section, 256);
         assert!((area / PI - 1.0).abs() < 2e-3, "{name}: {area}");
     }
 }
 
-/// Twist turns the section about the yarn and leaves everything else where it is.
+/// Twist turns the section about the yarn, and changes nothing else.
 #[test]
 fn twist_keeps_volume_and_rings() {
     let straight: Vec<_> = (0..40).map(|k| ControlPoint::new(k as f32 * 0.25, 0.0, 0.0, 0.25)).collect();
@@ -174,11 +174,12 @@ fn twist_keeps_volume_and_rings() {
     let ring = 8;
     let (before, after) = (place(plain.vertices[ring * 6].normal), place(twisted.vertices[ring * 6].normal));
     let turned = before.cross(after).x.atan2(before.dot(after));
-    // Eight rings of an eighth of a millimetre: 1 mm, half a radian, right-handed about +x.
+    // Eight rings, an eighth of a millimetre apart: 1 mm, half a radian, right-handed about +x.
     assert!((turned - 0.5).abs() < 1e-5, "{turned}");
 }
 
-/// An edit that sends one yarn's points leads where a fresh session with the same points does.
+/// An edit that sends the points of one yarn gives the output of a fresh session with the same
+/// points.
 #[test]
 fn an_edited_yarn_is_as_good_as_a_new_one() {
     use std::sync::Arc;
@@ -222,7 +223,7 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
 
 #[test]
 fn sixteen_bits_hold_all_shared_indices_or_there_are_none() {
-    // More gaps than the pattern covers, so that its highest index goes by the sides alone.
+    // More gaps than the pattern covers, so that its highest index depends on the sides alone.
     let yarns = winding(5_000, Yarn::default());
     for (sides, fit) in [(6, true), (7, true), (8, false), (12, false)] {
         let settings = Settings { sides, topology: Topology::Shared, ..Settings::default() };

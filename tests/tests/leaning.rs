@@ -1,5 +1,5 @@
-//! Yarns that leave the plane of their cloth: turned any way and bent, with up directions of their
-//! own.
+//! Yarns that leave the plane of their cloth, with up directions of their own: the cloth is turned
+//! and bent.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -25,7 +25,7 @@ fn cloth(section: Section, twist: f32) -> Yarns {
     Woven::new(plain, warp, weft, vec![Material::default()], vec![section]).unwrap().yarns().unwrap()
 }
 
-/// Turns about x, then about z, rad.
+/// Turned about x, then about z, rad.
 fn turned(yarns: &Yarns, [x, z]: [f64; 2]) -> (Yarns, DMat3) {
     let turn = DMat3::from_rotation_z(z) * DMat3::from_rotation_x(x);
     (yarns.mapped(|place| (turn * DVec3::from_array(place)).to_array()).unwrap(), turn)
@@ -35,7 +35,7 @@ fn least(yarns: &Yarns) -> f64 {
     clearance(yarns, &Settings::default()).unwrap().min
 }
 
-/// Round a cylinder of this radius, mm, whose axis lies this way in the plane.
+/// Bent around a cylinder of this radius, mm, whose axis has this direction in the plane.
 fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     let (sin, cos) = way.sin_cos();
     let map = |[x, y, z]: [f64; 3]| {
@@ -47,8 +47,8 @@ fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     yarns.mapped(map).unwrap()
 }
 
-/// Over a saddle that bends down along x and up along y, with this radius, mm, in the middle of the
-/// small cloth.
+/// Bent over a saddle: down along x and up along y, with this radius, mm, in the middle of the
+/// cloth.
 fn saddle(yarns: &Yarns, radius: f64) -> Yarns {
     saddle_about(yarns, radius, [1.65; 2])
 }
@@ -90,7 +90,7 @@ fn a_cloth_on_a_cylinder_or_a_saddle_keeps_its_clearance() {
     }
 }
 
-/// The poplin of the example designs, as it comes to rest: its threads are flattened and lie close.
+/// The poplin of the example designs, at rest. Its threads are flattened and lie close.
 #[test]
 fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
     let (device, go_on) = (ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(()));
@@ -102,7 +102,7 @@ fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
         let after = least(&turned(flat, [degrees.to_radians(), 0.0]).0);
         assert!((after - before).abs() < 0.003, "{degrees} degrees: {after} for {before}");
     }
-    // Without its ups it would pierce.
+    // Without its up directions it would pierce.
     let tilted = turned(flat, [1.0, 0.0]).0;
     let layout = tilted.layout().as_ref().clone();
     let upright = Yarns::new(layout, tilted.materials().to_vec(), tilted.points().to_vec()).unwrap();
@@ -114,7 +114,7 @@ fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
     assert!((after - before).abs() < 0.01, "saddle: {after} for {before}");
 }
 
-/// The same yarns, so much wider than high.
+/// The yarns with this width over height.
 fn flattened(yarns: &Yarns, flatness: f32) -> Yarns {
     let flattened = |point: &ControlPoint| {
         let radius = (point.half_width() * point.half_height()).sqrt();
@@ -124,7 +124,7 @@ fn flattened(yarns: &Yarns, flatness: f32) -> Yarns {
     Yarns::new(yarns.layout().as_ref().clone(), yarns.materials().to_vec(), points).unwrap()
 }
 
-/// Ribbons side by side that go up, over and down, and such as only go up.
+/// Ribbons side by side. Some go up, over and down, and some only go up.
 fn binders() -> [Yarns; 2] {
     let ribbons = |count: u8, place: &dyn Fn(f32, f32) -> [f32; 3]| {
         let mut yarns = Yarns::builder();
@@ -145,8 +145,8 @@ fn binders() -> [Yarns; 2] {
     [ribbons(21, &over), ribbons(6, &|yarn, k| [0.1 * yarn, 0.2 * yarn, k])]
 }
 
-/// Flat yarns without ups of their own come as near to one another whatever way their cloth lies,
-/// also where they run straight up.
+/// Flat yarns without up directions come equally near to one another for any direction of their
+/// cloth, also where they run straight up.
 #[test]
 fn flat_yarns_that_run_up_and_down_keep_their_clearance_any_way_round() {
     let knits = ["tricot.toml", "jersey.toml", "locknit.toml"].map(|name| small(name, 1.5));
@@ -165,7 +165,7 @@ fn flat_yarns_that_run_up_and_down_keep_their_clearance_any_way_round() {
     }
 }
 
-/// A small piece of a design, of yarns so much wider than high.
+/// A small piece of a design, with yarns of this width over height.
 fn small(name: &str, flatness: f32) -> Yarns {
     let yarns = small_designs().find(|(small, _)| *small == name.trim_end_matches(".toml"));
     flattened(&yarns.expect("a design of that name").1, flatness)
@@ -175,7 +175,7 @@ fn mesh(yarns: &Yarns, device: &dyn texere_core::Backend, settings: Settings) ->
     Pipeline::new(yarns).settings(settings).mesh(device).unwrap()
 }
 
-/// The vertices of all rings, whatever chunks they lie in.
+/// The vertices of all rings, for any cut into chunks.
 fn by_ring(mesh: &Mesh) -> Vec<Vertex> {
     let sides = mesh.plan.settings().sides;
     let mut rings = BTreeMap::new();
@@ -190,7 +190,7 @@ fn by_ring(mesh: &Mesh) -> Vec<Vertex> {
     rings.into_values().flatten().copied().collect()
 }
 
-/// Every device draws the turned cloth as the cloth that it draws flat, turned.
+/// On every device the mesh of turned cloth is the mesh of flat cloth, turned.
 #[test]
 fn the_mesh_of_a_turned_cloth_is_the_turned_mesh() {
     let flats = [cloth(Section::Circle, 0.0), cloth(Section::Lobed { plies: 2 }, 1.5)];
@@ -244,8 +244,7 @@ fn all_cores_make_the_bits_of_one() {
     }
 }
 
-/// A ribbon of `count` points that rises by `slope` in its middle, radians, in a cloth beside a
-/// twisted yarn.
+/// A ribbon of `count` points beside a twisted yarn. It rises by `slope`, radians, in its middle.
 fn rising(slope: f32, count: u8) -> Yarns {
     let mut at = [0.0_f32, 1.0, 0.0];
     let ribbon: Vec<_> = (0..count)
@@ -266,8 +265,8 @@ fn rising(slope: f32, count: u8) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A ribbon in a live mesh that is raised, raised further, made longer and laid flat again is that
-/// of a fresh mesh, each time and on every device.
+/// A ribbon in a live mesh is raised, raised further, made longer and laid flat again. Each time it
+/// equals that of a fresh mesh, on every device.
 #[test]
 fn flat_yarns_that_are_raised_are_live() {
     let (flat, settings) = (rising(0.2, 40), Settings { sides: 8, ..Settings::default() });
@@ -283,7 +282,7 @@ fn flat_yarns_that_are_raised_are_live() {
         for (number, yarns) in edits.iter().enumerate() {
             let points = yarns.yarn_points(1).unwrap();
             let first = live.plan().layout().offsets()[1];
-            // As many points are moved, more or fewer are another yarn.
+            // Equally many points are a move; more or fewer are another yarn.
             if points.len() as u64 == live.plan().layout().offsets()[2] - first {
                 live.upload(first, points).unwrap();
             } else {
@@ -298,7 +297,7 @@ fn flat_yarns_that_are_raised_are_live() {
     }
 }
 
-/// The whole mesh that a live one has made.
+/// The whole mesh of a live one.
 fn kept(live: &mut LiveMesh) -> Mesh {
     let mut kept = Mesh {
         plan: live.plan().clone(),
@@ -319,7 +318,7 @@ fn kept(live: &mut LiveMesh) -> Mesh {
     kept
 }
 
-/// A closed ribbon that stands on end and turns over once on its way round.
+/// A closed ribbon that stands on its edge, and turns over once on its way round.
 fn ring() -> Yarns {
     let at = |step: usize| std::f64::consts::TAU * step as f64 / 16.0;
     let points: Vec<_> = (0..16)
@@ -338,8 +337,8 @@ fn ring() -> Yarns {
     yarns.build().unwrap().with_ups(ups).unwrap()
 }
 
-/// The outline at each control point has its height along the up that was asked for, what of that
-/// lies along the yarn left out.
+/// At each control point, the outline has its height along the part of the given up that is across
+/// the yarn.
 #[test]
 fn outlines_stand_along_their_ups() {
     let ring = ring();
@@ -354,8 +353,8 @@ fn outlines_stand_along_their_ups() {
             let number = 3 * point;
             let [centre, tangent] = [rings[number].centre, rings[number].tangent].map(glam::Vec3::from_array);
             let up = (*up - tangent * up.dot(tangent)).normalize();
-            // Whichever way the section is turned inside, its corners lie on an ellipse with the up
-            // as its short axis.
+            // For any turn of the section, its corners lie on an ellipse whose short axis is the
+            // up.
             let side = up.cross(tangent);
             let corners: Vec<_> = mesh.vertices[4 * number..][..4]
                 .iter()
@@ -406,8 +405,8 @@ fn ups_that_are_none_are_named() {
     assert!(flat.mapped(|[x, _, _]| [x, x, x]).is_err());
 }
 
-/// A live mesh of a bent cloth is that of a fresh one, what moves in it takes another plan, and a
-/// ray from outside hits what lies there.
+/// A live mesh of bent cloth equals a fresh one. A moved yarn takes another plan, and a ray from
+/// outside hits the surface that lies there.
 #[test]
 fn bent_cloth_is_kept_live_and_picked() {
     let bent = saddle(&cloth(Section::Circle, 0.0), 6.0);
@@ -442,7 +441,7 @@ fn bent_cloth_is_kept_live_and_picked() {
             .pick(&Ray { origin: origin.to_array(), direction: (-normal.normalize()).to_array() })
             .expect("a hit");
         let yarn = hit.place.yarn;
-        // From so near the first thing hit is the triangle itself, or what pierces it.
+        // From so near, the ray first hits the triangle itself, or a surface that pierces it.
         assert!(hit.distance <= 0.0101, "yarn {yarn}: {}", hit.distance);
     }
 }

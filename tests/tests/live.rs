@@ -1,5 +1,5 @@
-//! A fabric that is edited ends as one that is made anew, on every backend: lifts, yarns, stitches,
-//! colours, and all of it taken back.
+//! An edited fabric equals one that is made anew, on every backend. Edits are of lifts, yarns,
+//! stitches and colours, and all are taken back.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
@@ -40,12 +40,12 @@ enum Edit {
         material: usize,
         srgb: [u8; 3],
     },
-    /// All yarns come to rest somewhere else, but for those whose number is a multiple.
+    /// All yarns move as if settled, except those whose number is a multiple of this.
     Rest {
         lower: f32,
         multiple: usize,
     },
-    /// The edit before is taken back.
+    /// The previous edit is taken back.
     Undo,
     Update,
 }
@@ -78,7 +78,7 @@ fn cloth(bits: u64, twist: f32, selvedge: bool) -> Woven {
     cloth
 }
 
-/// What the fabric should be: the weave, the yarns that were set, the colours.
+/// The model of the fabric: the weave, the yarns that were set, and the colours.
 #[derive(Clone, PartialEq)]
 struct Model {
     cloth: Woven,
@@ -92,7 +92,7 @@ impl Model {
         Self { materials: cloth.materials().to_vec(), yarns, cloth }
     }
 
-    /// Weaves the cloth with other lifts. The yarns that cross there are the weave's own then.
+    /// Weaves the cloth with other lifts. Yarns that cross there become those of the weave again.
     fn lift(&mut self, lifts: &[(usize, usize, bool)]) {
         let before = yarns_of(&self.cloth.yarns().unwrap());
         let drawdown = self.cloth.drawdown().clone();
@@ -131,7 +131,7 @@ fn yarns_of(yarns: &Yarns) -> Vec<(Yarn, Vec<ControlPoint>)> {
     yarns.layout().yarns().iter().enumerate().map(|(yarn, what)| (*what, points(yarn))).collect()
 }
 
-/// Applies an edit to both, and gives those that take it back.
+/// Applies an edit to both. Returns the edits that take it back.
 fn apply(live: &mut Live, model: &mut Model, edit: &Edit) {
     match *edit {
         Edit::Lift { end, pick, up } => {
@@ -149,7 +149,7 @@ fn apply(live: &mut Live, model: &mut Model, edit: &Edit) {
             let (what, points) = &mut model.yarns[yarn];
             what.twist = twist;
             points.iter_mut().for_each(|point| point.z -= lower);
-            // Every so many points left out, and with 1 twice as many.
+            // Every n-th point is left out. For n = 1 there are twice as many points instead.
             match left_out {
                 0 => {}
                 1 => {
@@ -184,7 +184,7 @@ fn apply(live: &mut Live, model: &mut Model, edit: &Edit) {
     }
 }
 
-/// Sets what a model has that is not so now.
+/// Sets everything in which the fabric differs from a model.
 fn go_back(live: &mut Live, now: &mut Model, to: &Model) {
     let drawdown = to.cloth.drawdown();
     live.set_drawdown(0..ENDS, 0..PICKS, |end, pick| drawdown.up(end, pick)).unwrap();
@@ -197,7 +197,7 @@ fn go_back(live: &mut Live, now: &mut Model, to: &Model) {
     now.clone_from(to);
 }
 
-/// The triangles of each yarn, by what their corners are, in a fixed order.
+/// The triangles of each yarn by their corners, in a fixed order.
 fn triangles(live: &mut Live) -> Vec<Vec<[Vertex; 3]>> {
     let mesh = live.mesh_mut();
     let plan = mesh.plan().clone();
@@ -257,13 +257,13 @@ fn devices() -> &'static [Arc<dyn Backend>] {
     })
 }
 
-/// A ray down on the cloth, another one for each number up to 100.
+/// A ray down onto the cloth: a different one for each number up to 100.
 fn above(number: u32) -> Ray {
     let [x, y] = [number % 10, number / 10].map(|step| f64::from(step) * 2.3 + 0.4);
     Ray { origin: [x, y, 9.0], direction: [0.0, 0.05, -1.0] }
 }
 
-/// A thousand edits and more on every device.
+/// Over a thousand edits on every device.
 #[test]
 fn edited_cloth_ends_as_cloth_woven_anew() {
     for device in devices() {
@@ -275,7 +275,7 @@ fn edited_cloth_ends_as_cloth_woven_anew() {
             let cloth = cloth(bits, if turned { 1.0 } else { 0.0 }, selvedge);
             let mut model = Model::new(cloth.clone());
             let mut live = Live::weave(device.clone(), cloth, settings).unwrap();
-            // From the first ray on, edits keep up what picks.
+            // From the first ray on, edits also update the picker.
             let _ = live.pick(&above(0)).unwrap();
             let mut past = Vec::new();
             for edit in &edits {
@@ -326,7 +326,7 @@ fn knit(chart: &Chart) -> Structure {
     Structure::Weft(knit.unwrap())
 }
 
-/// Stitches change how many control points a yarn has, and at times how many yarns there are.
+/// Stitches change the number of a yarn's control points, and sometimes the number of yarns.
 #[test]
 fn a_knit_takes_other_stitches() {
     let settings = Settings::default();
@@ -352,7 +352,7 @@ fn a_knit_takes_other_stitches() {
     }
 }
 
-/// A lift changes two yarns, and sends no others.
+/// A lift changes two yarns, and only these are sent.
 #[test]
 fn a_lift_makes_two_yarns_again() {
     let device: Arc<dyn Backend> = Arc::from(texere::open("cpu").unwrap());
@@ -369,8 +369,7 @@ fn a_lift_makes_two_yarns_again() {
     assert_eq!((vertices, update.anew), (rings * 6, false));
 }
 
-/// Cloth is shown as it is woven, and again when it has come to rest; what is lifted then lies as
-/// woven among what is at rest.
+/// Cloth is shown as woven, and again at rest. A lift after that lies as woven among yarns at rest.
 #[test]
 fn cloth_at_rest_keeps_its_weave() {
     let threads = |count| vec![Thread::new(0.35, 0.15); count];
@@ -397,7 +396,7 @@ fn cloth_at_rest_keeps_its_weave() {
     }
 }
 
-/// What is edited has the tension of the fabric, and yarns of another one are refused.
+/// Edited yarns have the tension of the fabric. Yarns with another tension are refused.
 #[test]
 fn edits_keep_the_tension_of_the_fabric() {
     let settings = Settings::default();
@@ -418,7 +417,7 @@ fn edits_keep_the_tension_of_the_fabric() {
         };
         assert!(is_refused(live.set_rest(&slack)) && is_refused(live.set_yarns(slack)));
         assert!(matches!(live.set_tension(f32::NAN), Err(LiveError::Yarns(YarnError::Tension { .. }))));
-        // Another structure's yarns get it, too.
+        // The yarns of another structure get the tension, too.
         let of_weave = |cloth| Structure::Woven(WovenDesign::new(cloth, None, Relief::Report).unwrap());
         live.set_structure(&of_weave(cloth(0x3333, 0.0, false))).unwrap();
         assert!(live.update().is_ok());
@@ -440,7 +439,7 @@ fn what_can_not_be_is_named() {
     let fewer = live.yarns().unwrap().only(0..39).unwrap();
     let refused = live.set_rest(&fewer);
     assert!(matches!(refused, Err(LiveError::OtherYarns { given: 39, yarns: 40, .. })), "{refused:?}");
-    // None of it has changed anything.
+    // The refused edits have changed nothing.
     assert!(yarns_of(&live.yarns().unwrap()) == yarns_of(&cloth(0x5555, 0.0, false).yarns().unwrap()));
     let mut given = Live::given(device, live.yarns().unwrap(), Settings::default()).unwrap();
     assert!(matches!(given.set_lift(0, 0, true), Err(LiveError::NotWoven)));

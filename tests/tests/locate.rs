@@ -1,5 +1,5 @@
-//! Which yarn, ring and side a vertex or a triangle belongs to, beside a walk over all parts and
-//! beside the corners of the triangles themselves.
+//! The yarn, ring and side of a vertex or a triangle, against a walk over all parts and against the
+//! corners of the triangles themselves.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -23,7 +23,7 @@ fn yarns() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Plans with room and without, in chunks of a few blocks and in one.
+/// Plans with room and without, in chunks of a few blocks and in one chunk.
 fn each(check: impl Fn(&Plan, &Limits)) {
     for (subdivisions, sides, caps) in [(0, 3, true), (1, 6, false), (4, 5, true)] {
         let settings = Settings { subdivisions, sides, caps, ..Settings::default() };

@@ -1,5 +1,5 @@
-//! Host memory against the plan's word, by the count of the allocator. What a GPU's driver takes is
-//! not in it.
+//! Host memory against the plan's bound, counted in the allocator. Memory of a GPU's driver is not
+//! counted.
 
 use std::ops::ControlFlow;
 
@@ -11,14 +11,14 @@ use texere_core::{Frame, Limits, Topology, Yarn};
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// One test, so that no other allocates beside it.
+/// A single test, so that no other one allocates at the same time.
 #[test]
 fn what_is_taken_is_what_was_told() {
     a_mesh_peaks_within_five_per_cent_of_the_plan();
     a_stream_peaks_at_two_chunks();
 }
 
-/// Bytes at the peak of `work`, beside what was there before.
+/// Peak memory of `work`, bytes, beyond the memory that was in use before.
 fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
@@ -28,8 +28,8 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
     peak
 }
 
-/// A mesh of 600 MB, streamed: the control points and two chunks, each of two buffers of 64 MiB at
-/// most, with their tables.
+/// A mesh of 600 MB is streamed. The bound has the control points and two chunks with their tables.
+/// A chunk has two buffers of 64 MiB at most.
 fn a_stream_peaks_at_two_chunks() {
     let yarns = cases::winding(1_000_000, Yarn::default());
     let points = size_of_val(yarns.points());
@@ -47,7 +47,7 @@ fn a_stream_peaks_at_two_chunks() {
 
 fn a_mesh_peaks_within_five_per_cent_of_the_plan() {
     let yarns = cases::winding(60_000, Yarn::default());
-    // The serial reference keeps a chunk's rings besides, as the paper does.
+    // The serial reference also keeps the rings of a chunk, as the paper does.
     let devices = texere::devices().found.into_iter().map(|device| device.name);
     for name in devices.filter(|name| name != "cpu-serial") {
         let device = texere::open(&name).unwrap();
@@ -62,7 +62,7 @@ fn a_mesh_peaks_within_five_per_cent_of_the_plan() {
             let on_cpu = name == "cpu";
             let planned =
                 if on_cpu { plan.host_bytes() } else { texere_gpu::host_bytes_beside_gpu(&plan) } as f64;
-            // What is set up once, threads and pipelines, is there after the first.
+            // Threads and pipelines are set up once, and exist after the first run.
             pipeline().mesh(&*device).unwrap();
             let peak = peak_of(|| pipeline().mesh(&*device).unwrap());
             assert!(

@@ -1,4 +1,4 @@
-//! Misuse of a session ends in the same error on every backend, and leaves the session as it was.
+//! Misuse of a session gives the same error on every backend, and leaves the session unchanged.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -14,8 +14,8 @@ fn straight(points: usize) -> Vec<ControlPoint> {
     (0..points).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect()
 }
 
-/// A twisted yarn of several blocks, on every device that does it and on the one that does nothing:
-/// with a session that has its points but no scan yet.
+/// A twisted yarn of several blocks, with a session that has its points but no scan yet. It runs on
+/// every device that takes it, and on the null device.
 fn on_every_device(check: impl Fn(&dyn Backend, &Arc<Plan>, &[Chunk], Session)) {
     let points = straight(200);
     let mut yarns = Yarns::builder();
@@ -74,7 +74,7 @@ fn a_stage_before_its_scan() {
                 "{name}: {error:?}"
             );
         }
-        // New points make the old scan worthless.
+        // New points make the old scan invalid.
         session.scan().unwrap();
         session.mesh(&chunks[0]).unwrap();
         session.upload(3, &straight(2)).unwrap();
@@ -124,7 +124,7 @@ fn slices_of_another_length() {
     });
 }
 
-/// The third chunk takes the place of the first, whoever was read in between.
+/// The third chunk takes the place of the first one, whichever chunk was read between.
 #[test]
 fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
     on_every_device(|device, _, chunks, mut session| {
@@ -138,15 +138,15 @@ fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
         let gone = session.read_mesh(&chunks[0], &mut take);
         assert!(matches!(gone, Err(SessionError::NotInFlight { chunk: 0 })), "{name}: {gone:?}");
         let _ = session.read_mesh(&chunks[1], &mut take).unwrap();
-        // What an upload makes out of date is not to be had.
+        // Output that an upload makes out of date can't be read.
         session.upload(0, &straight(1)).unwrap();
         let outdated = session.read_mesh(&chunks[1], &mut take);
         assert!(matches!(outdated, Err(SessionError::NotInFlight { chunk: 1 })), "{name}: {outdated:?}");
     });
 }
 
-/// Also one of a plan that was made of the same yarns and settings: a chunk knows its plan, and
-/// nobody compares tables.
+/// A chunk of another plan is refused, even if both plans have the same yarns and settings: a chunk
+/// knows its plan, and tables are not compared.
 #[test]
 fn a_chunk_of_another_plan() {
     on_every_device(|device, plan, chunks, mut session| {
@@ -172,7 +172,7 @@ fn a_chunk_of_another_plan() {
                 assert!(matches!(result, Err(SessionError::ForeignChunk { chunk: 0 })), "{name}: {result:?}");
             }
         }
-        // What is refused takes no place: the third chunk still takes the first one's.
+        // A refused chunk takes no place: the third chunk still takes that of the first one.
         session.mesh(&chunks[2]).unwrap();
         session.slot_of_mesh(&chunks[1]).unwrap();
         let gone = session.slot_of_mesh(&chunks[0]);
@@ -197,12 +197,12 @@ fn the_backend_that_does_nothing_streams_any_number_of_chunks() {
         })
         .stream(&NullBackend::default(), |_, _| ControlFlow::<()>::Continue(()));
     assert!(ended.unwrap().is_continue());
-    // One for the upload, one for each block but the last, which shares a chunk with the one
-    // before.
+    // One for the upload, and one for each block except the last, which shares a chunk with the
+    // block before.
     assert_eq!(steps, 1 + 3999u32.div_ceil(64) - 1);
 }
 
-/// An engine that is called without a session, by safe code, keeps its kernels within their memory.
+/// Safe code may call an engine without a session. Its kernels stay within their memory even then.
 #[test]
 fn an_engine_refuses_what_it_has_not_loaded() {
     let mut yarns = Yarns::builder();
@@ -213,7 +213,7 @@ fn an_engine_refuses_what_it_has_not_loaded() {
     let first =
         |plan: &Plan, blocks| plan.chunks(&Limits { blocks, ..Limits::NONE }).unwrap().next().unwrap();
     let (small, large, foreign) = (first(&plan, 2), first(&plan, 8), first(&other, 2));
-    // The CPU's engines check their bounds, and the one that does nothing has none.
+    // The CPU's engines check their bounds, and the null engine has none.
     let gpus = |device: &Arc<dyn Backend>| device.info().timed_by_device;
     for device in able_devices(&yarns, plan.settings()).filter(gpus) {
         let name = &device.info().name;
@@ -227,7 +227,7 @@ fn an_engine_refuses_what_it_has_not_loaded() {
         refused(engine.trajectory(Slot::BOTH[0], &small));
         refused(engine.mesh(Slot::BOTH[1], &large));
         refused(engine.load(Slot::BOTH[0], &foreign));
-        // A chunk that is refused leaves none.
+        // A refused chunk leaves no work behind.
         refused(engine.mesh(Slot::BOTH[0], &large));
         let mut session = Session::with_engine(engine, Limits::NONE, Arc::new(other.clone()));
         let result = session.mesh(&foreign);

@@ -1,5 +1,5 @@
-//! Which package needs which: no GPU backend falls back on the CPU's, and what has no need of a GPU
-//! does without.
+//! Dependencies between packages: no GPU backend depends on the CPU backend, and packages that need
+//! no GPU depend on none.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 const GPU: [&str; 4] = ["texere-opencl", "texere-wgpu", "opencl3", "wgpu"];
 
-/// The oldest Rust that our own code builds with.
+/// The oldest Rust version with which texere's own code builds.
 const OWN: [u64; 3] = [1, 89, 0];
 
 /// The three numbers of a version.
@@ -18,7 +18,7 @@ fn version(text: &str) -> [u64; 3] {
     std::array::from_fn(|_| numbers.next().unwrap_or(0))
 }
 
-/// What cargo knows of the workspace and of all that it takes in on this system, with all features.
+/// Cargo's metadata of the workspace and of all its dependencies on this system, with all features.
 fn metadata() -> Value {
     let rustc = Command::new("rustc").arg("-vV").output().unwrap();
     let said = String::from_utf8(rustc.stdout).unwrap();
@@ -41,8 +41,8 @@ fn text(value: &Value) -> &str {
     value.as_str().unwrap()
 }
 
-/// A package asks for the newest Rust that any of what it links or builds with asks for, or our own
-/// code, and for no newer one; and the workflow checks it with that.
+/// The `rust-version` of a package is the newest one among its dependencies and texere's own code.
+/// The workflow checks the package with that version.
 #[test]
 fn each_package_names_the_oldest_rust_that_builds_it() {
     let metadata = metadata();
@@ -74,7 +74,7 @@ fn each_package_names_the_oldest_rust_that_builds_it() {
             newer.insert((name, claimed));
         }
     }
-    // Else nothing was followed.
+    // Otherwise no dependency was followed.
     assert!(newer.contains(&("texere-view", "1.95")), "{newer:?}");
     let workflow = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows/ci.yml");
     let workflow = std::fs::read_to_string(workflow).unwrap();
@@ -91,7 +91,7 @@ fn each_package_names_the_oldest_rust_that_builds_it() {
     }
 }
 
-/// Everything that a build of `package` takes in, itself left out.
+/// All packages in a build of `package`, without itself.
 fn needs(package: &str, features: &str) -> BTreeSet<String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
@@ -110,7 +110,7 @@ fn assert_without(packages: &[&str], unwanted: &[&str]) {
     for package in packages {
         for features in ["--all-features", "--no-default-features"] {
             let needs = needs(package, features);
-            // Else an empty list would do.
+            // Otherwise an empty list would pass.
             assert!(needs.contains("bytemuck"), "{package} {features}: {needs:?}");
             for unwanted in unwanted.iter().filter(|unwanted| unwanted != &package) {
                 assert!(!needs.contains(*unwanted), "{package} {features} needs {unwanted}");
@@ -132,7 +132,7 @@ fn what_needs_no_gpu_has_none() {
     assert_without(&without, &[&GPU[..], &shared].concat());
 }
 
-/// What both GPU backends share knows neither of them, and both have it.
+/// The crate that both GPU backends share depends on neither of them, and both depend on it.
 #[test]
 fn what_gpu_backends_share_names_no_interface() {
     let fabrics = [
@@ -149,7 +149,8 @@ fn what_gpu_backends_share_names_no_interface() {
     }
 }
 
-/// What is measured on yarns alone knows no structure: of texere's own packages it has the core.
+/// The crate that measures yarns knows no structures. Of texere's packages it depends on the core
+/// only.
 #[test]
 fn contacts_know_no_structure() {
     let needs = needs("texere-contact", "--all-features");
@@ -178,7 +179,7 @@ fn the_cores_sources_name_no_gpu_interface() {
     assert!(read > 10, "{read} files");
 }
 
-/// The facade takes a GPU backend in where its feature is on, and not otherwise.
+/// The facade depends on a GPU backend exactly where its feature is on.
 #[test]
 fn the_facade_has_the_backends_that_it_is_asked_for() {
     let all = needs("texere", "--all-features");

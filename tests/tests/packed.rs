@@ -1,4 +1,4 @@
-//! Packed vertices on every backend, and what packing rounds.
+//! Packed vertices on every backend, and the rounding of packing.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -14,13 +14,12 @@ use texere_core::{
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// The cases that take no more than a moment on each device.
+/// The cases that are quick on each device.
 fn small() -> Vec<Case> {
     cases::all().into_iter().filter(|case| case.yarns().points().len() <= 500).collect()
 }
 
-/// A quantum that reaches from one end of any yarn of a case to the other, whatever its spline
-/// does.
+/// A quantum that is large enough to reach from one end of any yarn to the other, for any spline.
 fn quantum(yarns: &Yarns) -> Quantum {
     let extent = |yarn: usize| {
         let points = yarns.yarn_points(yarn).unwrap_or_default();
@@ -59,7 +58,7 @@ fn packed_vertices_are_the_meshs_on_every_backend_and_however_it_is_cut() {
     assert!(cases.len() > 50 && cut > 10, "{} cases, {cut} of them in several chunks", cases.len());
 }
 
-/// Runs of blocks that go past the caches, and lines that two runs share.
+/// Runs of blocks that bypass the caches, and cache lines that two runs share.
 #[test]
 fn a_large_cloth_is_packed_as_its_mesh() {
     let yarns = cases::design("paper/489x450.toml").yarns().unwrap();
@@ -76,8 +75,8 @@ fn a_large_cloth_is_packed_as_its_mesh() {
     }
 }
 
-/// A yarn of ten metres, each block of which is unpacked near its own control point: the grid
-/// begins again many times along it.
+/// A yarn of ten metres. Each block is unpacked near its own control point, and the grid begins
+/// again many times along the yarn.
 #[test]
 fn a_cloth_may_be_larger_than_the_quantum_reaches() {
     let points: Vec<_> =
@@ -132,11 +131,11 @@ fn the_finest_quantum_that_reaches_is_chosen() {
     }
     assert_eq!(Quantum::reaching(-1.0).mm(), 2f32.powi(-24));
     assert_eq!(Quantum::reaching(f32::NAN).mm(), 2048.0);
-    // The way across all coordinates.
+    // The extent of all coordinates.
     assert!(Quantum::reaching(f32::INFINITY).reach() >= 2.0 * texere_core::COORDINATE_LIMIT);
 }
 
-/// The angle between a normal and what is left of it, rad.
+/// The angle between a normal and its unpacked value, rad.
 fn turned(normal: DVec3) -> f64 {
     let packed = PackedVertex::pack(
         &Vertex { position: [0.0; 3], normal: normal.as_vec3().to_array() },
@@ -147,7 +146,8 @@ fn turned(normal: DVec3) -> f64 {
     normal.cross(unpacked).length().atan2(normal.dot(unpacked))
 }
 
-/// Axes, edges and faces of the octahedron, where its fold lies and where a step turns most.
+/// Axes, edges and faces of the octahedron: the places of its fold, and those where a step turns a
+/// normal most.
 #[test]
 fn normals_at_the_folds_keep_their_direction() {
     let mut most = 0.0f64;
@@ -163,7 +163,7 @@ fn normals_at_the_folds_keep_their_direction() {
             }
         }
     }
-    // Not so small that nothing was rounded.
+    // The error is not so small that nothing was rounded.
     assert!((5e-5..6.6e-5).contains(&most), "{most}");
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         assert_eq!([turned(axis), turned(-axis)], [0.0; 2], "{axis}");
@@ -184,16 +184,16 @@ proptest! {
     #[test]
     fn positions_are_rounded_by_half_a_quantum_and_alike_near_any_place(
         position in prop::array::uniform3(prop_oneof![-1e9f32..1e9, -300.0f32..300.0, -1e-3f32..1e-3]),
-        // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely,
-        // where the lower bound has finer digits.
+        // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an
+        // assertion of its own where the lower bound has finer digits than the upper one.
         reach in prop_oneof![0.0f32..1e3, 0.0f32..1e9].prop_map(|reach| reach.max(1e-2)),
         shares in prop::array::uniform2(prop::array::uniform3(-1.0f64..1.0)),
     ) {
         let quantum = Quantum::reaching(reach);
         let packed = PackedVertex::pack(&Vertex { position, normal: [0.0, 0.0, 1.0] }, quantum);
         prop_assert_eq!(packed.position[1] >> 31, 0);
-        // As far off as may be, and as f32 may say it: rounding to f32 may go beyond the reach,
-        // where it has less digits than that.
+        // The largest distance that is allowed, with room for the rounding to f32, which may go
+        // beyond the reach.
         let near = |shares: [f64; 3]| {
             let near: [f32; 3] = std::array::from_fn(|axis| {
                 (f64::from(position[axis]) + shares[axis] * f64::from(quantum.reach())) as f32

@@ -1,5 +1,5 @@
-//! Yarns that nobody thought of: parallel equals serial, chunked equals whole, all to the bit, and
-//! nothing panics.
+//! Random yarns: parallel output equals serial, and chunked equals whole, to the bit; and nothing
+//! panics.
 
 use std::sync::Arc;
 
@@ -12,15 +12,14 @@ use texere_core::{
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Mostly round numbers, so that points repeat, line up and double back far more often than chance
-/// has it.
+/// Mostly round numbers, so that points often repeat, line up and double back.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![6 => (-3i8..=3).prop_map(f32::from), 3 => -10.0f32..10.0, 1 => -1e6f32..1e6, 1 => Just(0.0)]
 }
 
 /// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
-/// unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has digits
-/// finer than those of the upper bound.
+/// unit. proptest 1.12 may fail an assertion of its own where the lower bound has finer digits than
+/// the upper one.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))
 }
@@ -126,7 +125,7 @@ proptest! {
     #[test]
     fn chunked_equals_whole(yarns in yarns(), settings in settings(), blocks in 2u64..9, squeeze in 1u64..4) {
         let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
-        // Enough for any one block, and by chance for a few.
+        // Limits that suffice for any single block, and by chance for a few blocks.
         let block = 66 * u64::from(settings.sides) * 24 * squeeze;
         let limits = Limits { blocks, memory_bytes: plan.resident_bytes() + 6 * block + 20_000, ..Limits::NONE };
         for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::open().unwrap()] {
@@ -138,8 +137,8 @@ proptest! {
         }
     }
 
-    /// Boxes from control points alone hold every vertex of the cloth, of its yarns, and of any
-    /// part of a yarn.
+    /// Boxes that are made from control points alone hold every vertex: of the cloth, of its yarns,
+    /// and of any part of a yarn.
     #[test]
     fn bounds_hold_every_vertex(yarns in yarns(), settings in settings(), from in 0.0f64..1.0, to in 0.0f64..=1.0) {
         let device = ParallelBackend::open().unwrap();
@@ -175,7 +174,8 @@ proptest! {
         }
     }
 
-    /// Whatever is taken makes numbers, tangents and normals of length 1, and radii above zero.
+    /// Any yarns that are taken give finite numbers, tangents and normals of length 1, and radii
+    /// above zero.
     #[test]
     fn output_is_sound(yarns in yarns(), settings in settings()) {
         let (mesh, trajectory) = run(&yarns, settings, Limits::NONE, &ParallelBackend::open().unwrap());

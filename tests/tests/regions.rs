@@ -1,5 +1,4 @@
-//! A region of a mesh is that part of the whole, to the bit, and nothing that lies in it is
-//! missing.
+//! A region of a mesh equals that part of the whole mesh to the bit, and is complete.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -12,11 +11,12 @@ use texere_core::{
     Yarn, Yarns,
 };
 
-/// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the
+/// A corner of a triangle: the yarn, its ring or (beyond all rings) its cap, and the point of the
 /// section.
 type Corner = (u32, u64, u32);
 
-/// Fabrics of blocks here and there in a box: many yarns, and single ones that wind through it.
+/// Fabrics whose blocks are scattered over a box: many yarns, and single yarns that wind through
+/// it.
 fn fabrics() -> Vec<(&'static str, Yarns)> {
     let straight = |y: usize| {
         let points: Vec<_> = (0..150).map(|x| ControlPoint::new(x as f32, y as f32, 0.0, 0.2)).collect();
@@ -48,7 +48,7 @@ fn bounds(yarns: &Yarns, settings: Settings) -> Bounds {
     plan.bounds(&points)
 }
 
-/// Boxes in the fabric, given as shares of it: a corner, a strip, a box within, nothing and all.
+/// Boxes as shares of the fabric: a corner, a strip, an inner box, nothing, and everything.
 fn boxes(all: &Bounds) -> [Bounds; 5] {
     let at = |share: [f32; 3]| {
         std::array::from_fn(|axis| all.low[axis] + share[axis] * (all.high[axis] - all.low[axis]))
@@ -67,7 +67,7 @@ fn boxes(all: &Bounds) -> [Bounds; 5] {
     ]
 }
 
-/// What each vertex is.
+/// The corner that each vertex is.
 fn corners(mesh: &Mesh) -> Vec<Corner> {
     let sides = mesh.plan.settings().sides;
     let mut corners = vec![None; mesh.vertices.len()];
@@ -90,7 +90,7 @@ fn corners(mesh: &Mesh) -> Vec<Corner> {
     corners.into_iter().map(|corner| corner.expect("every vertex is of a ring or of a cap")).collect()
 }
 
-/// The triangles, and the bits of all vertices, by what they are.
+/// All triangles, and the bits of all vertices by corner.
 fn named(mesh: &Mesh) -> (HashSet<[Corner; 3]>, HashMap<Corner, [u32; 6]>) {
     let corners = corners(mesh);
     let triangles: Vec<_> =
@@ -100,7 +100,7 @@ fn named(mesh: &Mesh) -> (HashSet<[Corner; 3]>, HashMap<Corner, [u32; 6]>) {
     let bits = |vertex: &Vertex| bytemuck::cast::<Vertex, [u32; 6]>(*vertex);
     let mut vertices = HashMap::new();
     for (corner, vertex) in corners.into_iter().zip(&mesh.vertices) {
-        // A ring that a cut repeats is the same again.
+        // A ring that a cut repeats is equal in both chunks.
         assert_eq!(*vertices.entry(corner).or_insert(bits(vertex)), bits(vertex), "{corner:?}");
     }
     (named, vertices)

@@ -1,15 +1,15 @@
-//! What the registry opens here.
+//! The devices that the registry opens on this machine.
 
 use texere_conformance::REGISTRY;
 use texere_core::backend::Schedule;
 
-/// What no device here has, the suite does not try.
+/// The suite does not try devices that this machine lacks.
 #[test]
 fn every_gpu_backend_has_a_device_with_a_clock_and_both_schedules() {
     for name in ["opencl", "wgpu"] {
         let entry = REGISTRY.iter().find(|entry| entry.name == name).unwrap();
         let (devices, _) = entry.devices();
-        // The suite itself says where a backend is missing.
+        // The suite itself reports a missing backend.
         if devices.is_empty() {
             continue;
         }

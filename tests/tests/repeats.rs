@@ -1,4 +1,4 @@
-//! A repeat that settles once and is copied, against copies of it that settle together.
+//! A repeat that settles once and is copied, against copies that settle together.
 
 use std::ops::ControlFlow;
 
@@ -8,7 +8,7 @@ use texere_core::{Boundary, Ends, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{Finish, Piece, Repeat, Settled, settle};
 
-/// Garter of so many wales and courses, whose loops pierce one another at the start.
+/// Garter of this many wales and courses. Its loops pierce one another at the start.
 fn garter(size: usize) -> Start {
     let courses: Vec<_> = (0..size).map(|course| ["k", "p"][course % 2].repeat(size)).collect();
     weft_knit("garter", &Chart::new(&courses), Gauge::new(4.4), Length::Held)
@@ -31,7 +31,7 @@ fn settled(piece: &Piece) -> Settled {
     settle(piece, &Finish::default(), &cpu, |_| ControlFlow::Continue(())).expect("a settling")
 }
 
-/// The nearest contact that no cut end is part of.
+/// The nearest contact without a cut end.
 fn inner(yarns: &Yarns, found: &Clearance) -> f64 {
     let is_cut = |place: &texere_core::YarnPlace| {
         let points = yarns.yarn_points(place.yarn).map_or(0, <[_]>::len);
@@ -48,18 +48,18 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     for each in [&one, &whole] {
         assert!(each.rest.start.clearance < 0.85 && each.rest.at_rest && each.is_linked(), "{:?}", each.rest);
     }
-    let copied = repeat.laid(&one.yarns).expect("copies");
+    let copied = repeat.placed(&one.yarns).expect("copies");
     assert_eq!(copied.layout().offsets(), whole.yarns.layout().offsets());
-    // At rest is whatever is clear and not too tight, so nothing draws the two to one place. Points
-    // start up to 0.01 diameters off along each axis, each in a direction of its own: up to 0.035
-    // mm from the same point of the other.
+    // Any clear cloth without tight bends is at rest, so that both need not end in one place. Each
+    // point starts up to 0.01 diameters off along each axis, in its own direction, which puts it up
+    // to 0.035 mm from the same point of the other.
     let apart = |one: &Yarns, other: &Yarns| {
         let pairs = one.points().iter().zip(other.points());
         pairs.map(|(one, other)| one.position().distance(other.position())).fold(0.0, f32::max)
     };
     let (moved, off) = (apart(&whole.yarns, &piece(&garter(4)).yarns), apart(&whole.yarns, &copied));
     assert!(moved > 0.5 && off < 0.05, "moved {moved} mm, {off} mm apart");
-    // Lengths are the same to what either may be off.
+    // Lengths are equal, up to the tolerance of either.
     let lengths = [&copied, &whole.yarns].map(|yarns| length_mm(yarns));
     assert!((lengths[0] / lengths[1] - 1.0).abs() < 0.01, "{lengths:?}");
     // At the seams nothing comes nearer than in the repeat.

@@ -1,4 +1,4 @@
-//! Cloth before and after it settles: what the check sees, and that it is fit to be trusted.
+//! Starts for settling, and the checks of settled cloth: tests that both can be trusted.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use texere_conformance::rest::{
     weft_knit, woven,
 };
 
-/// A circle as a closed yarn, about `centre` in the plane of two unit vectors.
+/// A circle about `centre` as a closed yarn, in the plane of two unit vectors.
 fn circle(centre: DVec3, plane: [DVec3; 2], size: f64, count: u32, radius: f64) -> StartYarn {
     let point = |k| {
         let (sin, cos) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
@@ -17,8 +17,8 @@ fn circle(centre: DVec3, plane: [DVec3; 2], size: f64, count: u32, radius: f64) 
     StartYarn { points: (0..count).map(point).collect(), radius, ends: Ends::Closed }
 }
 
-/// Two circles, each through the other's middle, the second one's plane turned about their common
-/// axis.
+/// Two circles, each through the centre of the other. The plane of the second one is turned about
+/// their common axis.
 fn linked_circles() -> Start {
     start(vec![
         circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 3.0, 48, 1.5),
@@ -30,13 +30,13 @@ fn start(yarns: Vec<StartYarn>) -> Start {
     Start { name: "test".to_owned(), yarns, repeat: [0.0; 2], pinned: Vec::new(), length: Length::Held }
 }
 
-/// A straight yarn along y, 10 mm a repeat.
+/// A straight yarn along y, of 10 mm per repeat.
 fn straight(x: f64, z: f64, radius: f64) -> StartYarn {
     let points = (0..5).map(|k| dvec3(x, 2.0 * f64::from(k), z)).collect();
     StartYarn { points, radius, ends: Ends::Repeats([0, 1]) }
 }
 
-/// Numbers in \[-1, 1\] that are the same every time.
+/// Pseudo-random numbers in \[-1, 1\], the same on every run.
 fn noise(points: &[Vec<DVec3>], size: f64) -> Vec<Vec<DVec3>> {
     let mut seed = 1u64;
     let mut next = || {
@@ -51,7 +51,7 @@ fn noise(points: &[Vec<DVec3>], size: f64) -> Vec<Vec<DVec3>> {
 fn circles_have_their_radius_length_and_distance() {
     let start = linked_circles();
     let report = check(&start, &start.points());
-    // The nearest places are those in the middle of the other circle.
+    // The nearest places are at the centre of the other circle.
     assert!((report.clearance - 3.0 / 2.5).abs() < 1e-3, "{report:?}");
     assert_eq!(report.nearest.map(|places| places.map(|place| place.yarn)), Some([0, 1]));
     // The spline bends more at its points than between them, by 1 % with 48 of them.
@@ -73,14 +73,13 @@ fn lengths_are_against_the_start() {
 
 #[test]
 fn a_yarn_is_near_itself_only_further_along() {
-    // A tight ring is always so near itself; what counts begins half way round.
+    // A tight ring is this near itself everywhere. Places count from half way round on.
     let ring = start(vec![circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 0.6, 24, 0.5)]);
     let report = check(&ring, &ring.points());
     let chord = 1.2 * (TAU / 4.0 / 1.2f64).sin();
     assert!(report.clearance > chord && report.clearance < chord + 0.02, "{report:?}");
 
-    // Two legs that bow towards one another: the spline goes through the points of a parabola as
-    // the parabola does.
+    // Two legs that bow towards one another. A spline through points of a parabola is the parabola.
     let leg =
         [[0.0, 0.8], [1.0, 0.5], [2.0, 0.4], [3.0, 0.5], [4.0, 0.8], [5.0, 1.3], [6.3, 1.2], [7.0, 0.0]];
     let mirrored = leg.iter().rev().skip(1).map(|at| dvec3(at[0], -at[1], 0.0));
@@ -98,7 +97,7 @@ fn straight_yarns_are_as_far_apart_as_they_are() {
     assert!((apart.clearance - 1.0 / 0.75).abs() < 1e-9, "{apart:?}");
     assert_eq!(apart.bend, f64::INFINITY);
 
-    // Over the seam, wherever the yarns are counted from.
+    // The result over the seam does not depend on where yarns begin.
     for repeats in [0.0, 3.0, -2.0] {
         pair.repeat = [10.0; 2];
         let mut points = pair.points();
@@ -107,12 +106,12 @@ fn straight_yarns_are_as_far_apart_as_they_are() {
         assert!((seam.clearance - 1.0 / 0.75).abs() < 1e-9, "{seam:?}");
     }
 
-    // Further apart than what is searched first.
+    // Further apart than the first reach of the search.
     let mut wide = start(vec![straight(1.2, 0.0, 0.5), straight(2.6, 0.0, 0.5)]);
     wide.repeat = [0.0, 10.0];
     assert!((check(&wide, &wide.points()).clearance - 1.4).abs() < 1e-9);
 
-    // Alone it meets its own image; further along it is itself.
+    // A yarn alone meets its own image. Further along, the image is the yarn itself.
     let mut alone = start(vec![straight(0.0, 0.0, 0.5)]);
     alone.repeat = [0.7, 10.0];
     assert!((check(&alone, &alone.points()).clearance - 0.7).abs() < 1e-9);
@@ -139,10 +138,10 @@ fn the_integral_of_linked_circles_is_one() {
 
 /// Every start: its clearance, the least radius of curvature and the thickness, both in diameters.
 ///
-/// Jersey, warp knits of one bar and the weaves are as their models promise. In rib, garter, tuck,
-/// miss and lace each half of a loop follows the loop that crosses it there, and what hangs on one
-/// needle lies in layers: so they begin clearer than loops of one shape would, which pierce to .4.
-/// The two bars of a warp knit always pierce one another at the start.
+/// Jersey, warp knits of one bar, and weaves are as clear as their models promise. In rib, garter,
+/// tuck, miss and lace, each half of a loop lies on the side of the loop that crosses it there, and
+/// loops on one needle lie in layers. They begin clearer than equal loops, which would pierce to
+/// 0.4. The two bars of a warp knit always pierce one another at the start.
 const LISTED: [(&str, f64, f64, f64); 39] = [
     ("jersey-4.2", 0.995, 0.715, 2.27),
     ("jersey-5", 1.003, 0.956, 2.22),
@@ -233,7 +232,7 @@ fn a_pulled_stitch_is_a_crossing() {
     for loop_at in 0..9 {
         let (course, wale) = (loop_at / 3, loop_at % 3);
         let mut pulled = start.points();
-        // The upper legs and the head, lower than the feet of the loop that was drawn through.
+        // The upper legs and the head move below the feet of the loop that was drawn through.
         for point in &mut pulled[course][12 * wale + 4..12 * wale + 9] {
             point.y -= 0.6 * (point.y - 3.75 * course as f64);
         }
@@ -245,13 +244,13 @@ fn a_pulled_stitch_is_a_crossing() {
     }
 }
 
-/// A tuck lies between the held loop and the one that is drawn through both; a float behind the
+/// A tuck lies between the held loop and the loop that is drawn through both. A float behind the
 /// held loop is free.
 #[test]
 fn tucks_and_held_loops_are_drawn_through_and_floats_are_not() {
     let course = 3.75;
     let tuck = weft_knit("tuck", &Chart::new(&["kkk", "ktk", "kkk"]), Gauge::new(5.0), Length::Held);
-    // The second wale: a held loop with two points more, and a tuck with two points less.
+    // The second wale has a held loop with two more points, and a tuck with two fewer.
     for (yarn, upper) in [(0, 15..24), (1, 14..21)] {
         let mut pulled = tuck.points();
         for point in &mut pulled[yarn][upper] {
@@ -272,8 +271,8 @@ fn tucks_and_held_loops_are_drawn_through_and_floats_are_not() {
     }
 }
 
-/// The loop that is moved hangs with its neighbour in the loop of the next course; the one on the
-/// needle that it left goes through nothing.
+/// The moved loop hangs with its neighbour in the loop of the next course. The next loop on the
+/// empty needle goes through nothing.
 #[test]
 fn lace_hangs_together() {
     let lace = weft_knit("lace", &Chart::new(&[">kk", "kkk", "kkk"]), Gauge::new(5.0), Length::Held);
@@ -289,8 +288,8 @@ fn lace_hangs_together() {
         assert!(found.at.unwrap().iter().any(|place| place.yarn == 1), "{what}: {found:?}");
     }
 
-    // The left foot of the arch, lifted out of the cloth to the face: that of a loop which goes
-    // through another can't be. The right one lies behind the loop that was moved.
+    // The left foot of the arch can be lifted out of the cloth to the face. The foot of a loop that
+    // goes through another one can't be. The right foot lies behind the moved loop.
     for (course, crosses) in [(1, false), (2, true)] {
         let mut lifted = lace.points();
         lifted[course][1..3].iter_mut().for_each(|foot| foot.z += 4.0);
@@ -299,7 +298,7 @@ fn lace_hangs_together() {
     }
 }
 
-/// In every warp knit, a loop of either bar. With thin yarn it is the same.
+/// A loop of each bar in every warp knit, also with thin yarn.
 #[test]
 fn warp_loops_are_drawn_through() {
     let is_tested = |start: &Start| start.repeat == [4.0, 3.0] && start.yarns[0].radius > 0.045;
@@ -309,7 +308,7 @@ fn warp_loops_are_drawn_through() {
         for bar in 0..start.yarns.len() / 4 {
             let mut pulled = start.points();
             let yarn = &mut pulled[4 * bar + 1];
-            // The head of the second course: 1.6 courses of 0.75 mm above its foot.
+            // The head of the second course, 1.6 courses of 0.75 mm above its foot.
             let is_head = |point: &DVec3| (point.y - 0.75 - 1.2).abs() < 1e-9;
             let head = yarn.iter().position(is_head).expect("a head");
             for point in &mut yarn[head - 2..=head + 2] {

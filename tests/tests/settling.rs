@@ -1,5 +1,5 @@
-//! Yarns come to rest: every start of the list on the `cpu` backend, by a check of its own; and the
-//! same bits on every schedule of the CPU.
+//! Yarns come to rest: every start of the list on the `cpu` backend, by independent checks; and all
+//! schedules of the CPU give the same bits.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -20,8 +20,7 @@ fn cpu() -> ParallelBackend {
     ParallelBackend::open().expect("the CPU")
 }
 
-/// What a start lacks once it has settled, by an independent check of splines, distances and
-/// linking in f64.
+/// Faults of a settled start, by an independent check of splines, distances and linking in f64.
 fn lacking(start: &Start) -> Option<String> {
     let (rest, points) = settle_start(start, &cpu(), |_, _| {});
     let report = check(start, &points);
@@ -35,7 +34,7 @@ fn lacking(start: &Start) -> Option<String> {
         let moved = points[yarn][point].distance(start.yarns[yarn].points[point]);
         assert!(moved < 1e-4, "{}: a pinned point moved {moved} mm", start.name);
     }
-    // An open piece of a jammed weave is held by its ends: its bends stay what they are.
+    // The ends of an open piece of jammed weave are held, so that its bends can't open.
     let bend = if start.name == "plain-1.8-piece" { 0.5 } else { 0.58 };
     let lacks = report.clearance < 0.98 || report.bend < bend || length > 0.01 || linked.change > CROSSED;
     lacks.then(|| format!("{}: {rest:?} {report:?} {linked:?}", start.name))
@@ -47,15 +46,14 @@ fn starts_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Cloths in which no repeat is like the next, and in which so many points move that the worst of
-/// them decide.
+/// Cloths without equal repeats, and with many moving points, of which the worst decide.
 #[test]
 fn large_cloths_come_to_rest() {
     let failed: Vec<_> = [random_misses(30, 1), lace(25)].iter().filter_map(lacking).collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// A repeat of plain weave as it lies, its yarns flattened.
+/// A repeat of plain weave as placed, with flattened yarns.
 fn flattened_plain(pitch: f64) -> (Start, Yarns) {
     let start = woven("plain", Weave { size: 4, step: 1, order: 2, pitch }, Length::Free);
     let mut yarns = Yarns::builder();
@@ -70,7 +68,7 @@ fn flattened_plain(pitch: f64) -> (Start, Yarns) {
     (start, yarns.build().expect("yarns"))
 }
 
-/// Plans that between them have everything that passes distinguish.
+/// Plans that together have everything that passes distinguish.
 fn plans() -> Vec<(&'static str, Arc<SettlingPlan>)> {
     let mut plans: Vec<_> = starts()
         .iter()
@@ -105,14 +103,14 @@ fn plans() -> Vec<(&'static str, Arc<SettlingPlan>)> {
     plans
 }
 
-/// The places of all control points at the start, in order.
+/// The positions of all control points at the start, in order.
 fn places(plan: &SettlingPlan) -> Vec<Place> {
     let all = plan.places().iter().zip(plan.tags());
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
-/// Eight passes of either form, with neighbours listed twice: what each saw, and where everything
-/// was after it.
+/// Eight passes of either form, in which neighbours are listed twice. The result is what each pass
+/// saw, and the positions after it.
 fn eight_passes(
     plan: &SettlingPlan,
     settler: &mut dyn Settler,
@@ -154,7 +152,7 @@ fn all_schedules_of_the_cpu_give_the_same_bits() {
     }
 }
 
-/// The course that leads passes is the same, too.
+/// The whole course of passes is the same, too.
 #[test]
 fn whole_settlings_end_in_the_same_bits() {
     let start = weft_knit("jersey", &Chart::new(&["kk"; 2]), Gauge::new(4.2), Length::Held);
@@ -170,8 +168,8 @@ fn whole_settlings_end_in_the_same_bits() {
     assert_eq!(end(&cpu()), reference);
 }
 
-/// Ten metres out a cloth rests just as it does at the origin: coordinates are chosen so that they
-/// are exact in both places.
+/// Cloth ten metres from the origin comes to rest as at the origin. Its coordinates are exact in
+/// both places.
 #[test]
 fn a_cloth_far_out_rests_as_one_at_the_origin() {
     let at = |far: DVec3| {
@@ -195,7 +193,7 @@ fn a_cloth_far_out_rests_as_one_at_the_origin() {
     }
 }
 
-/// A weave too dense for round yarns can't come to rest; it is not made worse.
+/// A weave that is too dense for round yarns can't come to rest. Settling does not make it worse.
 #[test]
 fn what_comes_back_is_no_worse_than_what_came_in() {
     for pitch in [1.2, 1.5] {
@@ -209,8 +207,7 @@ fn what_comes_back_is_no_worse_than_what_came_in() {
     }
 }
 
-/// The places that come back are those that the report is of, and what was at rest comes back as it
-/// was.
+/// Returned positions are those of the report, and cloth that was at rest comes back unchanged.
 #[test]
 fn a_report_is_of_what_comes_back() {
     for name in ["jersey-3.6", "jersey-5", "plain-1.8", "rib-4.4"] {
@@ -233,13 +230,13 @@ fn a_report_is_of_what_comes_back() {
     }
 }
 
-/// Whatever it is doing when the one who watches breaks off: it makes no further pass, and leaves
-/// the best that it has reported.
+/// Settling may be stopped at any time. It makes no further pass, and leaves the best positions
+/// that it has reported.
 #[test]
 fn who_watches_may_break_off() {
     let start = starts().into_iter().find(|start| start.name == "jersey-3.6").expect("a start");
     let plan = settling_plan(&start);
-    // The pass that sees what came in, growth, ease, and the block form.
+    // Stops in the first pass, in growth, in ease, and in the block form.
     for last in [1, 20, 60, 330] {
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
         let (mut calls, mut best) = (0, SettlingSeen::NOTHING);
@@ -260,7 +257,7 @@ fn who_watches_may_break_off() {
 }
 
 /// Lists hold all neighbours that a comparison of all pairs finds: in small repeats, in open pieces
-/// of few cells, and over many.
+/// of few cells, and in pieces of many cells.
 #[test]
 fn lists_are_complete() {
     let mut plans = plans();
@@ -308,7 +305,7 @@ fn lists_are_complete() {
     }
 }
 
-/// Short yarns strewn over a field of `width` by 4 mm, all at one height.
+/// Short yarns scattered over a field of `width` by 4 mm, all at one height.
 fn strewn(width: f32, seed: u32) -> SettlingPlan {
     let mut bits = seed;
     let mut next = || {

@@ -1,4 +1,4 @@
-//! Settling on every device of the registry, against `cpu-serial`: places, what was seen,
+//! Settling on every device of the registry, against `cpu-serial`: positions, what passes see,
 //! neighbours, and whole courses.
 
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, OutOfMe
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
 
-/// A repeat of plain weave as it lies, its yarns flattened and pressed by plates.
+/// A repeat of plain weave as placed, with flattened yarns, pressed by plates.
 fn flattened_plain() -> SettlingPlan {
     let start = woven("plain", Weave { size: 4, step: 1, order: 2, pitch: 2.2 }, Length::Free);
     let mut yarns = Yarns::builder();
@@ -36,7 +36,7 @@ fn flattened_plain() -> SettlingPlan {
     SettlingPlan::new(&settling).expect("a plan")
 }
 
-/// Two closed yarns, each through the other.
+/// Two closed yarns that are linked.
 fn linked_rings() -> SettlingPlan {
     let mut rings = Yarns::builder();
     for ring in 0..2 {
@@ -50,7 +50,7 @@ fn linked_rings() -> SettlingPlan {
     SettlingPlan::new(&Settling::new(&rings.build().expect("yarns"))).expect("a plan")
 }
 
-/// Plans that between them have everything that passes distinguish.
+/// Plans that together have everything that passes distinguish.
 fn plans() -> Vec<(String, Arc<SettlingPlan>)> {
     let mut plans: Vec<_> =
         starts().into_iter().map(|start| (start.name.clone(), settling_plan(&start))).collect();
@@ -64,15 +64,15 @@ fn start(name: &str) -> Start {
     starts().into_iter().find(|start| start.name == name).expect("a start")
 }
 
-/// The places of all control points at the start, in order.
+/// The positions of all control points at the start, in order.
 fn places(plan: &SettlingPlan) -> Vec<Place> {
     let all = plan.places().iter().zip(plan.tags());
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
-/// The same, each moved by up to a hundredth of a diameter along each axis, as every course begins:
-/// where yarns lie symmetrically, rounding alone decides which way they go. `units` more are added
-/// to one or taken off another, as in a pattern.
+/// The start positions, each moved by up to a hundredth of a diameter along each axis, as at the
+/// beginning of every course. Without this, rounding alone decides where symmetrical yarns go. In
+/// addition, `units` are added or subtracted in a pattern.
 fn begin(plan: &SettlingPlan, units: i32) -> Vec<Place> {
     let far = 0.01 * plan.spans().diameter / plan.scale().unit();
     let (mut bits, mut all) = (1_u32, places(plan));
@@ -89,17 +89,17 @@ fn begin(plan: &SettlingPlan, units: i32) -> Vec<Place> {
     all
 }
 
-/// What eight passes came to.
+/// The result of eight passes.
 #[derive(Debug, PartialEq)]
 struct Course {
-    /// How many neighbours each list had.
+    /// Number of neighbours in each list.
     neighbours: Vec<u64>,
     seen: Vec<SettlingSeen>,
     places: Vec<Place>,
 }
 
 impl Course {
-    /// How far a place lies from another course's at most, in mean diameters.
+    /// The largest distance between positions of two courses, in mean diameters.
     fn apart(&self, plan: &SettlingPlan, other: &Self) -> f64 {
         let apart = |(here, there): (&Place, &Place)| {
             let way = here.units().as_dvec3() - there.units().as_dvec3();
@@ -109,8 +109,8 @@ impl Course {
     }
 }
 
-/// Eight passes of either form, with neighbours listed twice, and with bends as soft as they are in
-/// that form's passes.
+/// Eight passes of either form, in which neighbours are listed twice. Bends are as soft as in that
+/// form's passes.
 fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Result<Course, BackendError> {
     let mut course = Course { neighbours: Vec::new(), seen: Vec::new(), places: begin.to_vec() };
     settler.upload(begin)?;
@@ -126,12 +126,12 @@ fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Resul
     Ok(course)
 }
 
-/// How far places may be off, in mean diameters.
+/// Tolerance of positions, in mean diameters.
 const OFF: f64 = 1e-4;
 
-/// What `cpu-serial` makes of a plan, and how far it is off itself where places begin up to three
-/// units off, three millionths of a diameter: parallel yarns that pierce one another, as the
-/// underlaps of two guide bars do, have no one place where they are nearest, and a contact that
+/// The result of `cpu-serial` for a plan; and its own largest change when positions begin up to
+/// three units off, which are three millionths of a diameter. Parallel yarns that pierce one
+/// another, such as the underlaps of two guide bars, have no single nearest place. A contact that
 /// just touches counts from one pass on or from the next.
 struct Reference {
     course: Course,
@@ -142,7 +142,7 @@ impl Reference {
     fn new(plan: &Arc<SettlingPlan>, form: Form) -> Self {
         let mut serial = SerialBackend::new().settler(Arc::clone(plan)).expect("a settler");
         let course = eight_passes(serial.as_mut(), form, &begin(plan, 0)).expect("a course");
-        // The same bits, sooner.
+        // `cpu` gives the same bits as `cpu-serial`, sooner.
         let mut cpu = ParallelBackend::open().expect("the CPU").settler(Arc::clone(plan)).expect("a settler");
         let mut apart = |units| {
             let other = eight_passes(cpu.as_mut(), form, &begin(plan, units)).expect("a course");
@@ -152,7 +152,7 @@ impl Reference {
         Self { own, course }
     }
 
-    /// Whether rounding may not change where things go.
+    /// Whether rounding does not change where yarns go.
     fn is_certain(&self) -> bool {
         self.own < OFF / 2.0
     }
@@ -162,7 +162,7 @@ fn near(one: f32, other: f32) -> bool {
     one == other || (one - other).abs() <= 1e-3 * one.abs().max(other.abs())
 }
 
-/// What is wrong with a device's course, by the reference's.
+/// Errors of a device's course against the reference's.
 fn faults(plan: &SettlingPlan, found: &Course, reference: &Reference) -> Vec<String> {
     let (mut faults, expected) = (Vec::new(), &reference.course);
     if reference.is_certain() && found.neighbours != expected.neighbours {
@@ -173,7 +173,7 @@ fn faults(plan: &SettlingPlan, found: &Course, reference: &Reference) -> Vec<Str
             [found.step, expected.step],
             [found.clearance, expected.clearance],
             [found.radius, expected.radius],
-            // Of shares that are mere rounding none is right.
+            // Shares that are mere rounding are not compared.
             [found.length + 1e-3, expected.length + 1e-3],
         ];
         if reference.is_certain() && both.iter().any(|[found, expected]| !near(*found, *expected)) {
@@ -207,7 +207,7 @@ fn devices_settle_as_the_reference_does() {
                 for fault in faults(&plan, &found, &reference) {
                     failed.push(format!("{here}: {fault}"));
                 }
-                // The same settler, after other passes.
+                // The settler is used again, after other passes.
                 let again = eight_passes(settler.as_mut(), form, &begin).expect("a course");
                 if again != found {
                     failed.push(format!("{here}: another end the second time"));
@@ -219,8 +219,7 @@ fn devices_settle_as_the_reference_does() {
     assert!(certain >= 40, "{certain} of 82 are held to {OFF} diameters");
 }
 
-/// The proof that the comparison can fail: each broken settler is caught, by either form, and an
-/// honest one is not.
+/// The comparison can fail: each broken settler is caught in either form, and a sound one is not.
 #[test]
 fn broken_settlers_are_caught() {
     let plan = settling_plan(&start("tuck-5"));
@@ -244,8 +243,7 @@ fn broken_settlers_are_caught() {
     }
 }
 
-/// Yarns that lie in one another are refused before their pairs fill the memory, on every device
-/// alike.
+/// Yarns in one place are refused before their pairs fill the memory, equally on every device.
 #[test]
 fn yarns_too_thick_on_one_another_are_refused() {
     let mut yarns = Yarns::builder();
@@ -269,7 +267,7 @@ fn yarns_too_thick_on_one_another_are_refused() {
     }
 }
 
-/// A device with little memory, in each buffer or in all, settles the same or says what is too
+/// A device with little memory, in each buffer or in all, gives the same result or says what is too
 /// large.
 #[test]
 fn small_memories_settle_the_same_or_are_refused_by_name() {
@@ -290,14 +288,14 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
         Err(BackendError::OutOfMemory(OutOfMemory { what, .. })) => Some(what),
         Err(error) => panic!("{error}"),
     };
-    // From 1 kB to 32 MB.
+    // Limits from 1 kB to 32 MB.
     let each: Vec<_> = (10..26).filter_map(|power| refused(&held(in_each(1 << power)))).collect();
     assert_eq!(
         (each.first(), each.last()),
         (Some(&"the place table"), Some(&"pulls of intervals")),
         "{each:?}"
     );
-    // The least memory that a settler opens with, which leaves none for its lists.
+    // The least memory with which a settler opens. It leaves none for lists.
     let (mut too_little, mut enough) = (0, 1 << 25);
     while enough - too_little > 16 {
         let middle = u64::midpoint(too_little, enough);
@@ -307,7 +305,7 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
     assert_eq!(refused(&held(in_all(1 << 25))), None);
 }
 
-/// Places that are kept come back, and passes from there on are those that they were.
+/// Kept positions come back, and passes from there on are the same again.
 #[test]
 fn what_was_kept_comes_back() {
     let plan = settling_plan(&start("jersey-3.6"));
@@ -334,25 +332,25 @@ fn what_was_kept_comes_back() {
     }
 }
 
-/// Two-bar warp knits: underlaps lie along one another there, and where along is left to chance.
+/// Two-bar warp knits. Their underlaps lie along one another, and their places along one another
+/// are arbitrary.
 const TWO_BARS: [&str; 7] =
     ["counter-", "locknit", "reverse-", "sharkskin", "satin-0", "queenscord", "parallel-"];
 
-/// Whether yarns of a start have one way to rest: they do where the weighted form alone brings them
-/// there, for cloths that need the block form are so dense that yarns buckle to one side or the
-/// other.
+/// Whether the yarns of a start have a single way to rest. They do if the weighted form suffices.
+/// Cloths that need the block form are so dense that yarns buckle to one side or the other.
 fn has_one_rest(start: &Start, rest: &Rest) -> bool {
     rest.block_passes == 0 && !TWO_BARS.iter().any(|name| start.name.starts_with(name))
 }
 
-/// The whole course, and a check of what came of it that shares no code with it.
+/// The whole course, with a check of its result that shares no code with it.
 #[test]
 fn starts_come_to_rest_on_every_device() {
     let cpu = ParallelBackend::open().expect("the CPU");
     let (mut failed, mut held) = (Vec::new(), 0);
     for start in starts() {
         let (at_rest, reference) = settle_start(&start, &cpu, |_, _| {});
-        // An open piece of a jammed weave is held by its ends: its bends stay what they are.
+        // The ends of an open piece of jammed weave are held, so that its bends can't open.
         let bend = if start.name == "plain-1.8-piece" { 0.5 } else { 0.58 };
         let one_rest = has_one_rest(&start, &at_rest);
         held += usize::from(one_rest);
@@ -373,7 +371,7 @@ fn starts_come_to_rest_on_every_device() {
     assert_eq!(held, 20, "starts with one way to rest");
 }
 
-/// Yarns that nowhere meet have no neighbours, and see nothing.
+/// Yarns that meet nowhere have no neighbours, and passes see nothing.
 #[test]
 fn a_lone_yarn_sees_nothing() {
     let yarn =

@@ -1,5 +1,5 @@
-//! Settling with settings that the starts of the list don't have: what comes to rest, by the
-//! surfaces that meshes are made of.
+//! Settling with settings that the list of starts lacks. Results are measured by the surfaces of
+//! meshes.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -10,8 +10,7 @@ use texere_core::settling::{Length, Rest, Settling, SettlingPlan, settle, settle
 use texere_core::{Backend, Boundary, ControlPoint, Ends, Settings, SettlingError, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
-/// The yarns of a start whose yarn number `yarn` has the halves `halves(yarn)`, mm, and how they go
-/// on.
+/// The yarns of a start with their boundary. Yarn number `yarn` has the halves `halves(yarn)`, mm.
 fn cloth(start: &Start, halves: impl Fn(usize) -> [f32; 2]) -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     for (number, yarn) in start.yarns.iter().enumerate() {
@@ -32,7 +31,7 @@ fn cloth(start: &Start, halves: impl Fn(usize) -> [f32; 2]) -> (Yarns, Boundary)
     (yarns, boundary)
 }
 
-/// What a settling came to, and the clearance of its yarns' surfaces.
+/// The result of settling, and the clearance of the surfaces.
 fn at_rest(yarns: &Yarns, settling: &Settling<'_>) -> (Rest, Yarns, Clearance) {
     let plan = Arc::new(SettlingPlan::new(settling).expect("a plan"));
     let mut settler =
@@ -49,7 +48,7 @@ fn at_rest(yarns: &Yarns, settling: &Settling<'_>) -> (Rest, Yarns, Clearance) {
 
 const FREE: Length = Length::Free { tension: 0.0 };
 
-/// A piece of plain weave, six ends by six picks, a pitch of so many mm.
+/// A piece of plain weave of six ends and six picks, with this pitch in mm.
 fn plain(pitch: f64) -> Start {
     woven_piece("plain", Weave { size: 6, step: 1, order: 2, pitch }, Asked::Free)
 }
@@ -71,8 +70,8 @@ fn yarns_of_two_thicknesses_come_to_rest() {
     assert!(found.min >= 0.98, "{rest:?}, {}", found.min);
 }
 
-/// With a spline of another tension yarns run otherwise between their control points: what is clear
-/// as one is not as another.
+/// Splines of different tensions run differently between control points. Yarns may be clear with
+/// one tension and not with another.
 #[test]
 fn yarns_rest_by_the_spline_that_they_are_drawn_with() {
     let (yarns, boundary) = cloth(&plain(1.9), |_| [0.52; 2]);
@@ -86,7 +85,7 @@ fn yarns_rest_by_the_spline_that_they_are_drawn_with() {
     assert!((other - found.min).abs() > 1e-3, "{other} with either");
 }
 
-/// Tension draws a knit's yarn in, and leaves its loops clear of one another.
+/// Tension draws in the yarn of a knit, and leaves its loops clear of one another.
 #[test]
 fn tension_draws_yarn_in() {
     let start = weft_knit("rib", &Chart::new(&["kpkp"; 4]), Gauge::new(5.0), Asked::Free);
@@ -123,7 +122,7 @@ fn yarns_that_can_t_be_cut_into_intervals_or_chords_are_refused() {
     };
     // 100 mm in chords of 0.6 times 0.02 mm.
     assert!((8_330..8_340).contains(&chords), "{chords}");
-    // 40 mm from point to point are few enough, but not of so many points.
+    // 40 mm from point to point are short enough, but not for this many points.
     let mut slack = Yarns::builder();
     let points: Vec<_> =
         (0..40).map(|point| ControlPoint::new(40.0 * point as f32, 0.0, 0.0, 0.01)).collect();

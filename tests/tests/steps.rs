@@ -1,5 +1,5 @@
-//! The steps of a run, as `Pipeline` promises them: bounded by default, reported one by one, and no
-//! more of them after a stop.
+//! The steps of a run, as `Pipeline` promises them: bounded by default, reported one by one, and
+//! ended by a stop.
 
 use std::ops::ControlFlow;
 
@@ -14,19 +14,18 @@ fn yarns() -> Yarns {
     cases::winding(1_800_000, Yarn::default())
 }
 
-/// The most that a buffer of a chunk may have unless more are asked for, bytes: what the docs of
-/// `Limits` say.
+/// The default limit of a chunk's buffer, bytes, by the docs of `Limits`.
 const CHUNK_BUFFER: u64 = 64 << 20;
 
-/// Rings of six sides that such a buffer holds: four bytes for each of 36 indices, 24 for each of
-/// six vertices.
+/// Rings of six sides in such a buffer: four bytes for each of 36 indices, or 24 for each of six
+/// vertices.
 const STEP_RINGS: u64 = CHUNK_BUFFER / 144;
 
 fn device() -> Box<dyn Backend> {
     texere::open("cpu").unwrap()
 }
 
-/// Progress as it is reported, in order.
+/// All reports of progress, in order.
 fn reported(run: impl FnOnce(Pipeline<'_>, &dyn Backend)) -> Vec<Progress> {
     let (yarns, mut reported) = (yarns(), Vec::new());
     run(
@@ -77,7 +76,7 @@ fn progress_is_told_after_each_chunk() {
     }
 }
 
-/// Half way the sink or progress says stop: no more than the chunk after it is handed over.
+/// The sink or progress stops the run half way. At most one more chunk is handed over.
 #[test]
 fn a_stop_is_heard_at_the_next_chunk() {
     let (yarns, device) = (yarns(), device());

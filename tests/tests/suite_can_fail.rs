@@ -1,4 +1,4 @@
-//! The suite's own proof: each broken backend is caught, by the name of its fault and no other.
+//! The suite can fail: each broken backend is caught, by the name of its fault and by no other.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -11,7 +11,7 @@ use texere_conformance::{Entry, OpenAll, REGISTRY, Sabotage, SabotagedBackend, c
 use texere_core::{Backend, BackendError, ControlPoint, Frame, Settings, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 
-/// Two yarns that fit one block each, then one of several blocks, then a closed one.
+/// Two yarns of one block each, a yarn of several blocks, and a closed yarn.
 fn yarns() -> Yarns {
     let at = |k: u32, y: f32| ControlPoint::new(k as f32, y, (k as f32).sin() * 0.5, 0.25);
     let mut yarns = Yarns::builder();
@@ -57,7 +57,7 @@ fn an_honest_backend_passes() {
 
 #[test]
 fn a_backend_that_ignores_leans_is_caught() {
-    // Half of them stay upright, so that both ways in which a section leans are there.
+    // Half of them stay upright, so that both ways in which a section leans occur.
     let steep: Vec<_> = (0..8).map(|yarn| leaning().layout().is_steep(yarn)).collect();
     assert_eq!(steep, [false, false, false, false, true, true, true, true]);
     for frame in [Frame::Upright, Frame::RotationMinimizing] {
@@ -82,7 +82,7 @@ fn every_sabotage_is_caught_by_name() {
     }
 }
 
-/// A backend that promises the gold reference's bits is held to them.
+/// A backend that promises the bits of the gold reference has to give them.
 #[test]
 fn a_promise_of_equal_bits_is_checked() {
     let last_bit = report(Sabotage::LastBit, true);
@@ -94,7 +94,7 @@ fn a_promise_of_equal_bits_is_checked() {
 #[test]
 fn a_report_names_the_place_and_both_values() {
     let report = report(Sabotage::ShiftedVertex, false);
-    // Once against the oracle, once against the gold reference.
+    // One fault against the oracle, and one against the gold reference.
     let [mismatch, _] = report.first() else { panic!("{report}") };
     assert_eq!((mismatch.fault, mismatch.place.yarn), (Fault::Position, 2));
     assert_eq!((mismatch.place.ring, mismatch.place.point), (10, Some(2)));
@@ -135,7 +135,7 @@ fn no_device(wanted: &str) -> BackendError {
 const MISSING: &[Entry] =
     &[Entry::near("absent", || vec![Err(no_device("absent"))]), Entry::near("empty", Vec::new)];
 
-/// Of three devices the second does not open.
+/// Three devices, of which the second does not open.
 const GAPPY: &[Entry] = &[Entry::near("gappy", || {
     let mut opened = sabotaged(Sabotage::None);
     opened.push(Err(no_device("the second")));
@@ -143,8 +143,7 @@ const GAPPY: &[Entry] = &[Entry::near("gappy", || {
     opened
 })];
 
-/// Runs the trials with `filter` in their names; gives back whether all passed, and what was
-/// printed.
+/// Runs the trials with `filter` in their names. Returns whether all passed, and the printed text.
 fn run_trials(filter: &str, registry: &[Entry], required: &str) -> (bool, String) {
     static RUNS: AtomicU32 = AtomicU32::new(0);
     let number = RUNS.fetch_add(1, Ordering::Relaxed);
@@ -163,7 +162,7 @@ fn failures(filter: &str, registry: &[Entry], required: &str) -> Vec<String> {
     failed
 }
 
-/// The names of the trials that failed, by what was `printed`.
+/// The names of the failed trials in `printed`.
 fn failed(printed: &str) -> Vec<String> {
     let failed = printed.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
     failed.map(|name| name.trim_end().to_owned()).collect()
@@ -175,8 +174,8 @@ fn a_broken_backend_fails_the_run() {
     assert_eq!(failed, ["rings-193::upright::Zeros"]);
 }
 
-/// Asserts that of the trials with `filter` in their names `trial` alone fails, for a reason that
-/// begins with `why`.
+/// Asserts that only `trial` fails among the trials with `filter` in their names, with a reason
+/// that begins with `why`.
 fn assert_fails(filter: &str, registry: &[Entry], trial: &str, why: &str) {
     let (_, printed) = run_trials(filter, registry, "");
     assert_eq!(failed(&printed), [trial]);
@@ -230,7 +229,7 @@ fn a_missing_backend_is_ignored_unless_it_is_required() {
     assert_eq!(failures("unheard-of"), ["unheard-of::missing"]);
 }
 
-/// One device that does not open hides none of those that do, and is not hidden by them.
+/// A device that does not open does not hide the others, and the others do not hide it.
 #[test]
 fn a_device_that_does_not_open_is_missing_alone() {
     assert_fails("rings-193::upright", GAPPY, "rings-193::upright::Zeros", "");
@@ -245,7 +244,7 @@ fn a_device_that_does_not_open_is_missing_alone() {
 
 #[test]
 fn a_backend_taken_out_of_the_registry_fails_by_name_where_it_is_required() {
-    // Which devices there are here does not matter.
+    // The devices of this machine do not matter.
     let open: OpenAll = || vec![Ok(Arc::new(SerialBackend::new()))];
     let registry: Vec<_> = REGISTRY.iter().map(|entry| Entry { open, ..*entry }).collect();
     let required = registry.iter().map(|entry| entry.name).collect::<Vec<_>>().join(",");
@@ -258,11 +257,11 @@ fn a_backend_taken_out_of_the_registry_fails_by_name_where_it_is_required() {
     }
 }
 
-/// A schedule that leaves something out is held to leaving out just that.
+/// A schedule that leaves something out has to leave out exactly that.
 #[test]
 fn a_backend_that_refuses_too_little_or_too_much_fails() {
     let failures = |name: &str, registry: &[Entry]| failures(&format!("{name}::upright::"), registry, "");
-    // `SabotagedBackend` does everything, whatever its schedule is called.
+    // `SabotagedBackend` does everything, under any name of a schedule.
     assert_eq!(failures("helix", EAGER), ["helix::upright::Eager"]);
     assert_eq!(failures("paper-rings-65", EAGER), [""; 0]);
     assert_eq!(failures("helix", LAZY), [""; 0]);

@@ -1,5 +1,4 @@
-//! Uploads: what they write elsewhere is what `PaddedPoints` keeps, to the bit, and large ones
-//! arrive on every device.
+//! Uploads write the bits that `PaddedPoints` keeps, and large ones arrive on every device.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
@@ -10,13 +9,13 @@ use texere_core::backend::{PaddedPoints, Plan, Session};
 use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
 use texere_gpu::YarnEnds;
 
-/// Yarns as counts of points and whether they are closed.
+/// Yarns, each as its number of points and whether it is closed.
 type Counts = Vec<(usize, bool)>;
 
-/// Where points go, and the points.
+/// The range of points that are written, and the points.
 type Upload = (usize, Vec<ControlPoint>);
 
-/// Most of them tiny.
+/// Most yarns are tiny.
 fn yarns() -> impl Strategy<Value = Counts> {
     let yarn = (prop_oneof![4 => 2usize..5, 2 => 5usize..12, 1 => 50usize..90], any::<bool>());
     prop::collection::vec(yarn.prop_map(|(count, closed)| (count.max(2 + usize::from(closed)), closed)), 1..9)
@@ -33,8 +32,8 @@ fn plan(yarns: &[(usize, bool)]) -> Plan {
 
 fn point() -> impl Strategy<Value = ControlPoint> {
     let number = -1e6f32..1e6;
-    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where
-    // the lower bound has finer digits.
+    // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an assertion
+    // of its own where the lower bound has finer digits than the upper one.
     let radius = (0.0f32..1e3).prop_map(|radius| radius.max(1e-3));
     let flatness = prop_oneof![9 => Just(1.0f32), 1 => (0.0f32..10.0).prop_map(|flatness| flatness.max(0.1))];
     (number.clone(), number.clone(), number, radius, flatness).prop_map(|(x, y, z, r, flatness)| {
@@ -42,13 +41,13 @@ fn point() -> impl Strategy<Value = ControlPoint> {
     })
 }
 
-/// Ranges among `total` points: single points, few, any.
+/// Ranges of `total` points: single points, a few, and any number.
 fn range(total: usize) -> impl Strategy<Value = Range<usize>> {
     let length = prop_oneof![2 => Just(1usize), 2 => 1usize..4, 2 => 0usize..=total];
     (0..total, length).prop_map(move |(first, length)| first..total.min(first + length))
 }
 
-/// A fabric, and points with where they go.
+/// A fabric, and writes of points.
 fn uploads() -> impl Strategy<Value = (Counts, Vec<Upload>)> {
     yarns().prop_flat_map(|yarns| {
         let total = yarns.iter().map(|(count, _)| count).sum();
@@ -64,10 +63,9 @@ fn bits(points: &[ControlPoint]) -> &[u32] {
 }
 
 proptest! {
-    /// However little each piece has, memory that starts as zeros holds after each upload what
-    /// `PaddedPoints` holds; what is written beside the points sent is a virtual end that hangs on
-    /// them. A point that is not round is seen. Ends that were forgotten come back from the points
-    /// that were written.
+    /// For pieces of any size, memory that starts as zeros equals `PaddedPoints` after each upload.
+    /// Only virtual ends that depend on the sent points are written beside these. A point that is
+    /// not round is noticed. Forgotten ends come back from the points that were written.
     #[test]
     fn uploads_write_what_padded_points_keep(
         (yarns, uploads) in uploads(),
@@ -95,7 +93,7 @@ proptest! {
                 prop_assert!(range.is_empty() || before <= range.start, "in order, and none twice");
                 before = before.max(range.end);
                 sent += range.end - range.start;
-                // Last piece first: none waits for another.
+                // The last piece comes first, and no piece waits for another.
                 for start in range.clone().step_by(piece as usize).collect::<Vec<_>>().into_iter().rev() {
                     let end = range.end.min(start + piece);
                     let mut at = start as usize;
@@ -139,8 +137,8 @@ fn a_point_in_the_middle_goes_alone() {
     assert_eq!(sent(17), [(11, 12), (20, 24)]);
 }
 
-/// Asserts that every ring of the only chunk, one for each control point, lies where `points` are,
-/// as wide and as high.
+/// Asserts that the only chunk has one ring for each control point, at the place of that point, as
+/// wide and as high.
 fn assert_holds(session: &mut Session, plan: &Plan, points: &[ControlPoint], device: &str) {
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
     session.trajectory(&chunk).unwrap();
@@ -171,7 +169,7 @@ fn a_large_cloth_arrives_on_every_device_and_arrives_again() {
         let mut session = Session::new(&*texere::open(&device.name).unwrap(), plan.clone()).unwrap();
         session.upload(0, &points).unwrap();
         assert_holds(&mut session, &plan, &points, &device.name);
-        // From within one yarn to within another, and round no more.
+        // A range from within one yarn to within another. The points are not round any more.
         let end = points.len() - 7;
         for point in &mut points[5..end] {
             *point = ControlPoint { z: point.z + 1.0, ..point.flattened(0.11, 0.07) };

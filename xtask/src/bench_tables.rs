@@ -18,7 +18,7 @@ pub(crate) fn run(steps: &mut Steps, args: &[String]) {
     }
 }
 
-/// The commit that is checked out, as far as it is known.
+/// The commit that is checked out, or a word that it is not known.
 pub(crate) fn commit(steps: &Steps) -> String {
     let described = steps.output("git", &["describe", "--always", "--dirty"], &[]);
     described.map_or_else(|| "unknown".into(), |commit| commit.trim().to_owned())

@@ -1,5 +1,5 @@
-//! `cargo xtask bundle`: all that tests and measures texere, in a folder for a machine that has a
-//! GPU and nothing else.
+//! `cargo xtask bundle`: the programs that test and measure texere, in a folder for a machine that
+//! has a GPU and no toolchain.
 //!
 //! Needs Debian's packages; the bundle is for the same kind of processor.
 
@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::bench_tables::commit;
 use crate::steps::{Steps, command, root};
 
-/// The folder, from the repository's root. Beside it lies the same as an archive.
+/// The folder, from the repository's root. An archive of it lies beside.
 const FOLDER: &str = "target/bundle";
 
 /// Debian's packages with the loaders that drivers are found through.

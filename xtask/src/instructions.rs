@@ -1,5 +1,5 @@
-//! How many instructions a ring of a mesh takes, and a control point: a check of speed that no
-//! neighbour on the machine disturbs.
+//! Instructions for a ring of a mesh and for a control point: a check of speed that other programs
+//! on the machine don't disturb.
 //!
 //! `valgrind --tool=callgrind` counts them. The difference between two runs leaves out start-up.
 
@@ -12,7 +12,7 @@ use crate::steps::{Steps, root};
 const MESHES: [&str; 5] = ["upright", "flattened", "minimizing", "bare", "streamed"];
 const POINTS: [&str; 2] = ["crossing", "round"];
 
-/// How many times more often the longer run does its work than the shorter one.
+/// The number of times that the longer run does the work of the shorter one.
 const TIMES: u32 = 10;
 
 /// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that
@@ -24,7 +24,7 @@ fn baseline() -> PathBuf {
     root().join("benches/instructions.txt")
 }
 
-/// Compares with the baseline. Says what is left out, and why.
+/// Compares with the baseline. Prints the paths that are left out, and why.
 pub(crate) fn check(steps: &mut Steps) {
     if !cfg!(target_arch = "x86_64") {
         println!("\ninstructions: left out, the baseline is that of x86-64 processors");

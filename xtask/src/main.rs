@@ -24,7 +24,7 @@ use steps::{Steps, root};
 const SOFTWARE_DEVICES: [&str; 4] =
     ["ocl-icd-libopencl1", "pocl-opencl-icd", vulkan::PACKAGES[0], vulkan::PACKAGES[1]];
 
-/// Debian's packages for windows on a screen that nobody sees.
+/// Debian's packages for windows on a virtual screen.
 const SCREEN: [&str; 6] =
     ["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0", "libxrandr2"];
 
@@ -96,8 +96,8 @@ fn test(steps: &mut Steps) {
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
 }
 
-/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation, from
-/// the versions of other crates that the workspace is tested with.
+/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Other
+/// crates have the versions that the workspace is tested with.
 fn consumer(steps: &mut Steps) {
     let versions = root().join("Cargo.lock");
     if let Err(error) = std::fs::copy(versions, root().join("tests/consumer/Cargo.lock")) {
@@ -107,8 +107,8 @@ fn consumer(steps: &mut Steps) {
     steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
-/// Installs Debian's `packages` where they are missing and can be installed. Without the software
-/// devices the suite shows a backend as ignored, or failed where `TEXERE_REQUIRE` names it.
+/// Installs Debian's `packages` if they are missing and can be installed. Without the software
+/// devices the suite ignores a backend, or fails if `TEXERE_REQUIRE` names it.
 fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
     if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
@@ -121,12 +121,12 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     steps.install(what, &missing);
 }
 
-/// The most packages that a program takes on which links texere as it comes, texere's own among
-/// them.
+/// The most packages of a program that links texere with its default features, texere's own
+/// included.
 const LINKED_MOST: usize = 33;
 
-/// Each feature of the facade that the workspace always has compiles and is tested without the
-/// others, and the facade as it comes stays light.
+/// Compiles and tests the facade with each feature alone, and counts its packages with the default
+/// features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "pictures", "ply", "toml", "wif"] {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
@@ -156,7 +156,7 @@ fn check(steps: &mut Steps) {
     features(steps);
     let documented = ["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"];
     steps.cargo("docs", &documented, &[("RUSTDOCFLAGS", "-D warnings -A rustdoc::private_intra_doc_links")]);
-    // What the README opens, and what a program sees that links texere without features.
+    // The docs that the README opens, and those of texere without features.
     for features in [&["--all-features"][..], &[]] {
         let facade = [&["doc", "--package", "texere", "--no-deps", "--locked"], features].concat();
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);
@@ -171,11 +171,11 @@ fn check(steps: &mut Steps) {
     publishing::check(steps);
 }
 
-/// The version of `typos` whose words the sources are held to.
+/// The version of `typos` that checks the sources.
 const TYPOS: &str = "1.52.0";
 
-/// Words that are mistyped, but for those in `typos.toml`. The program comes from PyPI, built,
-/// where there is Python's installer; else cargo builds it.
+/// Checks the spelling, with the exceptions of `typos.toml`. The program comes from PyPI as a
+/// binary if there is Python's installer; else cargo builds it.
 fn spelling(steps: &mut Steps) {
     let folder = "target/typos";
     let typos = format!("{folder}/bin/typos");

@@ -1,5 +1,5 @@
-//! The mutants that the suite has to catch: in each kernel, and in the prelude before all of them,
-//! a line with a plausible mistake.
+//! The mutants that the suite has to catch: a line with a plausible mistake, in each kernel and in
+//! the prelude before all of them.
 
 /// One line of a kernel or of the prelude, broken.
 #[derive(Debug)]
@@ -8,7 +8,7 @@ pub(crate) struct Mutant {
     pub(crate) backend: &'static str,
     /// The source, from the repository's root.
     pub(crate) file: &'static str,
-    /// The kernel, or the definition that all kernels take from the file.
+    /// The kernel, or the definition in the file that all kernels use.
     pub(crate) kernel: &'static str,
     /// A part of a line that occurs once in the file.
     pub(crate) line: &'static str,
@@ -41,29 +41,30 @@ const fn wgpu(file: &'static str, kernel: &'static str, line: &'static str, brok
     Mutant { backend: "wgpu", file, kernel, line, broken }
 }
 
-/// All of them. Where the twins have the same line, each has a fault of its own.
+/// All mutants. Where twins have the same line, each has a fault of its own.
 pub(crate) const MUTANTS: &[Mutant] = &[
-    // A number of the arctangent's is its neighbour's.
+    // The arctangent uses a wrong coefficient.
     opencl(
         "crates/texere-gpu/src/prelude.rs",
         "prelude",
         "float(\"ARCTANGENT_5\", ARCTANGENT[2]),",
         "float(\"ARCTANGENT_5\", ARCTANGENT[3]),",
     ),
-    // The radius of a thin place is held at another share of its neighbours than the core's.
+    // The radius of a thin place is held at another share of its neighbours than in the core.
     wgpu(
         "crates/texere-gpu/src/prelude.rs",
         "prelude",
         "float(\"RADIUS_FLOOR\", RADIUS_FLOOR),",
         "float(\"RADIUS_FLOOR\", 0.9 * RADIUS_FLOOR),",
     ),
-    // Flattened yarns get the program for round ones.
+    // Flattened yarns get the program for round yarns.
     opencl("crates/texere-gpu/src/upload.rs", "runs", "!all_round(lent)", "lent.is_empty()"),
-    // The clamp at the yarn's last ring is forgotten: t = 0 of an interval that is not there.
+    // The clamp at the yarn's last ring is forgotten: it takes t = 0 of an interval that does not
+    // exist.
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
     // The ring's own turn is counted in.
     opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
-    // Every block takes the roll of its yarn's first, which yarns of one block don't show.
+    // Every block takes the roll of its yarn's first block, which yarns of one block don't show.
     opencl(
         "kernels/src/rings.cl",
         "block_rings",
@@ -95,14 +96,14 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "share.across = min(stores, lanes);",
         "share.across = stores;",
     ),
-    // What a coordinate has above its bits runs into the next one.
+    // The upper bits of a coordinate run into the next one.
     opencl(
         "kernels/src/packed.cl",
         "packed_coordinate",
         "as_uint(convert_int(rint(rest))) & ((1u << COORDINATE_BITS) - 1u);",
         "as_uint(convert_int(rint(rest)));",
     ),
-    // The normal's word is the next vertex's.
+    // The word of the normal belongs to the next vertex.
     opencl(
         "kernels/src/packed.cl",
         "two_words",
@@ -137,14 +138,14 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "cap->end == 0u ? -1.0f : 1.0f",
         "cap->end == 0u ? 1.0f : -1.0f",
     ),
-    // The width grows, normals don't lean.
+    // The width grows, but normals don't lean.
     opencl(
         "kernels/src/per_yarn.cl",
         "trajectory_per_yarn",
         "(float4)(sample.half_height, sample.width_growth, sample.height_growth, 0.0f)",
         "(float4)(sample.half_height, 0.0f, sample.height_growth, 0.0f)",
     ),
-    // Leans are those of the rings of the fabric's first yarn.
+    // Every yarn takes the leans of the fabric's first yarn.
     opencl(
         "kernels/src/rings.cl",
         "lean_of",
@@ -188,7 +189,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];",
         "let start = 0u;",
     ),
-    // Every ring leans as the one behind it.
+    // Every ring takes the lean of the next ring.
     wgpu(
         "shaders/src/rings.wgsl",
         "lean_of",

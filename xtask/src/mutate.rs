@@ -1,8 +1,8 @@
-//! `cargo xtask mutate`: whether the suite sees it when a kernel is broken.
+//! `cargo xtask mutate`: whether the suite sees that a kernel is broken.
 //!
-//! Works on a copy of the repository under `target/`, with a build of its own, so that nothing
-//! broken is ever left behind. For each schedule of a backend the suite passes on the copy as it
-//! is; then, for each mutant, it must compile, find its devices, and fail.
+//! It works on a copy of the repository under `target/`, with a build of its own, so that no broken
+//! file is left behind. For each schedule of a backend the suite must pass on the unchanged copy.
+//! For each mutant it must then compile, find its devices, and fail.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -17,9 +17,9 @@ use crate::steps::{command, root};
 #[derive(Debug, PartialEq, Eq)]
 enum Suite {
     Passed,
-    /// So many trials failed.
+    /// This number of trials failed.
     Failed(usize),
-    /// It did not get as far as its trials; its output.
+    /// It ended before its trials; its output.
     Broken(String),
 }
 
@@ -85,7 +85,7 @@ fn copy_of_the_repository() -> io::Result<PathBuf> {
     if !listed.status.success() {
         return Err(io::Error::other(format!("git ls-files: {}", listed.status)));
     }
-    // The build is kept, a file that is no longer in the repository is not.
+    // The build is kept; files that are no longer in the repository are removed.
     for entry in fs::read_dir(&copy).into_iter().flatten() {
         let path = entry?.path();
         match path.file_name().and_then(OsStr::to_str) {
@@ -104,7 +104,7 @@ fn copy_of_the_repository() -> io::Result<PathBuf> {
     Ok(copy)
 }
 
-/// Builds the suite of `copy` and runs the trials that `mutant` is in.
+/// Builds the suite of `copy` and runs the trials of `mutant`.
 fn suite(copy: &Path, mutant: &Mutant) -> io::Result<Suite> {
     let cargo = |last: &[&str]| {
         let test = ["test", "--locked", "--package", "texere-conformance", "--test", "conformance"];
@@ -121,7 +121,7 @@ fn suite(copy: &Path, mutant: &Mutant) -> io::Result<Suite> {
     let said = String::from_utf8_lossy(&ran.stdout);
     let ended =
         |how: &str| said.lines().filter(|line| line.starts_with("test ") && line.ends_with(how)).count();
-    // A device that is not there, or a kernel that does not compile, leaves nothing to run.
+    // Without a device, or with a kernel that does not compile, no trial runs.
     Ok(match (ended(" ok"), ended(" FAILED")) {
         (0, 0) => Suite::Broken(format!("no trial ran: {}", ran.status)),
         (_, 0) if ran.status.success() => Suite::Passed,

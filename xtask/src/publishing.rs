@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::steps::Steps;
 use crate::workspace::{Package, packages};
 
-/// What each package has beside its sources.
+/// Files that each package has beside its sources.
 const BESIDE: [&str; 4] = ["Cargo.toml", "LICENSE-APACHE", "LICENSE-MIT", "README.md"];
 
 /// Packs all packages that are published, in the order of their dependencies, and looks at what is
@@ -29,7 +29,7 @@ pub(crate) fn check(steps: &mut Steps) {
     }
 }
 
-/// What a package lacks to be published, if anything.
+/// A sentence on what a package lacks to be published, if anything.
 fn lack(package: &Package, published: &BTreeSet<&str>, files: &BTreeSet<&str>) -> Option<String> {
     if let Some(missing) = BESIDE.iter().find(|name| !files.contains(*name)) {
         return Some(format!("has no {missing}"));

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::steps::command;
 
-/// What the manifest of a published package says of it.
+/// The keys that the manifest of a published package must have.
 const SAID: [&str; 6] = ["description", "license", "repository", "readme", "keywords", "categories"];
 
 /// A package of the workspace.
@@ -49,7 +49,7 @@ fn package(value: &Value) -> Package {
     let lacks = |key: &&str| value[*key].is_null() || value[*key].as_array().is_some_and(Vec::is_empty);
     Package {
         name: text(&value["name"]),
-        // `null` says that it may go to any registry, an empty list to none.
+        // `null` allows any registry, an empty list none.
         published: value["publish"].is_null(),
         roots: linked.map(|target| text(&target["src_path"]).into()).collect(),
         needs: needed.map(|needed| text(&needed["name"])).collect(),

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
 use texere_bench::{median, stream};
 
-/// Bytes that a fill writes at most. Past the caches its time grows with them.
+/// The most bytes that a fill writes. Past the caches its time grows with the bytes, so larger
+/// fills are extrapolated.
 const FILL: u64 = 1 << 30;
 
 /// Samples of a benchmark: as few as criterion takes, since a large mesh takes its time.
@@ -30,7 +31,7 @@ impl Floor {
         Self(vec![1.0; FILL as usize / 4])
     }
 
-    /// What writing `bytes` takes on all cores, in seconds.
+    /// The time of writing `bytes` on all cores, in seconds.
     fn seconds(&mut self, bytes: u64) -> f64 {
         let filled = bytes.min(FILL);
         let start = Instant::now();
@@ -38,8 +39,8 @@ impl Floor {
         start.elapsed().as_secs_f64() * bytes as f64 / filled as f64
     }
 
-    /// Measures `work`, which says how long it took, beside the fill of as many bytes, and prints
-    /// its share of the fill's bandwidth: the median over the samples, each with a fill of its own.
+    /// Measures `work`, which returns its own time, beside a fill of as many bytes. Prints its
+    /// share of the fill's bandwidth: the median over the samples, each with a fill of its own.
     pub(crate) fn bench(
         &mut self,
         criterion: &mut Criterion,
@@ -67,7 +68,7 @@ impl Floor {
     }
 }
 
-/// How long `work` takes. What it makes is dropped after that.
+/// The time of `work`. Its value is dropped afterwards.
 pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> Duration {
     let start = Instant::now();
     let _made = work();

@@ -1,103 +1,35 @@
 //! The floor of a device: the time to write a number of bytes and do nothing else.
 
+mod gpu;
 mod opencl;
 mod wgpu;
 
 use std::fmt::Debug;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use texere::backend::Schedule;
-use texere::{Backend, BackendError};
-use texere_opencl::OpenClBackend;
-use texere_wgpu::WgpuBackend;
+use texere::BackendError;
 
-pub use self::opencl::OpenClFill;
-pub use self::wgpu::WgpuFill;
+pub use self::gpu::{Gpu, context};
 
 /// Fills memory that lies on the device of a backend.
 pub trait Fill: Debug {
-    /// Writes all of its buffers once, and gives back the time that took on the device.
+    /// Writes all of its buffers once, and returns the time on the device.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn run(&mut self) -> Result<Duration, BackendError>;
 
-    /// Copies all of its buffers to memory of the host that the driver has pinned, and gives back
-    /// the time that took by the host's clock: the bandwidth of the bus.
+    /// Copies all of its buffers to pinned memory of the host, and returns the time by the host's
+    /// clock: it shows the bandwidth of the bus.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_to_host(&mut self) -> Result<Duration, BackendError>;
 
-    /// The same in the other direction, from such memory; none where a driver offers no memory that
-    /// is certain to be the host's.
+    /// Copies from pinned memory of the host to all of its buffers, and returns the time by the
+    /// host's clock. None where a driver offers no memory that is certain to be the host's.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError>;
 }
 
-/// Bytes of a copy over the bus: so many that its start-up time is negligible.
+/// Bytes of a copy over the bus, enough to make its start-up time negligible.
 const COPY_BYTES: u64 = 256 << 20;
-
-/// A GPU that is open, with what is needed to measure it.
-#[derive(Debug)]
-pub enum Gpu {
-    /// By its number among OpenCL's.
-    OpenCl(OpenClBackend, usize),
-    /// A wgpu device.
-    Wgpu(WgpuBackend),
-}
-
-impl Gpu {
-    /// Opens a GPU device by a name such as `opencl:1` or `wgpu:0`.
-    ///
-    /// **Errors**: [`BackendError`] where there is no such device.
-    pub fn open(name: &str) -> Result<Self, BackendError> {
-        match numbered(name) {
-            Some(("opencl", index)) => {
-                Ok(Self::OpenCl(OpenClBackend::open(index, Schedule::PerRing)?, index))
-            }
-            Some(("wgpu", index)) => Ok(Self::Wgpu(WgpuBackend::open(index, Schedule::PerRing)?)),
-            _ => Err(BackendError::NoDevice { wanted: name.into(), found: Vec::new() }),
-        }
-    }
-
-    /// The device as texere uses it.
-    #[must_use]
-    pub fn backend(&self) -> &dyn Backend {
-        match self {
-            Self::OpenCl(backend, _) => backend,
-            Self::Wgpu(backend) => backend,
-        }
-    }
-
-    /// A fill of buffers of `bytes` each on the same device.
-    ///
-    /// **Errors**: [`BackendError`] where there is no room for them.
-    pub fn fill(&self, bytes: &[u64]) -> Result<Box<dyn Fill>, BackendError> {
-        Ok(match self {
-            Self::OpenCl(_, index) => Box::new(OpenClFill::new(*index, bytes)?),
-            Self::Wgpu(backend) => Box::new(WgpuFill::new(backend.device(), backend.queue(), bytes)),
-        })
-    }
-}
-
-/// Makes a context of a GPU device's, with nothing in it, and gives back the time that takes by the
-/// host's clock. The first one of a process pays for the driver, too. None for a device that is no
-/// GPU's.
-///
-/// **Errors**: [`BackendError`] where there is no such device.
-pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {
-    let start = Instant::now();
-    match numbered(name) {
-        Some(("opencl", index)) => drop(opencl::context(index)?),
-        Some(("wgpu", index)) => drop(wgpu::context(index)?),
-        _ => return Ok(None),
-    }
-    Ok(Some(start.elapsed()))
-}
-
-/// Interface and number in a device's name, whatever its schedule.
-fn numbered(name: &str) -> Option<(&str, usize)> {
-    let (family, rest) = name.split_once(':')?;
-    let (index, _) = rest.split_once('/').unwrap_or((rest, ""));
-    Some((family, index.parse().ok()?))
-}

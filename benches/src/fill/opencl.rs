@@ -30,7 +30,7 @@ __kernel void fill(__global uint4 *out, const ulong count) {
 
 /// Buffers on an OpenCL device, and the kernel that fills them.
 #[derive(Debug)]
-pub struct OpenClFill {
+pub(super) struct OpenClFill {
     queue: CommandQueue,
     kernel: Kernel,
     buffers: Vec<(Buffer<u8>, u64)>,

@@ -10,7 +10,7 @@ use wgpu::{
 
 use super::COPY_BYTES;
 
-/// One vec4 a lane; a grid in two dimensions, since one has no more than 65,535 workgroups.
+/// One vec4 a lane. The grid has two dimensions, since one dimension has at most 65,535 workgroups.
 const SOURCE: &str = "
 @group(0) @binding(0) var<storage, read_write> out: array<vec4<u32>>;
 @compute @workgroup_size(256)
@@ -27,7 +27,7 @@ fn fill(
 
 /// Buffers on a wgpu device, and the pipeline that fills them.
 #[derive(Debug)]
-pub struct WgpuFill {
+pub(super) struct WgpuFill {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipeline: wgpu::ComputePipeline,
@@ -64,8 +64,8 @@ impl WgpuFill {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u64]) -> Self {
         let descriptor =
             ShaderModuleDescriptor { label: Some("fill"), source: ShaderSource::Wgsl(SOURCE.into()) };
-        // SAFETY: the shader checks its one bound itself. Like texere's own it does without further
-        // checks.
+        // SAFETY: the shader checks its one bound itself, and needs no further checks, as texere's
+        // own.
         let module = unsafe {
             device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked())
         };
@@ -139,7 +139,7 @@ impl super::Fill for WgpuFill {
         pass.set_pipeline(&self.pipeline);
         for (group, workgroups) in &self.bound {
             pass.set_bind_group(0, group, &[]);
-            // Rows as even as can be: a workgroup that finds nothing to do takes time, too.
+            // Rows as even as possible: a workgroup without work takes time, too.
             let rows = workgroups.div_ceil(65_535);
             pass.dispatch_workgroups(workgroups.div_ceil(rows), rows, 1);
         }
@@ -173,7 +173,7 @@ impl super::Fill for WgpuFill {
         Ok(start.elapsed())
     }
 
-    /// None: what wgpu maps for writing may be the device's own.
+    /// None: the memory that wgpu maps for writing may be the device's own.
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError> {
         Ok(None)
     }

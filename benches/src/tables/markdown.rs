@@ -94,7 +94,7 @@ fn times(text: &mut String, cloths: &[Cloth], columns: &[Column]) {
     });
 }
 
-/// Table 3: what a device takes once.
+/// Table 3: times of a device, once for all cloths.
 fn once(text: &mut String, columns: &[Column]) {
     text.push_str(
         "\n## Table 3: what comes on top, ms\n\nOnce for all cloths: a context (the first of a driver pays for the \
@@ -107,7 +107,7 @@ fn once(text: &mut String, columns: &[Column]) {
     });
 }
 
-/// Table 3: what each cloth takes beside its stages.
+/// Table 3: times of each cloth beside its stages.
 fn beside(text: &mut String, cloths: &[Cloth], columns: &[Column]) {
     text.push_str(
         "\nFor each cloth: memory and tables, control points to the device, the mesh to the host, and giving memory \

@@ -1,4 +1,4 @@
-//! The paper's tables 1, 2 and 3 and its figures 5 and 6, with ours beside them.
+//! The paper's tables 1, 2 and 3 and its figures 5 and 6, with texere's beside them.
 
 mod markdown;
 mod plot;
@@ -24,7 +24,7 @@ use results::{Cloth, Column, PICTURE, Run};
 ///
 /// # Errors
 ///
-/// Whatever a device or the file system says.
+/// The errors of a device or the file system.
 pub fn write(
     devices: &[String],
     sizes: &[(usize, usize)],
@@ -51,13 +51,13 @@ pub fn write(
     Ok(())
 }
 
-/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`, prints
-/// them as a table, and draws the paper's figure 5 of them to `output`, an SVG file, unless that is
-/// what a design was read from.
+/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`. Prints
+/// the times as a table, and draws the paper's figure 5 of them to `output`, an SVG file, unless a
+/// design was read from that file.
 ///
 /// # Errors
 ///
-/// Whatever a reader, a device or the file system says.
+/// The errors of a reader, a device or the file system.
 pub fn figure_5(
     designs: &[PathBuf],
     device: &str,

@@ -19,7 +19,7 @@ pub(super) struct Run {
     /// Stage 1 and stage 2 one after the other, by the device's clock where it has one. None where
     /// stages are fused.
     pub(super) staged: Option<StageTimings>,
-    /// Both stages as fast as the device does them, likewise.
+    /// Both stages as fast as the device does them, by the device's clock where it has one.
     pub(super) whole: Duration,
     /// The mesh to the host, by the host's clock. None where it lies there already.
     pub(super) readback: Option<Duration>,
@@ -31,11 +31,11 @@ pub(super) struct Run {
 #[derive(Debug)]
 pub(super) struct Column {
     pub(super) info: DeviceInfo,
-    /// A context of the device's, by the host's clock; the first of a driver pays for the driver.
-    /// None for a CPU.
+    /// Making a context of the device, by the host's clock. The first context of a driver also
+    /// loads the driver. None for a CPU.
     pub(super) context: Option<Duration>,
-    /// Compiling the kernels, by the host's clock: opening the device takes so much longer than a
-    /// context does.
+    /// Compiling the kernels, by the host's clock: the time of opening the device less that of a
+    /// context.
     pub(super) build: Duration,
     pub(super) runs: Vec<Run>,
 }

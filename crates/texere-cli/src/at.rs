@@ -10,7 +10,7 @@ use texere::{Design, Yarns};
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnUnder {
-    /// As a designer calls it: `course 3`, `end 12`, `guide bar 1, guide 5`.
+    /// Its name in a designer's words: `course 3`, `end 12`, `guide bar 1, guide 5`.
     yarn: String,
     material: String,
     /// The height of its centreline, mm.
@@ -27,8 +27,8 @@ pub(crate) struct YarnUnder {
 /// The yarns under `point`, the topmost first.
 pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2]) -> Vec<YarnUnder> {
     let said = |place: &YarnPlace| {
-        let NamedPlace { thread, material, told } = design.named(yarns, place);
-        let (place_of, instructions) = told.map(|told| (told.place, told.instructions)).unzip();
+        let NamedPlace { thread, material, program } = design.named(yarns, place);
+        let (place_of, instructions) = program.map(|program| (program.place, program.instructions)).unzip();
         // Guides of a warp knit make all courses.
         let course =
             || design.structure.warp_knitted().and(place.source).map(|course| format!("course {course}"));

@@ -15,7 +15,7 @@ use crate::settling::SettlingReport;
 use crate::setts::{SettReport, setts};
 use crate::{print, progress, reading, settling, terminal};
 
-/// What is said of a cloth. The keys of the JSON are these fields.
+/// The report of a cloth. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 struct Report {
     name: String,
@@ -25,16 +25,16 @@ struct Report {
     #[serde(flatten)]
     faults: FaultsReport,
     drawn: DrawnReport,
-    /// What no number of rings that is usual shows of twist.
+    /// The twist that no usual number of rings shows.
     #[serde(skip_serializing_if = "Option::is_none")]
     undersampled: Option<String>,
-    /// Of woven cloth.
+    /// Only for woven cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     setts: Option<Sets<SettReport>>,
-    /// Of a knit: what is wrong with its program.
+    /// Only for knits: the faults of the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     machine: Option<MachineReport>,
-    /// Of a knit: how many needles never have a loop.
+    /// Only for knits: needles that never have a loop.
     #[serde(skip_serializing_if = "Option::is_none")]
     empty_needles: Option<EmptyNeedles>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,7 +57,7 @@ impl EmptyNeedles {
     }
 }
 
-/// What is wrong with a cloth; nothing where all are none.
+/// The faults of a cloth; it is clean where all are none.
 #[derive(Debug, Serialize)]
 struct FaultsReport {
     crowded: Option<CrowdReport>,
@@ -80,7 +80,7 @@ struct Apart {
     said: String,
 }
 
-/// What a knitting machine could not do, and what it can but a knitter may not mean.
+/// Steps that a knitting machine could not do, and steps that may be mistakes.
 #[derive(Debug, Serialize)]
 struct MachineReport {
     errors: Vec<String>,
@@ -88,12 +88,12 @@ struct MachineReport {
 }
 
 impl MachineReport {
-    /// None of what is not knitted.
+    /// None where the cloth is not knitted.
     fn new(design: &Design) -> Option<Self> {
         design.structure.knitted()?;
         let said = |errors| {
             let faults = design.faults().iter().filter(|fault| fault.is_error == errors);
-            faults.map(|fault| fault.said.clone()).collect()
+            faults.map(|fault| fault.message.clone()).collect()
         };
         Some(Self { errors: said(true), warnings: said(false) })
     }
@@ -107,7 +107,7 @@ struct Pierces {
     worst: Vec<ContactReport>,
 }
 
-/// Threads too close for those that cross them.
+/// Threads that lie too close for crossing threads to pass.
 #[derive(Debug, Serialize)]
 struct Jams {
     ends: usize,
@@ -116,7 +116,7 @@ struct Jams {
     threads: Vec<Jammed>,
 }
 
-/// A thread that lies closer to the one before than those that cross can pass.
+/// A thread that lies too close to the one before for crossing threads to pass.
 #[derive(Debug, Serialize)]
 struct Jammed {
     thread: String,
@@ -134,8 +134,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     })
     .map_err(|error| design.refused(error))?;
     settling.iter_mut().for_each(|settling| settling.measured(&clearance));
-    // Whether threads that settled have found room shows in their clearance, not in the pitches at
-    // which they started.
+    // The clearance of settled threads shows whether they have found room; their pitches at the
+    // start do not.
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let jams = if settled { None } else { design.structure.jams() };
     let pieces = design.structure.pieces();
@@ -179,8 +179,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     }
 }
 
-/// What would cure the faults of `diagnosis`. They are looked for in cloth as it is woven; of those
-/// that are found for cloth that has `settled` only wider spacings and thinner yarns count.
+/// Cures for the faults of `diagnosis`. They are tried on cloth as it is woven, so for cloth that
+/// has `settled` only wider spacings and thinner yarns count.
 fn cures(design: &Design, diagnosis: &Diagnosis, settled: bool) -> Result<Vec<CureReport>, Fail> {
     let structure = &design.structure;
     if settled && structure.woven().is_none() {
@@ -229,7 +229,7 @@ impl From<&Faults> for FaultsReport {
 }
 
 impl FaultsReport {
-    /// Whether there is none that other spacings or yarns could cure.
+    /// Whether there is no fault that other spacings or yarns could cure.
     fn is_none(&self) -> bool {
         let Self { crowded, pierces, folds, jams, apart: _, wrung, inside_out } = self;
         let drawn = wrung.is_none() && inside_out.is_none();
@@ -261,7 +261,7 @@ impl Report {
         for missed in self.settling.iter().filter_map(SettlingReport::press_missed) {
             line("warning", missed);
         }
-        // What is no fault has been said as the design was read.
+        // Warnings were printed when the design was read.
         for error in self.machine.iter().flat_map(|machine| &machine.errors) {
             line("machine", error.clone());
         }
@@ -310,15 +310,14 @@ impl Report {
         }
     }
 
-    /// What cures the faults, or that there is nothing to cure, or why no cure is said.
+    /// Lines for the cures, or a line that says why there are none.
     fn say_cures(&self, line: &mut impl FnMut(&str, String)) {
         if self.clean {
             let jam = if self.has_settled() { "" } else { ", no jam" };
             let touching = self.touching;
             line("clean", format!("nothing nearer than {touching} of touching, no fold{jam}, nothing wrung"));
         } else if self.faults.is_none() {
-            // No other spacing or yarn makes a program one that a machine can knit, or binds cloth
-            // that falls apart.
+            // No other spacing or yarn makes a program knittable, or binds cloth that falls apart.
         } else if self.has_settled() && self.setts.is_none() {
             line(
                 "cure",

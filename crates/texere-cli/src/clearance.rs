@@ -1,4 +1,4 @@
-//! What is said of clearance and bends.
+//! The report of clearance and bends.
 
 use std::fmt;
 
@@ -11,8 +11,8 @@ use texere::check::{
 /// How near yarns come to one another.
 #[derive(Debug, Serialize)]
 pub(crate) struct ClearanceReport {
-    /// The least ratio of all contacts, 1 where yarns just touch. Where it is crowded it is no more
-    /// than this; null where crowds are all there is.
+    /// The least ratio of all contacts, 1 where yarns just touch. Where places are crowded it is an
+    /// upper bound; null where all places are crowded.
     #[serde(serialize_with = "as_near_as_looked")]
     min: f64,
     contacts: u64,
@@ -24,7 +24,7 @@ pub(crate) struct ClearanceReport {
     pub(crate) drawn: DrawnReport,
 }
 
-/// How the usual mesh comes out between neighbouring rings.
+/// How the usual mesh is drawn between neighbouring rings.
 #[derive(Debug, Serialize)]
 pub(crate) struct DrawnReport {
     /// The least width of a tube half way between two rings, in radii.
@@ -43,8 +43,8 @@ struct DrawnPlace {
     crossing: Option<Crossing>,
 }
 
-/// Yarns that lie in one another many times over, or too many of them together: they are not
-/// measured pair by pair.
+/// A crowded place: yarns that overlap many times over, or too many control intervals together. It
+/// is not measured pair by pair.
 #[derive(Debug, Serialize)]
 pub(crate) struct CrowdReport {
     /// The volume of the yarns over the room that they have.
@@ -60,7 +60,7 @@ pub(crate) struct CrowdReport {
     crossing: Option<Crossing>,
 }
 
-/// How many contacts have a ratio from 0 on, in bins of this width.
+/// Numbers of contacts by ratio, in bins of this width from 0 on.
 #[derive(Debug, Serialize)]
 struct Histogram {
     bin: f64,
@@ -102,12 +102,12 @@ impl Crossing {
     }
 }
 
-/// The least clearance; no number where only crowds were found, which are not measured.
+/// The least clearance; NaN where all places are crowded, since these are not measured.
 pub(crate) const fn least(found: &ClothClearance) -> f64 {
     if found.crowd.is_some() && found.min.is_infinite() { f64::NAN } else { found.min }
 }
 
-/// A least clearance as JSON has it: that of no contact is as near as is looked.
+/// Writes a least clearance to JSON. Without a contact it is the limit of the search.
 pub(crate) fn as_near_as_looked<S: Serializer>(least: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_f64(if *least == f64::INFINITY { CLEARANCE_NEAR } else { *least })
 }
@@ -254,7 +254,7 @@ mod tests {
 
     use super::*;
 
-    /// What JSON has of a cloth whose nearest contact is so near, beside a crowd or none.
+    /// The JSON of a cloth with this least clearance, with a crowded place or without.
     fn min(min: f64, crowd: Option<ThreadCrowd>) -> Value {
         let found = ClothClearance {
             min,

@@ -1,4 +1,4 @@
-//! The threads that share the work, as many as can be had.
+//! The threads that share the work.
 
 use std::num::NonZero;
 use std::sync::mpsc;
@@ -6,11 +6,11 @@ use std::{env, io, thread};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-/// Starts a thread for each core, or as many as the system gives; where it gives none, the program
-/// does all by itself.
+/// Starts a thread for each core, or as many as the system gives. Without any, the main thread does
+/// all the work.
 ///
-/// Rayon would start them at first use, and panic where it can't have them all. So they are started
-/// before it learns how many they are.
+/// Rayon would start its threads at first use, and panic if one can't be started. So they are
+/// started first, and rayon gets those that there are.
 pub(crate) fn start() {
     let (mut workers, wanted) = (Vec::new(), wanted());
     while workers.len() < wanted {
@@ -26,7 +26,7 @@ pub(crate) fn start() {
         workers.push(hand_over);
     }
     let pool = ThreadPoolBuilder::new().num_threads(workers.len().max(1));
-    // It fails only where there is a pool already, and there is none.
+    // It fails only if there is a pool already, and there is none yet.
     let _ = if workers.is_empty() {
         pool.use_current_thread().build_global()
     } else {
@@ -39,7 +39,7 @@ pub(crate) fn start() {
     };
 }
 
-/// As many as rayon would start.
+/// The number of threads that rayon would start.
 fn wanted() -> usize {
     let set = env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
     set.filter(|number| *number > 0)

@@ -1,11 +1,11 @@
-//! What is said of cures: the key of a design file, what to write there, and what that comes to.
+//! The report of cures: the key of a design file, its new value, and the effect.
 
 use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
 use texere::check::{ClothFault, Cure, Diagnosis, Remedy};
-use texere::woven::{JamReport, Relief, Shape};
+use texere::woven::{BySet, JamReport, Relief, Shape};
 
 use crate::clearance::{as_near_as_looked, least};
 
@@ -17,11 +17,11 @@ const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
 pub(crate) struct CureReport {
     /// The key of the design file.
     key: &'static str,
-    /// What to write there.
+    /// Its new value.
     value: String,
-    /// What that comes to.
+    /// The effect of that value.
     effect: String,
-    /// The least clearance and the tightest bend with it, at what were the worst places.
+    /// The least clearance and the tightest bend with it, at the places that were the worst.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance: f64,
     curvature: f64,
@@ -30,8 +30,8 @@ pub(crate) struct CureReport {
 }
 
 impl CureReport {
-    /// None for a cure that no design file can have: yarns far too thick may need spacings beyond
-    /// any cloth's.
+    /// None for a cure beyond the limits of a design file, such as the spacing for yarns far too
+    /// thick.
     pub(crate) fn new(cure: &Cure) -> Option<Self> {
         let (key, value, effect) = change(&cure.remedy)?;
         Some(Self {
@@ -91,12 +91,14 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
         Remedy::Flatness(flatness) => {
             ("flatness of every yarn", flatness.to_string(), "flatter yarns of the same area".into())
         }
-        Remedy::Spacing { spacing_mm, factor } if spacing_mm.iter().all(|mm| LENGTHS_MM.contains(mm)) => {
-            let ([warp, weft], [ends, picks]) = (*spacing_mm, spacing_mm.map(|mm| 10.0 / mm));
+        Remedy::Spacing { spacing_mm, factor }
+            if spacing_mm.into_array().iter().all(|mm| LENGTHS_MM.contains(mm)) =>
+        {
+            let (BySet { warp, weft }, per_cm) = (*spacing_mm, spacing_mm.map(|mm| 10.0 / mm));
             (
                 "warp.spacing_mm, weft.spacing_mm",
                 format!("{warp:.4}, {weft:.4}"),
-                format!("{factor:.2} times as wide, {ends:.2} and {picks:.2} threads a cm"),
+                format!("{factor:.2} times as wide, {:.2} and {:.2} threads a cm", per_cm.warp, per_cm.weft),
             )
         }
         Remedy::Diameter { thickest_mm: [before, after] } if LENGTHS_MM.contains(after) => (
@@ -108,14 +110,14 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
     })
 }
 
-/// What relief has changed.
+/// The changes that relief has made.
 fn relieved(report: &JamReport, [before, after]: [f64; 2]) -> String {
     let [share, new_share] = report.warp_share;
     let mut effects = Vec::new();
     if share != new_share {
         effects.push(format!("the warp takes {new_share:.2} of the crimp instead of {share:.2}"));
     }
-    for (set, wider) in ["ends", "picks"].into_iter().zip(report.widened) {
+    for (set, wider) in [("ends", report.widened.warp), ("picks", report.widened.weft)] {
         if wider != 1.0 {
             effects.push(format!("{set} {wider:.2} times as wide and as much flatter"));
         }
@@ -138,7 +140,7 @@ impl fmt::Display for CureReport {
     }
 }
 
-/// What a cloth does that it should not, if there is anything: "pierces itself, folds".
+/// The faults of a cloth in one phrase, if it has any: "pierces itself, folds".
 pub(crate) fn phrase(faults: &[ClothFault]) -> Option<String> {
     let kinds: Vec<_> = faults.iter().map(ToString::to_string).collect();
     (!kinds.is_empty()).then(|| kinds.join(", "))

@@ -9,8 +9,8 @@ use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{print, reading};
 
-/// Bytes of rows that are gathered before they are printed: calls cost nothing beside the copying
-/// from here on.
+/// Bytes of rows that are gathered before they are printed: from this size on a call costs nothing
+/// beside the copying.
 const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {

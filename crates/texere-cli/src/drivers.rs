@@ -1,11 +1,10 @@
-//! What drivers write to standard error by themselves while they are loaded, such as complaints
-//! about the environment.
+//! Hides what drivers write to standard error while they are loaded, such as complaints about the
+//! environment.
 
-/// Does `work`, which loads drivers. What they write meanwhile is shown if it fails, and says
-/// nothing to a person if not.
+/// Does `work`, which loads drivers. Their output on standard error is shown only if `work` fails.
 #[cfg(unix)]
 pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
-    // Where there is no room to put it aside, it is shown.
+    // If it can't be put aside, it is shown.
     let aside = aside::Aside::begin().ok();
     let done = work();
     if let (Some(aside), Ok(_)) = (aside, &done) {
@@ -28,7 +27,7 @@ mod aside {
 
     use crate::terminal::lines;
 
-    /// Standard error, led to a file without a name until this goes; what is there then is shown.
+    /// Redirects standard error to a file without a name, and shows the file's text when dropped.
     pub(super) struct Aside {
         stderr: OwnedFd,
         written: File,
@@ -50,7 +49,7 @@ mod aside {
 
     impl Drop for Aside {
         fn drop(&mut self) {
-            // If that fails there is nowhere left to say so.
+            // If that fails, there is nowhere to report it.
             let _ = rustix::stdio::dup2_stderr(&self.stderr);
             let mut text = Vec::new();
             if self.shown && self.written.rewind().is_ok() && self.written.read_to_end(&mut text).is_ok() {

@@ -1,4 +1,4 @@
-//! How a command fails: what is said, and the exit code.
+//! How a command fails: its message and its exit code.
 
 use std::error::Error;
 use std::fmt;
@@ -6,7 +6,6 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::backend::OutOfMemory;
 use texere::check::ContactError;
 use texere::mesh::PlanError;
 use texere::picture::RenderError;
@@ -51,7 +50,7 @@ impl Fail {
         Self { code: DESIGN, source: format!("{} has no draft or chart", design.display()).into() }
     }
 
-    /// What `check` has found wrong with the cloth.
+    /// The faults that `check` has found.
     pub(crate) fn cloth(design: &Path, faults: &str) -> Self {
         Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
     }
@@ -73,7 +72,7 @@ impl Fail {
         }
     }
 
-    /// An `option` that only a design can do was given for the saved cloth in `path`.
+    /// An `option` that needs a design was given for the saved cloth in `path`.
     pub(crate) fn needs_design(option: &str, path: &Path) -> Self {
         let path = path.display();
         Self {
@@ -116,8 +115,8 @@ impl fmt::Display for Fail {
     }
 }
 
-/// The exit code of an error. A cause says more than what it led to: memory that ran out while a
-/// design was read is no fault of the design.
+/// The exit code of an error. The innermost cause decides: memory that ran out while a design was
+/// read is no fault of the design.
 fn code_of(error: &(dyn Error + 'static)) -> u8 {
     let causes = successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
     causes.filter_map(own_code).last().unwrap_or(WORLD)
@@ -125,7 +124,7 @@ fn code_of(error: &(dyn Error + 'static)) -> u8 {
 
 /// The exit code of an error by itself, where it decides one.
 fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
-    // What is wrong with a file that the design names comes in a box.
+    // The error of a file that the design names is boxed.
     let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);
     let read = error.downcast_ref().or_else(named).map(|error| match error {
         ReadError::Io { .. } | ReadError::NotAFile { .. } | ReadError::OutOfMemory(_) => WORLD,
@@ -140,11 +139,11 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         | FinishError::Crossings(CrossingsError::OutOfMemory(_)) => WORLD,
         _ => DESIGN,
     });
-    // The tension of splines is the command line's.
+    // The tension of splines is set on the command line.
     let tension = matches!(error.downcast_ref(), Some(YarnError::Tension { .. })).then_some(USAGE);
     let plan = error.downcast_ref().map(|_: &PlanError| USAGE);
     let backend = error.downcast_ref().map(|error| match error {
-        // Where there are others, the name is wrong; where there are none, the machine lacks them.
+        // If there are other devices, the name is wrong; if there are none, the machine lacks them.
         BackendError::NoDevice { found, .. } if !found.is_empty() => USAGE,
         BackendError::NoInstructionSet { .. } | BackendError::NoFeature { .. } => USAGE,
         BackendError::Crowded { .. } => DESIGN,
@@ -162,7 +161,7 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         WriteError::DraftTooLarge { .. } | WriteError::OutOfRange { .. } => DESIGN,
         _ => WORLD,
     });
-    // It says what it holds, and is that to a user.
+    // To a user it is the error that it holds.
     let pipeline = error.downcast_ref().and_then(|error| match error {
         PipelineError::Plan(error) => own_code(error),
         PipelineError::Backend(error) => own_code(error),
@@ -210,7 +209,7 @@ impl From<WriteError> for Fail {
 impl From<Refusal> for Fail {
     fn from(error: Refusal) -> Self {
         match error {
-            // The tension of splines and the settings of meshes are the command line's.
+            // The tension of splines and the settings of meshes are set on the command line.
             Refusal::Other(FinishError::Fabric(FabricError::Yarns(error @ YarnError::Tension { .. }))) => {
                 error.into()
             }
@@ -252,12 +251,13 @@ impl From<texere_view::ViewError> for Fail {
 mod tests {
     use std::io::ErrorKind;
 
+    use texere::backend::OutOfMemory;
     use texere::read::FilePlace;
 
     use super::*;
 
-    /// What a design file asks for is its fault; memory, devices and the command line's settings
-    /// are not, whoever comes upon them.
+    /// A value of a design file is the design's fault. Memory, devices and settings of the command
+    /// line are not, wherever they fail.
     #[test]
     fn refusals_have_the_code_of_their_cause() {
         let place = || FilePlace { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };

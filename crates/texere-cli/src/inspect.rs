@@ -20,10 +20,10 @@ use crate::setts::{SettReport, setts};
 use crate::terminal::line;
 use crate::{print, progress, reading, settling};
 
-/// How far the yarn of a guide bar may be off what the design asks for.
+/// How far the run-in of a guide bar may differ from the design's, as a share.
 const RUN_IN_MISS: f64 = 0.02;
 
-/// What is said of a design. The keys of the JSON are these fields.
+/// The report of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 struct Report {
     name: String,
@@ -39,12 +39,12 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     settling: Option<SettlingReport>,
     warnings: Vec<String>,
-    /// Those that standard error has not had as the design was read.
+    /// Warnings that were not printed when the design was read.
     #[serde(skip)]
     unsaid: Vec<String>,
 }
 
-/// What a mesh of it takes.
+/// The counts of its mesh.
 #[derive(Debug, Serialize)]
 struct Size {
     yarns: u64,
@@ -56,7 +56,7 @@ struct Size {
     bytes: u64,
 }
 
-/// What a knit has.
+/// Counts of a knit.
 #[derive(Debug, Serialize)]
 struct KnitReport {
     /// Knit, tuck and split operations that carry yarn; with two yarns one loop of each.
@@ -72,15 +72,15 @@ struct KnitReport {
 #[derive(Debug, Serialize)]
 struct BarReport {
     lapping: String,
-    /// Yarn for a rack of 480 courses, mm: what the design asks for, and what there is. Neither of
-    /// yarns that have not settled.
+    /// Yarn for a rack of 480 courses, mm, if the design asks for one.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_asked_mm: Option<f64>,
+    /// The yarn that there is, mm, unless yarns are only counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_mm: Option<f64>,
 }
 
-/// What it is as a cloth.
+/// The report of its yarns as cloth.
 #[derive(Debug, Serialize)]
 struct ClothReport {
     #[serde(skip_serializing_if = "Option::is_none", flatten)]
@@ -91,16 +91,17 @@ struct ClothReport {
     curvature: CurvatureReport,
 }
 
-/// What woven cloth has.
+/// The report of woven cloth.
 #[derive(Debug, Serialize)]
 struct WovenReport {
     ends: usize,
     picks: usize,
-    /// How close threads lie for those that cross; not of cloth at rest, whose threads give way.
+    /// Whether crossing threads have room to pass; left out for cloth at rest, whose threads give
+    /// way.
     #[serde(skip_serializing_if = "Option::is_none")]
     jam: Option<JamsReport>,
     setts: Sets<SettReport>,
-    /// How many levels ends lie on, and picks.
+    /// Numbers of levels on which ends and picks lie.
     levels: Sets<u32>,
 }
 
@@ -171,7 +172,7 @@ impl KnitReport {
         Self { loops: knit.loops(), courses, wales, bars: Vec::new() }
     }
 
-    /// That of a warp knit; with its yarns, what bars take of them.
+    /// The report of a warp knit. Run-ins are left out without `measured` yarns.
     fn of_warp(knit: &WarpKnitted, measured: Option<&Yarns>) -> Self {
         let [wales, courses] = knit.size();
         let run_ins = measured.map(|yarns| knit.run_ins(yarns)).unwrap_or_default();
@@ -183,7 +184,7 @@ impl KnitReport {
         Self { loops: knit.loops(), courses, wales, bars: knit.bars().iter().map(bar).collect() }
     }
 
-    /// What is said of bars whose yarn is longer or shorter than the design asks for.
+    /// Warnings of bars whose yarn is longer or shorter than the design asks for.
     fn missed(&self) -> impl Iterator<Item = String> {
         (1..).zip(&self.bars).filter_map(|(number, bar)| {
             let (asked, reached) = (bar.run_in_asked_mm?, bar.run_in_mm?);

@@ -70,7 +70,7 @@ fn failed(fail: &fail::Fail) -> ExitCode {
     fail.exit_code()
 }
 
-/// Says what is wrong with the command line, or what was asked of the program itself.
+/// Prints the fault of the command line, or the help or version that was asked for.
 fn misused(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         // Help, or the version.

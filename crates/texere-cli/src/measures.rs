@@ -1,10 +1,10 @@
-//! What is said of a cloth's yarn, weight and thickness.
+//! The report of a cloth's yarn, weight and thickness.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 use texere::check::{KnitMeasures, Measures};
-use texere::woven::{JamReport, Tightness};
+use texere::woven::{BySet, JamReport, Tightness};
 use texere::yarn::Material;
 
 /// A number for the warp, and one for the weft.
@@ -14,13 +14,13 @@ pub(crate) struct Sets<T> {
     pub(crate) weft: T,
 }
 
-impl<T> From<[T; 2]> for Sets<T> {
-    fn from([warp, weft]: [T; 2]) -> Self {
+impl<T> From<BySet<T>> for Sets<T> {
+    fn from(BySet { warp, weft }: BySet<T>) -> Self {
         Self { warp, weft }
     }
 }
 
-/// [`Measures`], with the names of what they measure.
+/// [`Measures`] with the names of threads and colours.
 #[derive(Debug, Serialize)]
 pub(crate) struct MeasuresReport {
     /// All yarn, mm.
@@ -32,14 +32,14 @@ pub(crate) struct MeasuresReport {
     pub(crate) crimp: Option<Sets<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cover: Option<CoverReport>,
-    /// Of a knit.
+    /// Only for knits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) knit: Option<LoopsReport>,
     pub(crate) areal_weight_g_per_m2: Option<f64>,
     pub(crate) thickness_mm: f64,
 }
 
-/// [`KnitMeasures`].
+/// [`KnitMeasures`] for JSON.
 #[derive(Debug, Serialize)]
 pub(crate) struct LoopsReport {
     pub(crate) loop_length_mm: f64,
@@ -115,7 +115,7 @@ impl YarnReport {
     }
 }
 
-/// [`JamReport`]: what was found of jammed threads, and what was done.
+/// [`JamReport`] for JSON: jammed threads before and after relief, and the relief.
 #[derive(Debug, Serialize)]
 pub(crate) struct JamsReport {
     before: Sets<TightnessReport>,

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     print::text(&written)
 }
 
-/// Writes the yarns, or their mesh. Gives the lines that say so.
+/// Writes the yarns, or their mesh. Returns the lines to print about it.
 fn written(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
     let path = line(args.output.display());
     if is_yarns(&args.output) {

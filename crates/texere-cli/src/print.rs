@@ -1,4 +1,4 @@
-//! Standard output.
+//! Output to standard output.
 
 use std::io::Write;
 
@@ -12,8 +12,7 @@ pub(crate) fn json(report: &impl Serialize) -> Result<(), Fail> {
     text(&(json + "\n"))
 }
 
-/// Prints `text` to standard output. A reader that has seen enough and closed the pipe is no
-/// failure.
+/// Prints `text` to standard output. A pipe that its reader has closed is no failure.
 pub(crate) fn text(text: &str) -> Result<(), Fail> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

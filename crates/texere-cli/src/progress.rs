@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use texere::mesh::Progress;
 
-/// Shorter work shows no bar: it would only flicker.
+/// Shorter work shows no bar, which would only flicker.
 const QUIET_FOR: Duration = Duration::from_secs(1);
 
 /// Steps that a bar of shares has.
@@ -27,8 +27,8 @@ pub(crate) fn bar(terminal: bool) -> ProgressBar {
     bar
 }
 
-/// Does `work`, and says on a terminal how far it has come if it takes over a second: `work` moves
-/// the bar, see [`share`].
+/// Does `work`, and shows its progress on a terminal if it takes over a second. `work` moves the
+/// bar, see [`share`].
 pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
     let bar = bar(std::io::stderr().is_terminal());
     if let Ok(style) = ProgressStyle::with_template("{msg}: {percent} %, {elapsed}") {
@@ -38,7 +38,7 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     bar.set_length(STEPS);
     let (end, ended) = mpsc::channel::<()>();
     let ticking = bar.clone();
-    // The bar's own ticker would panic where no thread can be had. Then nothing is shown.
+    // The bar's own ticker would panic if no thread can be started. Here the bar is then not shown.
     let ticker = thread::Builder::new().spawn(move || {
         while ended.recv_timeout(QUIET_FOR) == Err(RecvTimeoutError::Timeout) {
             ticking.tick();

@@ -1,4 +1,4 @@
-//! Designs, and what their readers say of them; saved yarns.
+//! Reads designs with their readers' remarks, and saved yarns.
 
 use std::io::Write;
 use std::path::Path;
@@ -9,17 +9,17 @@ use crate::args::{SettingsArgs, SettlingArgs, is_yarns};
 use crate::fail::Fail;
 use crate::terminal::line;
 
-/// Reads a design, and says on standard error what its reader had to assume or leave out: standard
-/// output is for what the command makes.
+/// Reads a design, and prints on standard error what its reader had to assume or leave out.
+/// Standard output is for the command's own output.
 pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     let design = texere::read(path)?;
     say(design.remarks());
     Ok(design)
 }
 
-/// The yarns in `path`, where they are saved ones; none of a design.
+/// The yarns in `path`, if it is a file of saved yarns; none if it is a design.
 ///
-/// **Errors**: also for options that take a design.
+/// **Errors**: also options that need a design.
 pub(crate) fn saved(
     path: &Path,
     settings: &SettingsArgs,
@@ -39,11 +39,11 @@ pub(crate) fn saved(
     }))
 }
 
-/// [`design`] for a report, which says itself what is wrong with the cloth. Gives what was said
-/// beforehand, too.
+/// Reads a design for a report, which prints the warnings about the cloth itself. Also returns the
+/// remarks that were printed.
 pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     let design = texere::read(path)?;
-    let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.said);
+    let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.message);
     let pieces = design.structure.pieces();
     let apart = pieces.falls_apart().then(|| pieces.to_string());
     let faults: Vec<_> = errors.chain(&apart).collect();
@@ -52,7 +52,7 @@ pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     Ok((design, said))
 }
 
-/// What of `warnings` has not been `said`.
+/// The `warnings` that have not been `said`.
 pub(crate) fn unsaid(warnings: &[String], said: &[String]) -> Vec<String> {
     warnings.iter().filter(|warning| !said.contains(warning)).cloned().collect()
 }
@@ -60,7 +60,7 @@ pub(crate) fn unsaid(warnings: &[String], said: &[String]) -> Vec<String> {
 fn say(remarks: &[String]) {
     let mut out = std::io::stderr().lock();
     for remark in remarks {
-        // When standard error is closed, there is nowhere left to say so.
+        // If standard error is closed, there is nowhere to report it.
         let _ = writeln!(out, "warning: {}", line(remark));
     }
 }

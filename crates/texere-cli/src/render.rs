@@ -31,7 +31,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     Ok(())
 }
 
-/// What is shown, and the files that its pictures go to.
+/// The cloth that is shown, and the files that its pictures go to.
 struct Shown {
     outputs: Vec<Output>,
     yarns: Yarns,
@@ -43,7 +43,7 @@ struct Shown {
 }
 
 impl Shown {
-    /// What `args` name: a design's cloth, or a saved one.
+    /// The cloth that `args` name: of a design, or saved.
     fn new(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
         let saved = stages.time("read", || reading::saved(&args.design, &args.settings, &args.settling))?;
         match saved {
@@ -52,7 +52,7 @@ impl Shown {
         }
     }
 
-    /// Saved woven cloth counts as cloth at rest, for that is what is saved.
+    /// Saved woven cloth counts as cloth at rest, since only cloth at rest is worth saving.
     fn of_saved(args: &RenderArgs, yarns: Yarns) -> Result<Self, Fail> {
         let middles = saved_middles(&yarns);
         let lies_close = middles.iter().all(|middles| !middles.is_empty());
@@ -73,7 +73,8 @@ impl Shown {
         // Yarns at rest have that tension already.
         let yarns = yarns.with_tension(args.settings.tension())?;
         let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
-        let middles = design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default();
+        let middles =
+            design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default().into_array();
         Ok(Self { outputs, yarns, lies_close, middles, settling })
     }
 }
@@ -95,7 +96,7 @@ fn saved_middles(yarns: &Yarns) -> [Vec<f64>; 2] {
     middles
 }
 
-/// From the file to the pictures. Gives a line for each that was written.
+/// Goes from the file to the pictures. Returns a line for each picture that was written.
 fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
     let Shown { outputs, yarns, lies_close, middles, settling } = Shown::new(args, stages)?;
     let settings = args.settings.of_picture(&yarns, lies_close);
@@ -126,8 +127,8 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     Ok(text)
 }
 
-/// The files that the pictures go to, once it is known that none would replace another, or one of
-/// the files that were `read`.
+/// The files that the pictures go to. Refuses files that would replace one another or one of the
+/// files that were `read`.
 fn outputs(args: &RenderArgs, read: &[impl AsRef<Path>]) -> Result<Vec<Output>, Fail> {
     let output = &args.output;
     let paths = match args.view {
@@ -138,7 +139,7 @@ fn outputs(args: &RenderArgs, read: &[impl AsRef<Path>]) -> Result<Vec<Output>, 
     let checked = paths.into_iter().map(|path| {
         let output = Output::to(&path).sparing(read);
         output.check()?;
-        // What is not there yet is no link to another.
+        // A file that does not exist yet is no link to another.
         let real = fs::canonicalize(&path).ok();
         if real.is_some_and(|real| !taken.insert(real)) {
             Err(Fail::written_twice(&path))
@@ -173,8 +174,8 @@ fn cameras(args: &RenderArgs, middles: [Vec<f64>; 2], extent: &Extent) -> Result
     Ok(vec![camera])
 }
 
-/// The point that was asked for, or else the middle of the cloth; in a cut that of a thread, since
-/// there is nothing to cut between two.
+/// The point that was asked for, or else the middle of the cloth. For a cut it is the middle of the
+/// nearest thread, since a cut between two threads shows nothing.
 fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent) -> Result<[f32; 2], Fail> {
     let ([left, lower, _], [right, upper, _]) = (extent.low, extent.high);
     if let Some([x, y]) = args.at {
@@ -209,7 +210,7 @@ fn numbered(path: &Path, number: u32) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// What each stage took, in the order in which they came.
+/// The time of each stage, in order.
 #[derive(Debug, Default)]
 struct Stages(Vec<(&'static str, Duration)>);
 

@@ -7,7 +7,8 @@ use texere::woven::{Sett, Woven};
 
 use crate::measures::Sets;
 
-/// By how much a sett may pass the greatest one before it counts: diameters are rounded to `f32`.
+/// The share by which a sett may exceed the greatest one without a warning: diameters are rounded
+/// to `f32`.
 const ROUNDING: f64 = 1e-6;
 
 /// The setts of warp and weft.
@@ -15,7 +16,7 @@ pub(crate) fn setts(cloth: &Woven) -> Sets<SettReport> {
     cloth.setts().map(SettReport::from).into()
 }
 
-/// [`Sett`], with its share. The keys of the JSON are these fields.
+/// [`Sett`] with its share of the greatest sett. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 pub(crate) struct SettReport {
     per_cm: f64,
@@ -38,7 +39,7 @@ impl From<Sett> for SettReport {
 }
 
 impl Sets<SettReport> {
-    /// Lines of text: what each is about, and what is said.
+    /// Lines of text: a label and a sentence each.
     pub(crate) fn lines(&self) -> [(&'static str, String); 2] {
         [("sett", format!("ends {}", self.warp)), ("", format!("picks {}", self.weft))]
     }

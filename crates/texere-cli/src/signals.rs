@@ -1,4 +1,4 @@
-//! Signals that end the program: what is not finished goes first.
+//! Signals that end the program: unfinished files are removed first.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
@@ -13,19 +13,19 @@ use signal_hook::low_level::emulate_default_handler;
 
 use crate::fail::WORLD;
 
-/// Signals that end a program which does not hear them, but for those of its own faults.
+/// Signals that end a program by default, except those of its own faults.
 const ENDS: [i32; 10] =
     [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
 
 /// Held from the signal that ends the program until the program has ended.
 static ENDING: Mutex<()> = Mutex::new(());
 
-/// From here on Ctrl-C and its like first remove what is not finished, whatever the program is
-/// doing. It then ends by that very signal, so that a shell knows why. A signal that was ignored
-/// when the program started stays ignored, as `nohup` does with SIGHUP.
+/// From this call on Ctrl-C and like signals first remove unfinished files, whatever the program is
+/// doing. The program then ends by that very signal, so that a shell knows why. A signal that was
+/// ignored when the program started stays ignored, as under `nohup`.
 pub(crate) fn listen() {
-    // Where memory is refused that nobody asks for by name, the standard library says how many
-    // bytes and aborts.
+    // If an allocation of the standard library fails, the library prints the number of bytes and
+    // aborts.
     let always = Arc::new(AtomicBool::new(true));
     let _ = register_conditional_shutdown(SIGABRT, WORLD.into(), always);
     let (hand_over, wait) = mpsc::channel::<Signals>();
@@ -35,8 +35,8 @@ pub(crate) fn listen() {
         texere::write::abandon();
         let _ = emulate_default_handler(signal);
     });
-    // Where no thread can be had, signals end the program as they always do; the next write removes
-    // what is left then.
+    // If no thread can be started, signals end the program as usual, and the next write in that
+    // folder removes the unfinished file.
     if listener.is_ok() {
         let ignored = ignored();
         let heard = ENDS.into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
@@ -46,14 +46,14 @@ pub(crate) fn listen() {
     }
 }
 
-/// Waits for the end, if a signal is ending the program. A write that was stopped by that is no
-/// failure of its own.
+/// Waits for the end, if a signal is ending the program. A write that the signal stopped is then
+/// not reported as a failure.
 pub(crate) fn give_way() {
     drop(ENDING.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// The signals that are ignored, a bit each from the lowest. Linux says which; elsewhere SIGHUP is
-/// taken for ignored.
+/// The ignored signals, a bit each from the lowest. Linux tells which; on other systems SIGHUP is
+/// assumed to be ignored.
 fn ignored() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

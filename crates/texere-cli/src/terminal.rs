@@ -1,5 +1,5 @@
-//! What may be shown on a terminal: text of a design, a path or a driver can be long, and can hold
-//! codes that steer it.
+//! Text that is safe on a terminal: text of a design, a path or a driver can be long, and can hold
+//! codes that control the terminal.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -7,17 +7,17 @@ use std::fmt;
 /// The most characters that are shown of a text: two lines of a wide terminal.
 const SHOWN: usize = 240;
 
-/// A text on a single line: codes that would steer a terminal, or turn the direction of writing,
-/// are shown by their numbers, and the middle of what is too long is left out.
+/// A text on a single line. Codes that control a terminal or turn the direction of writing are
+/// shown by their numbers. A long text loses its middle.
 ///
-/// Its start says what it is about, its end what is wrong, so both stay.
+/// The start of a message names its subject and its end the fault, so both stay.
 pub(crate) fn line(text: impl fmt::Display) -> String {
     let text = text.to_string();
     let escaped: String = cut(&text).chars().map(escape).collect();
     cut(&escaped).into_owned()
 }
 
-/// The same for each line of a text.
+/// [`line`] for each line of a text.
 pub(crate) fn lines(text: &str) -> String {
     text.lines().map(|each| line(each) + "\n").collect()
 }
@@ -33,8 +33,8 @@ fn cut(text: &str) -> Cow<'_, str> {
 }
 
 fn escape(character: char) -> Cow<'static, str> {
-    // Beside control codes: marks of direction (Unicode 16, section 23.2), and what ends a line or
-    // a paragraph.
+    // Control codes, marks of direction (Unicode 16, section 23.2), and ends of lines or
+    // paragraphs.
     let steers = character.is_control()
         || matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     if steers { character.escape_default().to_string().into() } else { character.to_string().into() }

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     // Drivers are loaded for the window, and again where yarns settle.
     drivers::quietly(|| {
         view.open(|event: &Event| match event {
-            // What failed is said at the end.
+            // The failure is printed at the end.
             Event::Closed if printed.is_ok() => leave(),
             event if printed.is_ok() => printed = print::text(&format!("{}\n", line(event))),
             _ => {}
@@ -32,8 +32,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     printed
 }
 
-/// Ends the program at once, whatever its threads and the device are at. Drivers may not be asked
-/// to go while they work, so the system takes all back.
+/// Ends the program at once, whatever its threads and the device are doing. A driver may not be
+/// closed while it works, so the system frees everything.
 fn leave() -> ! {
     #[cfg(unix)]
     crate::signals::give_way();

@@ -45,7 +45,7 @@ fn a_picture_has_the_size_that_was_asked_for() {
     assert_eq!(png_size(&path), [120, 90]);
 }
 
-/// Cloth at rest that was saved looks as it does when it comes from its design.
+/// Saved cloth at rest looks like the cloth from its design.
 #[test]
 fn saved_cloth_is_drawn_as_its_design_is() {
     let folder = tempfile::tempdir().unwrap();
@@ -192,7 +192,7 @@ fn a_turntable_keeps_a_name_that_is_no_unicode() {
     assert!(folder.path().join(OsStr::from_bytes(b"t\xffrn-001.png")).exists());
 }
 
-/// A machine without drivers lacks something; nothing is wrong with the command line.
+/// A machine without drivers is a failure of the machine, not of the command line.
 #[cfg(target_os = "linux")]
 #[test]
 fn no_vulkan_and_no_opencl_exit_alike() {
@@ -220,7 +220,7 @@ fn colors(path: &PathBuf) -> Vec<[u8; 3]> {
     bytes.as_chunks().0.to_vec()
 }
 
-/// What a pixel of a picture has, and the bytes of all, row by row.
+/// The colour type of a picture, and the bytes of its pixels, row by row.
 fn pixels(path: &PathBuf) -> (png::ColorType, Vec<u8>) {
     let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
@@ -230,8 +230,8 @@ fn pixels(path: &PathBuf) -> (png::ColorType, Vec<u8>) {
     (info.color_type, bytes)
 }
 
-/// A weave of red warp and blue weft, seen straight from above: what share of its middle shows
-/// warp, weft and ground.
+/// Shares of warp, weft and ground in the middle of a weave of red warp and blue weft, seen
+/// straight from above.
 fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pixel: &str) -> [f64; 3] {
     let folder = tempfile::tempdir().unwrap();
     let [design, picture] = ["cloth.toml", "cloth.png"].map(|name| folder.path().join(name));
@@ -250,8 +250,7 @@ fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pix
     let mut counts = [0_u32; 3];
     for row in height / 4..3 * height / 4 {
         for [red, green, blue] in &all[row * width + width / 4..row * width + 3 * width / 4] {
-            // Ground is grey, and threads are never: light of any strength leaves them their
-            // colours.
+            // Ground is grey; threads keep their hue in light of any strength.
             let kind = match *green > 4 * (*red.max(blue) / 5) {
                 true => 2,
                 false => usize::from(blue > red),
@@ -262,8 +261,8 @@ fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pix
     counts.map(|count| f64::from(count) / f64::from(counts.iter().sum::<u32>()))
 }
 
-/// Denim and sateen hide the ground, and on their faces most of the weft; an open cloth does
-/// neither. Pixels of the picture are counted.
+/// Denim and sateen hide the ground, and on their faces most of the weft; an open cloth hides
+/// neither. The test counts pixels.
 #[test]
 fn denim_and_sateen_show_no_ground() {
     for (name, [_, weft, ground], most) in [

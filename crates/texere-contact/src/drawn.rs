@@ -1,5 +1,4 @@
-//! Tubes as a mesh draws them: how wide they are between rings, and whether they are turned inside
-//! out.
+//! Tubes as a mesh draws them: their width between rings, and triangles that are inside out.
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -9,29 +8,27 @@ use texere_core::{Settings, TWIST_SUBDIVISIONS_MAX, YarnPlace, Yarns};
 
 use crate::ContactError;
 
-/// A tube is wrung where it is narrower than this between two rings, in radii: they are turned
-/// against one another by more than 120 degrees, or two thirds of the way to a tube of no width.
-/// Twisted yarns of the usual settings come to 0.7, since a mesh has rings enough for
-/// [that](texere_core::Settings::following).
+/// A tube is wrung where its width between two rings falls below this share of its width on them.
+/// The two rings are then turned against one another by more than 120 degrees, two thirds of the
+/// turn that leaves no width.
 pub const WRUNG: f64 = 0.5;
 
-/// How the tubes of a fabric come out between neighbouring rings of a mesh.
+/// Quality of a fabric's tubes between neighbouring rings of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawn {
-    /// The least distance from the axis half way between two rings, over that on the rings, with
-    /// bends straightened: 1 where no ring is turned against the one before, the cosine of half the
-    /// turn where it is. Below [`WRUNG`] the tube is wrung.
+    /// The least width half way between two rings, as a share of the width on the rings, with bends
+    /// straightened. It is 1 where neighbouring rings stand alike, and else the cosine of half the
+    /// turn between them. Below [`WRUNG`] the tube is wrung.
     pub width: f64,
     /// Where that is.
     pub width_at: Option<YarnPlace>,
-    /// Triangles that face inwards, against the outline's own outward side: those of bends tighter
-    /// than their section reaches.
+    /// Triangles that face inwards. They come from bends tighter than the section reaches.
     pub inwards: u64,
     /// Where the first of them is.
     pub inwards_at: Option<YarnPlace>,
 }
 
-/// Looks at the tubes of a mesh of `yarns` with `settings`, caps left out. Memory is that of the
+/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. Memory is that of the
 /// yarns once more.
 ///
 /// **Errors**: [`ContactError::Settings`] for settings that no mesh is made with,
@@ -51,7 +48,7 @@ pub struct Drawn {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, ContactError> {
-    // A polygon has the sides that it has.
+    // A polygon is drawn with its own number of sides.
     let settings = &Settings { sides: yarns.layout().corners().unwrap_or(settings.sides), ..*settings };
     let plan = Plan::new(yarns.layout().clone(), *settings)?;
     let mut points = PaddedPoints::new(&plan)?;
@@ -72,28 +69,28 @@ pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, ContactError> 
 }
 
 impl Drawn {
-    /// Whether a tube is [wrung](WRUNG) somewhere.
+    /// Whether a tube is [wrung](WRUNG) anywhere.
     #[must_use]
     pub fn is_wrung(&self) -> bool {
         self.width < WRUNG
     }
 
-    /// Whether nothing is wrung, and nothing inside out.
+    /// Whether no tube is wrung and no triangle faces inwards.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         !self.is_wrung() && self.inwards == 0
     }
 }
 
-/// The fewest points between control points, more than those of `settings`, with which a mesh of
-/// `yarns` is [sound](Drawn::is_sound), and what it comes to. None where no number up to
-/// [`TWIST_SUBDIVISIONS_MAX`] helps.
+/// The smallest number of points between control points, above that of `settings`, with which a
+/// mesh of `yarns` is [sound](Drawn::is_sound), and the mesh's measures. Each number that is tried
+/// halves the steps. None where no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
 ///
 /// **Errors**: those of [`drawn`].
 pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, ContactError> {
     let mut subdivisions = settings.subdivisions;
     while subdivisions < TWIST_SUBDIVISIONS_MAX {
-        // So many that steps are half as long.
+        // This many points halve the steps.
         subdivisions = (2 * subdivisions + 1).min(TWIST_SUBDIVISIONS_MAX);
         let found = drawn(yarns, &Settings { subdivisions, ..*settings })?;
         if found.is_sound() {
@@ -103,7 +100,7 @@ pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>,
     Ok(None)
 }
 
-/// What was found so far, places by yarn and ring.
+/// Measures of part of the yarns, with places by yarn and ring.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     width: f64,
@@ -119,7 +116,7 @@ impl Default for Found {
 }
 
 impl Found {
-    /// Of equal ones that of the lower yarn counts.
+    /// Both measures together. Of equal widths the lower yarn's place is kept.
     fn and(self, other: Self) -> Self {
         let narrower = if other.width < self.width { other } else { self };
         Self {
@@ -138,7 +135,7 @@ struct Standing {
     arms: Vec<DVec3>,
 }
 
-/// Looks at all rings of a yarn.
+/// Measures all rings of a yarn.
 fn along(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Found {
     let outline = plan.outline(plan.yarn(yarn).section as usize);
     let mut found = Found::default();
@@ -176,7 +173,7 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
         }
         roll
     };
-    // A closed yarn gives back its whole turn, so that its last ring meets its first.
+    // A closed yarn spreads its whole turn over its rings, so that its last ring meets its first.
     let whole = if closed && plan.turns(yarn) { walk(&mut |_, _, _| ()) } else { Turn::ZERO };
     walk(&mut |number, sample, roll| {
         let roll =
@@ -185,7 +182,7 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
     });
 }
 
-/// How wide the tube is half way between two rings, and how many of its triangles face inwards.
+/// The tube's width half way between two rings, and the number of its triangles that face inwards.
 ///
 /// A triangle has an edge of the outline in the plane of one ring, and its third corner on the
 /// other ring. Outlines go counter-clockwise about the tangent, so an edge crossed with the tangent

@@ -7,10 +7,10 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ContactError {
-    /// Memory could not be had.
+    /// The system refused memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// Points between control points that no mesh is made with.
+    /// Settings whose number of points between control points no mesh is made with.
     #[error(transparent)]
     Settings(#[from] PlanError),
     /// More control points than clearance is measured for.
@@ -21,8 +21,8 @@ pub enum ContactError {
         /// Most taken.
         limit: u64,
     },
-    /// More control intervals than linking is compared for, with all their copies in a repeat that
-    /// they reach into.
+    /// More control intervals than linking is compared for. In a repeat all copies count that an
+    /// interval reaches into.
     #[error("linking of {intervals} with their copies; {limit} are compared at most", intervals = counted(*.intervals, "control interval"))]
     LinkingSize {
         /// Intervals of all yarns, with their copies.
@@ -30,16 +30,16 @@ pub enum ContactError {
         /// Most taken.
         limit: u64,
     },
-    /// Yarns whose linking can't be compared, for they are not the same ones.
+    /// Two shapes that are not shapes of the same yarns, so that their linking can't be compared.
     #[error("yarn {yarn} after is not the same as before: another number of control points, or another yarn")]
     OtherLayout {
         /// The first yarn that differs, from 0.
         yarn: usize,
     },
-    /// Yarns that can't be compared, for their splines have another tension.
+    /// Two shapes whose splines have different tensions, so that they can't be compared.
     #[error(transparent)]
     Yarns(#[from] YarnError),
-    /// A boundary that is not that of the yarns.
+    /// A boundary that does not belong to the yarns.
     #[error("the boundary is not that of the yarns")]
     Boundary(#[from] BoundaryError),
     /// The progress callback asked to stop.
@@ -48,8 +48,8 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// What of the cloth it is about. None of memory, of somebody who asked to stop, of settings
-    /// that no design has, and of calls that don't fit the yarns.
+    /// The part of the cloth that the error is about. None where no cloth is at fault: memory, a
+    /// cancelled call, settings, and calls that don't fit the yarns.
     ///
     /// ```
     /// use texere_contact::ContactError;

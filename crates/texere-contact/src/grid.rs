@@ -8,14 +8,14 @@ use rayon::prelude::*;
 use texere_core::OutOfMemory;
 use texere_core::backend::room;
 
-/// The most cells that an interval lies in on average, before larger cells are taken.
+/// The most cells that an interval lies in on average. A grid that needs more takes larger cells.
 pub(crate) const ENTRIES: u64 = 6;
 
-/// A cell's side, in those of boxes on average: so large that most boxes lie in one or two, and few
-/// are far from one another.
+/// A cell's side, over the mean side of the boxes. Most boxes then lie in one or two cells, and few
+/// boxes of a cell are far from one another.
 const CELL: f64 = 1.75;
 
-/// Cells along an axis that are not worth having: one takes their place.
+/// With fewer cells than this along an axis, one cell takes their place.
 const LAYERS: f32 = 4.0;
 
 /// A box with sides along the axes.
@@ -44,13 +44,13 @@ pub(crate) struct Grid {
     /// Cells to the millimetre.
     scale: Vec3A,
     cells: UVec3,
-    /// Where each cell's entries end; they start where those of the cell before end.
+    /// Where each cell's entries end. They start where the entries of the cell before end.
     ends: Vec<AtomicU32>,
     entries: Vec<AtomicU32>,
 }
 
 impl Grid {
-    /// Sorts numbered boxes into cells; `boxes(task)` gives those of one of `tasks`.
+    /// Sorts numbered boxes into cells. `boxes(task)` gives the boxes of one of `tasks`.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(crate) fn new<I: Iterator<Item = (usize, Bounds)>>(
@@ -66,7 +66,7 @@ impl Grid {
                 })
             })
             .reduce(|| (Bounds::NOTHING, 0.0, 0), |a, b| (a.0.joined(b.0), a.1 + b.1, a.2 + b.2));
-        // Larger where some boxes are so much larger that they lie in too many.
+        // Cells grow where a few large boxes lie in too many of them.
         let mut cell = (CELL * sides / count.max(1) as f64) as f32;
         loop {
             let size = whole.high - whole.low;
@@ -96,8 +96,8 @@ impl Grid {
         }
     }
 
-    /// Counts the boxes that reach into each cell, and how many these are in all. Above `most` it
-    /// stops: a few boxes that reach into every cell would keep it for hours.
+    /// Counts the boxes that reach into each cell, and returns the sum of all counts. It stops
+    /// above `most`: a few boxes that reach into every cell would take hours.
     fn count<I: Iterator<Item = (usize, Bounds)>>(
         &self,
         tasks: usize,
@@ -119,7 +119,7 @@ impl Grid {
         reached.into_inner()
     }
 
-    /// Makes counts places, and puts each box's number there.
+    /// Turns the counts into places of entries, and writes each box's number there.
     fn fill<I: Iterator<Item = (usize, Bounds)>>(&mut self, tasks: usize, boxes: impl Fn(usize) -> I + Sync) {
         let mut start = 0;
         for end in &mut self.ends {
@@ -127,7 +127,7 @@ impl Grid {
             *end.get_mut() = start;
             start += count;
         }
-        // What were the cells' starts become their ends as each entry takes its place.
+        // Each entry that takes its place moves its cell's start on, until the starts are the ends.
         let grid = &*self;
         (0..tasks).into_par_iter().for_each(|task| {
             for (number, each) in boxes(task) {
@@ -139,7 +139,7 @@ impl Grid {
         });
     }
 
-    /// The cell that `corner` lies in. Rounding moves none past another.
+    /// The cell that `corner` lies in. Rounding keeps the order of corners.
     pub(crate) fn cell(&self, corner: Vec3A) -> UVec3 {
         ((corner - self.low) * self.scale).as_uvec3().min(self.cells - 1)
     }

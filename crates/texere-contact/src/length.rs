@@ -1,4 +1,4 @@
-//! How long yarns are: arc length of the spline.
+//! Lengths of yarns: the arc length of the spline.
 
 use std::ops::Range;
 
@@ -50,8 +50,8 @@ pub fn length_mm(yarns: &Yarns) -> f64 {
     lengths_mm(yarns).iter().sum()
 }
 
-/// Length of one round of a yarn that goes on `shift` further, mm: with the way from its last
-/// control point to its next round.
+/// Length of one round of a yarn whose next round lies `shift` (x and y, mm) further on, mm. It
+/// includes the way from the last control point to the next round.
 pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
     let s = tangent_factor(tension);
     let count = points.len() as isize;
@@ -63,8 +63,8 @@ pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -
     (0..count).map(|first| interval_length([-1, 0, 1, 2].map(|step| at(first + step)), s)).sum()
 }
 
-/// Length of those intervals of an open yarn that lie between a range of its points, mm. Points
-/// beyond bend its ends.
+/// Length of a part of an open yarn, mm: the intervals between the control points of the range
+/// `part`. Control points outside the range bend its ends.
 pub fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
     let s = tangent_factor(tension);
     let last = part.end.min(points.len()).saturating_sub(1);

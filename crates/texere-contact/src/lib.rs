@@ -1,5 +1,5 @@
-//! How yarns lie against one another and against themselves, measured on the yarns alone: no
-//! structure is known here.
+//! How yarns lie against one another and against themselves. Everything here is measured on the
+//! yarns alone, whatever structure they come from.
 //!
 //! - [`clearance()`]: how near surfaces come to one another, where they pierce, and how tightly
 //!   yarns bend.
@@ -43,8 +43,5 @@ pub use clearance::{
 pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::ContactError;
 pub use length::{length_mm, lengths_mm, part_length_mm, round_length_mm};
-pub use linking::{
-    LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
-    WINDOW_REACH, linking, linking_with_progress,
-};
+pub use linking::{LINKING_CHANGE, Linking, Passage, linking, linking_with_progress};
 pub use under::yarns_under;

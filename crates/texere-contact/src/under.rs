@@ -3,13 +3,13 @@
 use texere_core::definitions::{Segment, neighbours, tangent_factor};
 use texere_core::{ControlPoint, YarnPlace, Yarns};
 
-/// Places at which each control interval is tried: between two of them a yarn that bends round
+/// Places at which each control interval is tried. Between two of them a yarn that bends round
 /// another moves less than half its radius.
 const STEPS: u16 = 24;
 
-/// Where yarns lie under the point (`x`, `y`), mm: those whose outline, seen from the face, holds
-/// it; the topmost first. A yarn that passes several times is named as often, each time with the
-/// place nearest to the point.
+/// Places of the yarns under the point (`x`, `y`), mm, the topmost first. A yarn lies under the
+/// point where its outline, seen from the face, holds the point. A yarn that passes several times
+/// is listed once for each pass, at the place nearest to the point.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -30,7 +30,7 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2]) -> Vec<YarnPlace> {
     for (number, yarn) in layout.yarns().iter().enumerate() {
         let points = yarns.yarn_points(number).unwrap_or(&[]);
         let intervals = if yarn.closed { points.len() } else { points.len().saturating_sub(1) };
-        // The passage that goes on from the interval before: its distance and its place.
+        // The pass that goes on from the interval before: its distance and its place.
         let mut passage: Option<(f64, YarnPlace)> = None;
         for interval in 0..intervals {
             let four = neighbours(points, yarn.closed, interval);
@@ -50,8 +50,8 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2]) -> Vec<YarnPlace> {
     found
 }
 
-/// Whether the yarn can come to the point between the middle two of the four: a spline leaves their
-/// box by less than its size.
+/// Whether the interval between the middle two of the four control points can reach the point. A
+/// spline leaves the box of its control points by less than the size of the box.
 fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
     (0..2).all(|axis| {
         let along = four.map(|point| f64::from(point.position()[axis]));
@@ -63,8 +63,8 @@ fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
     })
 }
 
-/// Where the centreline comes nearest to the point in the plane of the cloth, if the yarn is that
-/// wide there: distance and parameter.
+/// Distance and parameter of the centreline's nearest place to the point, in the plane of the
+/// cloth. None where the yarn is not that wide there.
 fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f64)> {
     let segment = Segment::new(four, s);
     let samples = (0..=STEPS).map(|step| {

@@ -1,4 +1,4 @@
-//! How far the measuring has come, and whether it is to stop.
+//! Progress of a measurement, and the caller's wish to stop it.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::ContactError;
 
-/// A caller's ear for the share of the work that is done. Behind a pointer, so that work is
-/// compiled once for all callers.
+/// The caller's progress function. It is behind a pointer, so that the work is compiled once for
+/// all callers.
 pub(crate) type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
 
-/// Reports to a caller, from any thread that works, how much is done.
+/// Reports progress to a caller, from any thread that works.
 pub(crate) struct Watch<'a> {
     total: AtomicU64,
     done: AtomicU64,
@@ -36,17 +36,17 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// There are so many units more to do, before the first is done.
+    /// Adds units to the total, before the first one is done.
     pub(crate) fn expect(&self, units: u64) {
         self.total.fetch_add(units, Ordering::Relaxed);
     }
 
-    /// So many units more are done.
+    /// Counts units as done, and reports.
     ///
     /// **Errors**: [`ContactError::Cancelled`] once the caller has asked to stop.
     pub(crate) fn advance(&self, units: u64) -> Result<(), ContactError> {
         self.done.fetch_add(units, Ordering::Relaxed);
-        // A thread that finds another one reporting goes on with its work.
+        // A thread that finds another one reporting does not wait for it.
         if let Ok(mut report) = self.report.try_lock() {
             let total = self.total.load(Ordering::Relaxed);
             let done = self.done.load(Ordering::Relaxed).min(total);

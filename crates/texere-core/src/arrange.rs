@@ -4,33 +4,33 @@ use glam::Vec3;
 
 use crate::{ControlPoint, Layout, Material, Section, Yarn, YarnError, Yarns};
 
-/// Where a cloth goes: it is scaled, then turned, then moved.
+/// A placement of a cloth: it is scaled, then turned, then moved.
 ///
-/// It is turned in its own plane alone: [`Yarns::mapped`] turns it any way, and bends it.
+/// It turns a cloth only in its own plane. [`Yarns::mapped`] turns it any way, and bends it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Turn about z, from x towards y, rad.
     pub turn: f64,
-    /// How many times as large it becomes, above 0.
+    /// The factor of size, above 0.
     pub scale: f32,
-    /// Where its origin goes, mm.
+    /// The new position of its origin, mm.
     pub at: [f32; 3],
 }
 
 impl Default for Placement {
-    /// Where it is.
+    /// The identity.
     fn default() -> Self {
         Self { turn: 0.0, scale: 1.0, at: [0.0; 3] }
     }
 }
 
 impl Yarns {
-    /// The same yarns in another place. Sizes grow with the scale, and twist becomes slower, so
-    /// that the mesh is the same but for the placement. Where a yarn stands by [up
-    /// directions](Layout::ups), all yarns of the placed cloth have some.
+    /// These yarns in another place. Sizes scale, and twist per mm shrinks by the same factor, so
+    /// that the mesh is the same up to the placement. If any yarn leans by [up
+    /// directions](Layout::ups), all yarns of the placed cloth get ups.
     ///
-    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`], where yarns leave the limits of
-    /// size, twist and place; a scale or a turn that is none is found so, too.
+    /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns leave the limits of
+    /// size, twist and position, which also catches an unsound scale or turn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
@@ -55,7 +55,7 @@ impl Yarns {
             ControlPoint { x, y, z, ..*point }.flattened(half_width, half_height)
         };
         let layout = self.layout();
-        // Untwisted yarns stay so at any scale.
+        // Untwisted yarns stay untwisted at any scale.
         let twist = |twist: f32| if twist == 0.0 { 0.0 } else { twist / scale };
         let yarns = layout.yarns().iter().map(|yarn| Yarn { twist: twist(yarn.twist), ..*yarn }).collect();
         let layout = Layout::new(yarns, layout.offsets().to_vec(), layout.sections().to_vec())?;
@@ -66,7 +66,7 @@ impl Yarns {
             let [x, y] = [up.x, up.y].map(f64::from);
             [(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, up.z]
         };
-        // Of a flattened yarn that goes straight up nothing but its ups says which way it stands.
+        // For a flattened yarn that goes straight up, only its ups give a direction.
         if self.layout().leans() {
             placed.with_ups(self.standing_ups().iter().map(turned).collect())
         } else {
@@ -74,11 +74,11 @@ impl Yarns {
         }
     }
 
-    /// All yarns of several cloths, one after the other. Materials and sections that are equal are
-    /// kept once; sources are kept where all cloths have some.
+    /// All yarns of several cloths, one after the other. Equal materials and equal sections are
+    /// kept once. Sources are kept if all cloths have some.
     ///
-    /// **Errors**: [`YarnError::NoYarns`] where there is no cloth, [`YarnError::OtherTension`]
-    /// where their splines are not all of one tension.
+    /// **Errors**: [`YarnError::NoYarns`] for no cloths, [`YarnError::OtherTension`] if their
+    /// splines differ in tension.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
@@ -120,15 +120,14 @@ impl Yarns {
         if cloths.iter().all(|cloth| cloth.ups().is_none()) {
             return Ok(merged);
         }
-        // Beside a cloth that leaves its plane all others say where theirs point.
+        // If one cloth has ups, all others state theirs.
         let ups = cloths.iter().flat_map(|cloth| cloth.standing_ups());
         merged.with_ups(ups.map(|up| up.to_array()).collect())
     }
 
-    /// Some of the yarns, in the order in which they are named. Materials and sections keep their
-    /// numbers.
+    /// Some of the yarns, in the order of `yarns`. Materials and sections keep their numbers.
     ///
-    /// **Errors**: [`YarnError::UnknownYarn`], and [`YarnError::NoYarns`] where none is named.
+    /// **Errors**: [`YarnError::UnknownYarn`], and [`YarnError::NoYarns`] for an empty list.
     pub fn only(&self, yarns: impl IntoIterator<Item = usize>) -> Result<Self, YarnError> {
         let (mut table, mut offsets) = (Vec::new(), vec![0]);
         let (mut points, mut sources, mut ups) = (Vec::new(), Vec::new(), Vec::new());
@@ -148,7 +147,7 @@ impl Yarns {
         if self.sources().is_some() { only.with_sources(sources) } else { Ok(only) }
     }
 
-    /// The sources of several cloths' points, one after the other, where all have some.
+    /// Adds the sources of several cloths' points, one after the other, if all have some.
     pub(crate) fn with_sources_of<'a>(
         self,
         cloths: impl IntoIterator<Item = &'a Self>,
@@ -161,7 +160,7 @@ impl Yarns {
     }
 }
 
-/// The number of `item` among `items`, which it joins where it is new.
+/// The number of `item` among `items`. A new item is added.
 fn number_of<T: Clone + PartialEq>(items: &mut Vec<T>, item: &T) -> u32 {
     let number = items.iter().position(|known| known == item).unwrap_or_else(|| {
         items.push(item.clone());

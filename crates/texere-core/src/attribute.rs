@@ -1,24 +1,24 @@
-//! What a shader or a texture asks of a vertex beside where it lies, and lengths along yarns.
+//! Attributes of vertices for shaders and textures, and lengths along yarns.
 
 use std::iter::Sum;
 use std::ops::Add;
 
 use bytemuck::{Pod, Zeroable};
 
-/// What a vertex is, for shaders and textures: there is one for each [`Vertex`](crate::Vertex) of a
-/// chunk, in the same order.
+/// The attributes of a vertex for shaders and textures. Each [`Vertex`](crate::Vertex) of a chunk
+/// has one, in the same order.
 ///
 /// **Shape**: six 4-byte values, 24 bytes. **Units**: radians and mm.
 ///
-/// Vertices of a ring are not repeated where its angle begins again: between the last corner and
-/// the first the angle falls back to 0. A shader that draws a texture there asks which corner it
-/// has, or takes sine and cosine of the angle along.
+/// A ring's first corner is not repeated, so between the last corner and the first the angle falls
+/// back to 0. A shader that draws a texture there looks at the corner's number, or interpolates
+/// sine and cosine of the angle instead.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Attribute {
     /// The yarn, from 0 among all.
     pub yarn: u32,
-    /// The way round the section, from its first corner: corner k of n has 2πk/n, rad. It turns
+    /// The angle round the section from its first corner: corner k of n has 2πk/n, rad. It turns
     /// with the yarn's twist.
     pub angle: f32,
     /// The length of the yarn from its start to the vertex's ring, mm.
@@ -29,7 +29,7 @@ pub struct Attribute {
 
 const _: () = assert!(size_of::<Attribute>() == 24 && std::mem::offset_of!(Attribute, tangent) == 12);
 
-/// The angle of a corner of a section of so many, rad.
+/// The angle of corner number `corner` of a section of `sides` corners, rad.
 ///
 /// ```
 /// assert_eq!(texere_core::definitions::corner_angle(2, 8), std::f32::consts::FRAC_PI_2);
@@ -40,33 +40,33 @@ pub fn corner_angle(corner: u32, sides: u32) -> f32 {
     corner as f32 * (std::f32::consts::TAU / sides as f32)
 }
 
-/// A length along a yarn: whole steps of 2⁻³² mm, so that a sum has the same bits in whatever order
-/// it is made. It holds 4,294 km; what is longer begins again at 0.
+/// A length along a yarn in whole steps of 2⁻³² mm, so that a sum has the same bits in any order.
+/// It holds 4,294 km; longer sums wrap round to 0.
 ///
 /// ```
 /// use texere_core::ArcLength;
-/// let quarter = ArcLength::from_mm(0.25);
-/// assert_eq!([quarter; 4].into_iter().sum::<ArcLength>(), ArcLength::from_mm(1.0));
-/// assert_eq!((quarter + ArcLength::from_mm(3.0)).mm(), 3.25);
+/// let quarter = ArcLength(1 << 30);
+/// assert_eq!([quarter; 4].into_iter().sum::<ArcLength>().mm(), 1.0);
+/// assert_eq!((quarter + ArcLength(3 << 32)).mm(), 3.25);
 /// ```
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Pod, Zeroable)]
 pub struct ArcLength(pub u64);
 
 impl ArcLength {
-    /// No length at all.
+    /// The length 0.
     pub const ZERO: Self = Self(0);
 
     /// Steps in a millimetre.
     pub const STEPS: f32 = 4_294_967_296.0;
 
-    /// The most whole millimetres: the greatest `f32` below 2³².
+    /// The largest number of whole millimetres: the greatest `f32` below 2³².
     pub const MM_MAX: f32 = 4_294_967_040.0;
 
-    /// A length in mm, rounded down to a step. What is no length, below 0 or not a number, is none.
+    /// A length in mm, rounded down to a step. A negative length and NaN become 0.
     #[must_use]
     #[inline]
-    pub fn from_mm(mm: f32) -> Self {
+    pub(crate) fn from_mm(mm: f32) -> Self {
         let mm = mm.max(0.0);
         let whole = mm.floor();
         let part = ((mm - whole) * Self::STEPS) as u32;

@@ -1,4 +1,4 @@
-//! What a backend is written with.
+//! Types to write a backend with.
 //!
 //! A [`Backend`](crate::Backend) opens a [`Session`] for a [`Plan`], and the session drives the
 //! backend's [`Engine`] chunk by chunk.
@@ -8,23 +8,25 @@
 //! | tables of yarns, blocks and chunks | [`Plan`], [`Block`], [`Chunk`], [`Chunks`], [`Part`] |
 //! | the driver and its rules | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
 //! | the work of one device | [`Engine`], [`ScanChunks`] |
-//! | where results go | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
+//! | callbacks and slices that take results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
 //! | a mesh that stays on the device | [`LiveMesh`], [`Edits`], [`Draw`] |
-//! | memory that may be short | [`zeroed`], [`filled`], [`room`], [`room_for`] |
+//! | allocations that may fail | [`zeroed`], [`filled`], [`room`], [`room_for`] |
 //! | points with virtual ends | [`PaddedPoints`], [`renew_virtual_ends`] |
 //!
-//! [`NullBackend`] is the smallest one.
+//! [`NullBackend`] is the smallest backend: it makes nothing.
 
 pub use crate::device::Schedule;
 pub use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
     take_over_host,
 };
+pub use crate::layout::Edits;
 pub use crate::live::LiveMesh;
 pub use crate::memory::{filled, room, room_for, zeroed};
 pub use crate::mesh::{ChunkDraw, Draw, MeshMut};
 pub use crate::null::NullBackend;
 pub use crate::padded::{PaddedPoints, renew_virtual_ends};
-pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Edits, Part, Plan, TablesId, WINDOW_POINTS};
+pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Part, Plan, TablesId, WINDOW_POINTS};
 pub use crate::ring::Trajectory;
-pub use crate::session::{Session, SessionError, Traffic};
+pub use crate::session::{Session, SessionError};
+pub use crate::traffic::Traffic;

@@ -1,5 +1,4 @@
-//! Where yarns end, close up, or go on beyond their control points, and the repeat that they go on
-//! in.
+//! Boundaries: the ends of yarns, and the repeat of a cloth that goes on beyond its control points.
 
 mod error;
 
@@ -7,22 +6,22 @@ use crate::{COORDINATE_LIMIT, Layout};
 
 pub use self::error::BoundaryError;
 
-/// What comes after a yarn's last control point.
+/// The continuation of a yarn after its last control point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Ends {
-    /// Nothing: the yarn is cut off at both its ends.
+    /// None: the yarn is cut off at both ends.
     #[default]
     Open,
     /// Its first control point: the yarn is a ring.
     Closed,
-    /// Its first control point again, moved by so many whole repeats along x and along y, and so on
-    /// without end both ways.
+    /// Its first control point again, moved by this number of whole repeats along x and along y,
+    /// and so on without end in both directions.
     Repeats([i32; 2]),
 }
 
 impl Ends {
-    /// Control intervals of a yarn of `points` control points. Only an open one has none after its
-    /// last.
+    /// The number of control intervals of a yarn of `points` control points. An open yarn has none
+    /// after its last point.
     ///
     /// ```
     /// use texere_core::Ends;
@@ -37,11 +36,11 @@ impl Ends {
     }
 }
 
-/// How a piece of cloth goes on at its edges: the repeat's size, and the ends of each yarn.
+/// The boundary of a piece of cloth: the repeat's size, and the ends of each yarn.
 ///
 /// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis
-/// that has a period. Control points may lie anywhere, also beyond the repeat's edge; what counts
-/// is that the yarn's next round begins where this one leaves off.
+/// that has a period. Control points may lie anywhere, even beyond the repeat's edge. The only
+/// condition is that a yarn's next round begins where this one ends.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -60,11 +59,11 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// A repeat of `repeat` mm along x and y (0 where there is none) for the yarns of `layout`,
-    /// with the ends of each.
+    /// A boundary with a repeat of `repeat` mm along x and y (0 for none) for the yarns of
+    /// `layout`, with the ends of each.
     ///
-    /// **Errors**: [`BoundaryError`] for a repeat that is not finite, negative or beyond
-    /// [`COORDINATE_LIMIT`], and those of [`Boundary::check`].
+    /// **Errors**: [`BoundaryError::Repeat`] for a repeat that is not finite, negative or beyond
+    /// [`COORDINATE_LIMIT`], and the errors of [`Boundary::check`].
     pub fn new(layout: &Layout, repeat: [f32; 2], ends: Vec<Ends>) -> Result<Self, BoundaryError> {
         for (axis, length) in ['x', 'y'].into_iter().zip(repeat) {
             if !(0.0..=COORDINATE_LIMIT).contains(&length) {
@@ -76,7 +75,7 @@ impl Boundary {
         Ok(boundary)
     }
 
-    /// No repeat: each yarn is closed or open as `layout` says.
+    /// A boundary without a repeat. Each yarn is closed or open as in `layout`.
     ///
     /// ```
     /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -92,11 +91,11 @@ impl Boundary {
         Self { repeat: [0.0; 2], ends: ends.collect() }
     }
 
-    /// Whether these are the boundaries of the yarns of `layout`.
+    /// Checks that the boundary fits the yarns of `layout`.
     ///
-    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed here alone
-    /// or in `layout` alone, one that goes on along an axis without a period, and one that goes on
-    /// by no repeat at all.
+    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed in only one
+    /// of the two, a yarn that goes on along an axis without a period, and one that goes on by no
+    /// repeat at all.
     pub fn check(&self, layout: &Layout) -> Result<(), BoundaryError> {
         if self.ends.len() != layout.yarns().len() {
             return Err(BoundaryError::EndsCount { ends: self.ends.len(), yarns: layout.yarns().len() });
@@ -121,7 +120,7 @@ impl Boundary {
         Ok(())
     }
 
-    /// The repeat's length along x and y, mm; 0 where there is none.
+    /// The repeat's length along x and y, mm; 0 for none.
     #[must_use]
     pub const fn repeat(&self) -> [f32; 2] {
         self.repeat
@@ -133,8 +132,7 @@ impl Boundary {
         &self.ends
     }
 
-    /// How far along x and y a yarn's next round lies from this one, mm: nothing but for a yarn
-    /// that repeats.
+    /// The way along x and y to a yarn's next round, mm. 0 unless the yarn repeats.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

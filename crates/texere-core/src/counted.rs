@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-/// A count and what is counted, as a person writes it. The plural is that with an s.
+/// A count with its noun, as a person writes it. The plural is the noun with an s.
 ///
 /// ```
 /// use texere_core::counted;

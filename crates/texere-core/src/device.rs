@@ -1,4 +1,5 @@
-//! The backend trait: object-safe, blocking where it must wait, free of any GPU type.
+//! The backend trait and the description of a device. The trait is object-safe and names no GPU
+//! type.
 
 mod error;
 
@@ -12,7 +13,7 @@ use crate::settling::{Settler, SettlingPlan};
 
 pub use self::error::BackendError;
 
-/// What kind of machine a device is.
+/// The kind of machine behind a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DeviceKind {
@@ -20,9 +21,9 @@ pub enum DeviceKind {
     DiscreteGpu,
     /// A graphics processor that shares the host's memory.
     IntegratedGpu,
-    /// A processor, also behind a GPU programming interface.
+    /// A processor, with or without a GPU programming interface in front of it.
     Cpu,
-    /// Anything else, or nothing at all.
+    /// Any other machine, or none at all.
     Other,
 }
 
@@ -37,7 +38,7 @@ impl fmt::Display for DeviceKind {
     }
 }
 
-/// How a backend maps the work onto its device.
+/// The mapping of the work onto the device.
 ///
 /// ```
 /// use texere_core::backend::{NullBackend, Schedule};
@@ -47,13 +48,13 @@ impl fmt::Display for DeviceKind {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Schedule {
-    /// One ring after the other on one thread: the paper's algorithms 1 and 3.
+    /// Ring after ring on one thread: the paper's algorithms 1 and 3.
     Serial,
-    /// A lane a ring: of a GPU's workgroup, or of a processor's vector.
+    /// One lane per ring, in a GPU's workgroup or in a processor's vector.
     #[default]
     PerRing,
-    /// A lane a yarn: the paper's algorithms 2 and 4, to measure against. Upright, untwisted, open
-    /// yarns without caps only.
+    /// One lane per yarn: the paper's algorithms 2 and 4, kept to measure against. It takes only
+    /// upright, untwisted, open yarns without caps.
     PerYarn,
 }
 
@@ -67,10 +68,10 @@ impl fmt::Display for Schedule {
     }
 }
 
-/// What a device does beside making meshes, which all of them do. What it can't is refused with the
-/// error that stands here.
+/// The capabilities of a device beyond making meshes. A call for anything that it lacks fails with
+/// the error that is named at the field.
 ///
-/// The default is a device that makes meshes alone.
+/// The default is a device that only makes meshes.
 ///
 /// ```
 /// use texere_core::Backend;
@@ -80,22 +81,22 @@ impl fmt::Display for Schedule {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Capabilities {
-    /// Yarns come to rest by their contacts: [`Backend::settler`]. Else
+    /// Yarns can be settled by their contacts with [`Backend::settler`]. Otherwise
     /// [`BackendError::NoSettling`].
     pub settle: bool,
-    /// Woven cloth comes to rest by its crossings: [`Backend::crossings_settler`]. Else
+    /// Woven cloth can be settled by its crossings with [`Backend::crossings_settler`]. Otherwise
     /// [`BackendError::NoCrossings`].
     pub settle_crossings: bool,
-    /// A mesh stays on the device and is edited there: [`LiveMesh`](crate::backend::LiveMesh). Else
-    /// [`BackendError::NoEditing`].
+    /// A mesh can stay on the device and be edited there: [`LiveMesh`](crate::backend::LiveMesh).
+    /// Otherwise [`BackendError::NoEditing`].
     pub edit: bool,
-    /// Vertices have attributes: [`Session::attributes`](crate::backend::Session::attributes). Else
-    /// [`BackendError::NoAttributes`].
+    /// Vertices can have attributes: [`Session::attributes`](crate::backend::Session::attributes).
+    /// Otherwise [`BackendError::NoAttributes`].
     pub attributes: bool,
-    /// Vertices are packed: [`Session::packed`](crate::backend::Session::packed). Else
+    /// Vertices can be packed: [`Session::packed`](crate::backend::Session::packed). Otherwise
     /// [`BackendError::NoPacking`].
     pub pack: bool,
-    /// Pictures are drawn on the device, by the crate `texere-render`. To open another one for them
+    /// The crate `texere-render` can draw pictures on the device. Otherwise opening it for pictures
     /// is [`BackendError::NoDevice`].
     pub draw: bool,
 }
@@ -103,52 +104,54 @@ pub struct Capabilities {
 /// A device's name, kind, limits and capabilities.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DeviceInfo {
-    /// The name that opens it, such as `cpu`.
+    /// The name that opens the device, such as `cpu`.
     pub name: String,
-    /// The device as its maker calls it.
+    /// The maker's name for the device.
     pub device: String,
     /// Driver or implementation, with its version.
     pub driver: String,
-    /// How the work is mapped onto the device, fixed when the backend was opened.
-    /// [`Schedule::PerYarn`] leaves yarns out.
+    /// The mapping of the work onto the device, fixed when the backend was opened.
+    /// [`Schedule::PerYarn`] refuses some yarns.
     pub schedule: Schedule,
-    /// What kind of machine it is.
+    /// The kind of machine.
     pub kind: DeviceKind,
-    /// Bytes of memory that the device has, where it says so.
+    /// The device's memory in bytes, if it is known.
     pub memory_bytes: Option<u64>,
-    /// The limits that chunks are cut to; `binding_bytes` is the longest buffer.
+    /// The limits that chunks are cut to. `binding_bytes` is the length of the longest buffer.
     pub limits: Limits,
-    /// What the device does beside making meshes.
+    /// The capabilities of the device beyond making meshes.
     pub can: Capabilities,
     /// Whether the device's own clock measures the
     /// [`Session::timings`](crate::backend::Session::timings) of scan, trajectory and mesh, from
-    /// the start of the work to its end. Otherwise the host's clock does.
+    /// the start of the work to its end. If not, the host's clock does.
     pub timed_by_device: bool,
 }
 
 /// An open device. [`Session::new`](crate::backend::Session::new) starts work on it.
 pub trait Backend: fmt::Debug + Send + Sync {
-    /// Backend, device, driver, schedule, limits and capabilities.
+    /// The device's names, kind, schedule, limits and capabilities.
     fn info(&self) -> &DeviceInfo;
 
-    /// Opens an engine for a plan. The engine owns all the device memory that the work needs.
+    /// Opens an engine for a plan. The engine owns all the device memory that its work needs.
     ///
-    /// **Errors**: [`BackendError`] where memory, the device or the schedule does not allow it.
+    /// **Errors**: [`BackendError`] if memory is short, or the device or its schedule can't do the
+    /// work.
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError>;
 
-    /// Opens a settler for a plan. It owns all the device memory that the work needs.
+    /// Opens a settler for a plan. The settler owns all the device memory that its work needs.
     ///
-    /// **Errors**: [`BackendError::NoSettling`] where the backend has none, and other ones where
-    /// memory or the device does not allow it.
+    /// **Errors**: [`BackendError::NoSettling`] if the backend has no settler, and any other
+    /// [`BackendError`] if memory is short or the device fails.
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         let _ = plan;
         Err(BackendError::NoSettling { name: self.info().name.clone() })
     }
 
-    /// Opens a settler of crossings for a plan. It owns all the device memory that the work needs.
+    /// Opens a settler of crossings for a plan. The settler owns all the device memory that its
+    /// work needs.
     ///
-    /// **Errors**: [`BackendError::NoCrossings`] where the backend has none, and other ones where
-    /// memory or the device does not allow it.
+    /// **Errors**: [`BackendError::NoCrossings`] if the backend has no settler of crossings, and
+    /// any other [`BackendError`] if memory is short or the device fails.
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
         let _ = plan;
         Err(BackendError::NoCrossings { name: self.info().name.clone() })

@@ -1,5 +1,5 @@
-//! The engine trait: what a device does for a session. The session checks every call; an engine
-//! gets only valid input.
+//! The engine trait: the work of a device for a session. The session checks every call, so an
+//! engine gets only valid input.
 
 use std::any::Any;
 use std::fmt;
@@ -12,43 +12,43 @@ use crate::definitions::Ring;
 use crate::settling::{Settler, points_of};
 use crate::{Attribute, BackendError, ControlPoint, MeshPiece, PackedVertex};
 
-/// One of an engine's places for a chunk. The chunk's tables, rings and mesh lie there until
+/// One of an engine's places for a chunk. The chunk's tables, rings and mesh stay there until
 /// another chunk takes the slot.
 ///
-/// A [`Session`](crate::backend::Session) has two, [`LiveMesh`](crate::backend::LiveMesh) one for
-/// each of its chunks.
+/// A [`Session`](crate::backend::Session) has two slots, a [`LiveMesh`](crate::backend::LiveMesh)
+/// has one for each of its chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Slot(u32);
 
 impl Slot {
-    /// The two of a session.
+    /// Both slots of a session.
     pub const BOTH: [Self; 2] = [Self(0), Self(1)];
 
-    /// The slot of a number, from 0.
+    /// The slot with this number, from 0.
     #[must_use]
     pub const fn new(number: u32) -> Self {
         Self(number)
     }
 
-    /// Its number, the index into an engine's slots.
+    /// The slot's number: its index among an engine's slots.
     #[must_use]
     pub const fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// Time spent in each stage of a session, so far.
+/// The time that a session has spent in each stage so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StageTimings {
-    /// Control points to the device.
+    /// Transfer of control points to the device.
     pub upload: Duration,
-    /// Rolls.
+    /// The scan of rolls.
     pub scan: Duration,
-    /// Rings; counted in `mesh` where the two stages are fused.
+    /// Rings. Their time counts as `mesh` in an engine that fuses the two stages.
     pub trajectory: Duration,
     /// Vertices and indices.
     pub mesh: Duration,
-    /// Results to the host.
+    /// Transfer of results to the host.
     pub readback: Duration,
 }
 
@@ -58,91 +58,96 @@ pub type RingSink<'a> = &'a mut dyn FnMut(&[Ring]) -> ControlFlow<()>;
 /// A callback that borrows vertices and indices, piece by piece.
 pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 
-/// A callback that borrows attributes, piece by piece, each with the number of its first vertex,
-/// from the chunk's start.
+/// A callback that borrows attributes, piece by piece. Its number is that of the piece's first
+/// vertex, counted from the chunk's start.
 pub type AttributeSink<'a> = &'a mut dyn FnMut(u32, &[Attribute]) -> ControlFlow<()>;
 
-/// A callback that borrows packed vertices, likewise.
+/// A callback that borrows packed vertices, piece by piece. Its number is that of the piece's first
+/// vertex, counted from the chunk's start.
 pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow<()>;
 
-/// The work on one plan on one device. It owns all memory that the work needs.
+/// The work on one plan on one device. An engine owns all the memory that the work needs.
 ///
-/// A [`Session`](crate::backend::Session) calls it, and keeps these rules, so that no engine has to
-/// check them:
+/// A [`Session`](crate::backend::Session) calls the engine and keeps these rules, so that no engine
+/// has to check them:
 ///
-/// - Control points come within the plan's range. Results of the points before them are not read
-///   any more.
-/// - Where the plan needs a scan, one comes before any stage, and again after each upload.
-/// - Every chunk is the plan's own, or a [patch](crate::backend::Plan::patch) of one. It is loaded
-///   into a slot before a stage is run for it there. After a chunk come only patches of it where
-///   its results are still wanted: they must stay where they are.
-/// - `mesh` and `packed` of an engine that [reads rings](Engine::mesh_reads_rings) come after
+/// - Control points come within the plan's range. Results of earlier control points are not read
+///   afterwards.
+/// - If the plan needs a scan, one comes before any stage, and again after each upload.
+/// - Every chunk is one of the plan's own or a patch of one: the chunk with only some rows of its
+///   block table, whose results have the places that they have in the whole chunk. A chunk is
+///   loaded into a slot before a stage runs for it there. While a chunk's results are still wanted,
+///   only patches of it follow in its slot, and they must leave its other results untouched.
+/// - For an engine that [reads rings](Engine::mesh_reads_rings), `mesh` and `packed` come after
 ///   `trajectory` in the same slot.
-/// - What is read has been made, and nothing has taken its slot since. Slices to write into are as
-///   long as the chunk says.
+/// - Only results that have been made are read, while their chunk still has its slot. Slices to
+///   write into have the length that the chunk states.
 ///
-/// A caller without a session has to keep them. An engine whose kernels check no bounds checks the
-/// two that memory safety depends on: the chunk is of its plan
-/// ([`Plan::owns`](crate::backend::Plan::owns)), and is loaded in the slot. Otherwise it gives back
+/// A caller without a session has to keep these rules itself. An engine whose kernels check no
+/// bounds must check the two rules that memory safety depends on: the chunk belongs to its plan
+/// ([`Plan::owns`](crate::backend::Plan::owns)), and it is loaded in the slot. Otherwise it returns
 /// [`BackendError::NotLoaded`].
 ///
-/// Every call may return before its work is done, except those that read.
+/// Calls may return before their work is done, except those that read.
 ///
-/// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
+/// **Errors**: all methods return a [`BackendError`] for failures that could not be foreseen, and
+/// for nothing else.
 pub trait Engine: Any + fmt::Debug + Send {
-    /// Takes control points, the first of which is number `first` of the fabric. Gives back the
-    /// bytes sent, virtual ends included.
+    /// Takes control points, the first of which is number `first` of the fabric. Returns the bytes
+    /// sent, virtual ends included.
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
 
-    /// Takes all control points from where a settler has left them, whose yarns have as many as the
-    /// plan's. Gives back the bytes that went over the host.
+    /// Takes all control points from a settler, whose yarns have as many as the plan's. Returns the
+    /// bytes that went through the host.
     ///
-    /// Provided: [`take_over_host`]. An engine whose device the settler works on takes them where
-    /// they lie.
+    /// Provided: [`take_over_host`]. An engine on the settler's own device takes the points there
+    /// instead.
     fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<Traffic, BackendError> {
         take_over_host(self, settler)
     }
 
-    /// Whether it has as many slots as it is asked for, makes
-    /// [patches](crate::backend::Plan::patch) without touching what lies beside them, and takes
-    /// edited plans: what [`LiveMesh`](crate::backend::LiveMesh) needs.
+    /// Whether the engine supports [`LiveMesh`](crate::backend::LiveMesh): it has as many slots as
+    /// are asked for, works on patches of chunks without touching the chunk's other results, and
+    /// takes edited plans.
     fn is_editable(&self) -> bool {
         false
     }
 
-    /// Takes a plan that was [edited](crate::backend::Plan::edited) from its own: `yarns` may be
-    /// others, with other numbers of control points. It takes one plan several times where many
-    /// yarns are edited, each time with other `yarns` that lie next to one another. What is loaded
-    /// in slots is forgotten, what has been made stays.
+    /// Takes a plan that was [edited](crate::backend::Plan::edited) from the engine's own. Only
+    /// `yarns` differ, perhaps in their numbers of control points. When many yarns are edited, the
+    /// same plan comes once for each run of neighbouring `yarns`. The tables in all slots are
+    /// forgotten, the results stay.
     ///
-    /// Provided: refused, by an engine that is not [editable](Engine::is_editable).
+    /// Provided: [`BackendError::NoEditing`], for engines that are not
+    /// [editable](Engine::is_editable).
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
         let _ = (plan, yarns);
         Err(BackendError::NoEditing)
     }
 
-    /// Works out the roll at each block's start, and the whole turn of each closed yarn, of the
-    /// yarns that [`ScanChunks::yarns`] says. `chunks` are all of the plan or, between them, all
-    /// blocks of those yarns, each in a slot, for an engine that needs their tables there.
+    /// Works out the roll at each block's start, and the whole turn of each closed yarn, for the
+    /// yarns of [`ScanChunks::yarns`]. `chunks` holds all chunks of the plan, or chunks that
+    /// together hold all blocks of those yarns. Each has a slot, for an engine that needs the
+    /// tables there.
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError>;
 
-    /// Takes the tables of `chunk` into `slot`, in place of any other chunk's.
+    /// Loads the tables of `chunk` into `slot`, in place of any other chunk's.
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
 
-    /// Whether `mesh` and `packed` work from the rings that `trajectory` left rather than from
+    /// Whether `mesh` and `packed` read the rings that `trajectory` left. If not, they work from
     /// control points.
     fn mesh_reads_rings(&self) -> bool {
         false
     }
 
-    /// Stage 1, rings from control points, into `slot`.
+    /// Stage 1: makes rings from control points, in `slot`.
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
 
-    /// Stage 2, vertices and indices, into `slot`.
+    /// Stage 2: makes vertices and indices, in `slot`.
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
 
-    /// Waits for the rings in `slot` and lends them piece by piece, in order. A sink that answers
-    /// `Break` ends the reading, and the answer comes back.
+    /// Waits for the rings in `slot` and lends them piece by piece, in order. If the sink answers
+    /// `Break`, reading ends and the answer is returned.
     fn read_trajectory(
         &mut self,
         slot: Slot,
@@ -150,9 +155,9 @@ pub trait Engine: Any + fmt::Debug + Send {
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError>;
 
-    /// Waits for the mesh in `slot` and lends it piece by piece from its own or from mapped memory:
-    /// all vertices in order, then all indices in order. A sink that answers `Break` ends the
-    /// reading, and the answer comes back.
+    /// Waits for the mesh in `slot` and lends it piece by piece, from its own or from mapped
+    /// memory: all vertices in order, then all indices in order. If the sink answers `Break`,
+    /// reading ends and the answer is returned.
     fn read_mesh(
         &mut self,
         slot: Slot,
@@ -160,24 +165,24 @@ pub trait Engine: Any + fmt::Debug + Send {
         sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError>;
 
-    /// Works out how long each yarn is at each block's start, for those that [`ScanChunks::yarns`]
-    /// says, as [`Engine::scan`] does rolls.
+    /// Works out the length of yarn before each block's start, for the yarns of
+    /// [`ScanChunks::yarns`]. Chunks come as in [`Engine::scan`].
     ///
-    /// Provided, as the two that follow: refused, by an engine that makes no attributes.
+    /// Provided: [`BackendError::NoAttributes`], for engines that make no attributes.
     fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let _ = chunks;
         Err(BackendError::NoAttributes)
     }
 
-    /// Attributes of all vertices of `chunk`, into `slot`, in memory of their own. Its yarns have
-    /// been measured since the last upload.
+    /// Makes the attributes of all vertices of `chunk`, in memory of their own in `slot`. The
+    /// chunk's yarns have been measured since the last upload.
     fn attributes(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let _ = (slot, chunk);
         Err(BackendError::NoAttributes)
     }
 
-    /// Waits for the attributes in `slot` and lends them piece by piece, in order. A sink that
-    /// answers `Break` ends the reading, and the answer comes back.
+    /// Waits for the attributes in `slot` and lends them piece by piece, in order. If the sink
+    /// answers `Break`, reading ends and the answer is returned.
     fn read_attributes(
         &mut self,
         slot: Slot,
@@ -188,17 +193,17 @@ pub trait Engine: Any + fmt::Debug + Send {
         Err(BackendError::NoAttributes)
     }
 
-    /// Packed vertices of `chunk`, into `slot`, in memory of their own: no mesh is needed, and no
-    /// indices are made.
+    /// Makes the packed vertices of `chunk`, in memory of their own in `slot`. They need no mesh,
+    /// and no indices are made.
     ///
-    /// Provided, as the one that follows: refused, by an engine that packs nothing.
+    /// Provided: [`BackendError::NoPacking`], for engines that pack no vertices.
     fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let _ = (slot, chunk);
         Err(BackendError::NoPacking)
     }
 
-    /// Waits for the packed vertices in `slot` and lends them piece by piece, in order. A sink that
-    /// answers `Break` ends the reading, and the answer comes back.
+    /// Waits for the packed vertices in `slot` and lends them piece by piece, in order. If the sink
+    /// answers `Break`, reading ends and the answer is returned.
     fn read_packed(
         &mut self,
         slot: Slot,
@@ -209,9 +214,10 @@ pub trait Engine: Any + fmt::Debug + Send {
         Err(BackendError::NoPacking)
     }
 
-    /// Stage 2 straight into the caller's slices.
+    /// Stage 2 with its results in the caller's slices.
     ///
-    /// Provided: mesh, read, copy. An engine that can write there directly does.
+    /// Provided: calls `mesh`, then reads and copies. An engine that can write there directly
+    /// overrides it.
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         self.mesh(slot, chunk)?;
         let mut copy = |piece: MeshPiece<'_>| {
@@ -228,16 +234,16 @@ pub trait Engine: Any + fmt::Debug + Send {
         self.read_mesh(slot, chunk, &mut copy).map(|_| ())
     }
 
-    /// Whether results lie in the host's own memory, so that to read them moves no byte.
+    /// Whether results lie in the host's own memory, so that reading them moves no bytes.
     fn lends_its_own(&self) -> bool {
         false
     }
 
-    /// Time spent in each stage so far. Waits for all that has been launched.
+    /// The time spent in each stage so far. Waits for all work that has been launched.
     fn timings(&mut self) -> StageTimings;
 }
 
-/// [`Engine::take_settled`] with any settler: reads the control points and uploads them.
+/// [`Engine::take_settled`] for any settler: reads its control points and uploads them.
 ///
 /// **Errors**: [`BackendError`] of either device.
 pub fn take_over_host<E: Engine + ?Sized>(
@@ -249,20 +255,20 @@ pub fn take_over_host<E: Engine + ?Sized>(
     Ok(Traffic { uploaded: engine.upload(0, &points)?, read })
 }
 
-/// A chunk of a scan, in its slot.
+/// A chunk of a scan, with its slot.
 #[derive(Debug)]
 pub struct ScanChunk {
-    /// Where its tables belong.
+    /// The slot for the chunk's tables.
     pub slot: Slot,
     /// The chunk.
     pub chunk: Chunk,
-    /// Whether its tables lie there already; else the engine is to load them, as [`Engine::load`]
-    /// does.
+    /// Whether the tables are in the slot already. If not, the engine loads them, as in
+    /// [`Engine::load`].
     pub loaded: bool,
 }
 
 /// The chunks of a scan, in order, each with its slot. An engine that takes one has to load its
-/// tables, unless they are there.
+/// tables unless they are there.
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
     yarns: Range<usize>,

@@ -1,17 +1,18 @@
-//! Frames: how a section is oriented on the centreline.
+//! Frames: the orientation of sections on the centreline.
 
 use glam::Vec3;
 
-use crate::definitions::{NO_LENGTH, Turn, atan2_turns};
+use crate::definitions::{NO_LENGTH, Turn};
+use crate::turn::atan2_turns;
 
-/// How sections are oriented along a yarn. Twist turns them further in either frame.
+/// The orientation of sections along a yarn. Twist turns them further in either frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Frame {
-    /// The section's side lies level (at right angles to z), its up points out of the fabric: right
-    /// for flat yarns in cloth. It is the paper's equation 7 turned by half a turn. It would flip
-    /// where a yarn passes through the vertical, so a yarn that is [steep](crate::Layout::is_steep)
-    /// anywhere is carried along instead, and the outline of a flattened one
-    /// [leans](crate::Layout::ups) there.
+    /// The section's side lies level (at right angles to z) and its up points out of the fabric:
+    /// right for flat yarns in cloth. It is the paper's equation 7 turned by half a turn. It would
+    /// flip where a yarn passes through the vertical. So a yarn that is
+    /// [steep](crate::Layout::is_steep) anywhere is carried along instead, and the outline of a
+    /// flattened one [leans](crate::Layout::ups) there.
     #[default]
     Upright,
     /// The section is carried along without turning about the yarn: no twist of its own, no flip
@@ -20,24 +21,24 @@ pub enum Frame {
     RotationMinimizing,
 }
 
-/// The two unit vectors across a yarn; with the tangent they make a right-handed frame (side, up,
+/// The two unit vectors across a yarn. With the tangent they make a right-handed frame (side, up,
 /// tangent).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Basis {
-    /// Where the section's x axis points.
+    /// The direction of the section's x axis.
     pub side: Vec3,
-    /// Where the section's y axis points.
+    /// The direction of the section's y axis.
     pub up: Vec3,
 }
 
-/// The squared sine of the angle to z (1e-6 rad) under which a tangent counts as parallel to z.
+/// The squared sine of the angle to z, 1e-6 rad, below which a tangent counts as parallel to z.
 pub const VERTICAL: f32 = 1e-12;
 
-/// A squared length below which the second reflection's mirror has no direction: a hairpin to
+/// The squared length below which the second reflection's mirror has no direction: a hairpin to
 /// within a milliradian.
 ///
 /// On a smooth curve the mirror is two tangents long. At a hairpin's tip it vanishes but for the
-/// rounding of the last chord, whose direction is off by some (K + 1)² units in the last place: up
+/// rounding of the last chord, whose direction is off by some (K + 1)² units in the last place. Up
 /// to K = 90 the bound is clear of that.
 pub const NO_MIRROR: f32 = 1e-6;
 
@@ -76,7 +77,7 @@ impl Basis {
 
 impl Frame {
     /// The change of roll from a ring to the next: the turn that keeps the section from turning
-    /// (rotation minimising only) plus `turns_per_mm`, the twist, times the length of `chord`.
+    /// (rotation minimising only), plus `turns_per_mm`, the twist, times the length of `chord`.
     ///
     /// `chord` (mm) leads from one centre to the next; tangents are unit vectors. **Source**: Wang,
     /// Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM TOG 27(1), 2008,
@@ -91,16 +92,16 @@ impl Frame {
         Turn::from_turns(turns + turns_per_mm * chord.length_squared().sqrt())
     }
 
-    /// The frame of a yarn that is [steep](crate::Layout::is_steep), or that is not: where upright
-    /// frames would wring it, it is carried along instead.
+    /// The frame of a yarn that is [steep](crate::Layout::is_steep) or not. Upright frames would
+    /// wring a steep yarn, so it is carried along.
     #[must_use]
     #[inline]
     pub const fn of(self, steep: bool) -> Self {
         if steep { Self::RotationMinimizing } else { self }
     }
 
-    /// Whether every roll of a yarn of that twist, in whatever unit, is zero, so that there is
-    /// nothing to scan.
+    /// Whether every roll of a yarn of this twist, in any unit, is zero, so that there is nothing
+    /// to scan.
     #[must_use]
     #[inline]
     pub fn is_level(self, twist: f32) -> bool {
@@ -113,8 +114,8 @@ impl Frame {
 #[inline]
 fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
     let side = Basis::upright(tangent).side;
-    // Where two rings coincide the tangent stands in for the chord: the two reflections are then
-    // the smallest turn from one tangent to the next.
+    // If two rings coincide, the tangent stands in for the chord: the two reflections are then the
+    // smallest turn from one tangent to the next.
     let length_squared = chord.length_squared();
     let (mirror, mirror_squared) =
         if length_squared > NO_LENGTH { (chord, length_squared) } else { (tangent, 1.0) };

@@ -1,27 +1,27 @@
 //! Half floats (IEEE 754 binary16) as bits: the sizes of control points.
 
-/// The nearest half float, of two the even one; infinity from 65,520 on.
+/// The nearest half float, ties to even. Infinity from 65,520 on.
 pub(crate) const fn from_f32(value: f32) -> u16 {
     let bits = value.to_bits();
     let (sign, size) = ((bits >> 16 & 0x8000) as u16, bits & 0x7fff_ffff);
     let magnitude = if size > 0x7f80_0000 {
-        // Not a number, and a quiet one.
+        // A quiet NaN.
         0x7e00 | size >> 13 & 0x3ff
     } else if size >= 65_536_f32.to_bits() {
         0x7c00
     } else if size >= LEAST_NORMAL.to_bits() {
-        // Exponents count from 15 instead of 127, and 13 bits are rounded away; what carries
-        // belongs to the exponent.
+        // Exponents count from 15 instead of 127, and 13 bits are rounded away. A carry belongs to
+        // the exponent.
         (size - (112 << 23) + 0xfff + (size >> 13 & 1)) >> 13
     } else {
-        // Floats from 0.5 on have the steps of the smallest half floats, so that the sum is rounded
-        // to these.
+        // Floats from 0.5 on have the steps of the smallest half floats, so the sum is rounded to
+        // these.
         (f32::from_bits(size) + 0.5).to_bits() - 0.5_f32.to_bits()
     };
     sign | magnitude as u16
 }
 
-/// Its exact value.
+/// The exact value of a half float.
 #[inline]
 pub(crate) const fn to_f32(bits: u16) -> f32 {
     let (sign, size) = ((bits as u32 & 0x8000) << 16, bits as u32 & 0x7fff);
@@ -37,10 +37,10 @@ pub(crate) const fn to_f32(bits: u16) -> f32 {
     f32::from_bits(sign | magnitude)
 }
 
-/// The smallest half float that has all its digits, 2⁻¹⁴.
+/// The smallest half float with all its digits, 2⁻¹⁴.
 const LEAST_NORMAL: f32 = 1.0 / 16_384.0;
 
-/// From one half float below it to the next, 2⁻²⁴.
+/// The distance of neighbouring half floats below [`LEAST_NORMAL`], 2⁻²⁴.
 const STEP: f32 = 1.0 / 16_777_216.0;
 
 #[cfg(test)]
@@ -56,8 +56,8 @@ mod tests {
         }
     }
 
-    /// Each half float, what lies half way to the next one, and the floats beside both; then floats
-    /// of all exponents.
+    /// Checks each half float, the middle between it and the next, and the floats beside both; then
+    /// floats of all exponents.
     #[test]
     fn floats_are_rounded_as_the_crate_half_does() {
         let check = |bits: u32| {
@@ -67,7 +67,7 @@ mod tests {
         for half in 0..=u16::MAX {
             let bits = f16::from_bits(half).to_f32_const().to_bits();
             let middle = if half & 0x7c00 == 0 {
-                // Below the least normal one, steps are all the same.
+                // Below the least normal half float all steps are equal.
                 (f32::from_bits(bits).abs() + STEP / 2.0).to_bits() | bits & 0x8000_0000
             } else {
                 bits.wrapping_add(1 << 12)

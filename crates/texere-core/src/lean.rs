@@ -1,33 +1,33 @@
-//! Yarns that leave the plane of their cloth, and flat ones that run up or down: the up direction
-//! of each control point, and how far outlines lean with it.
+//! The lean of outlines: yarns that leave the plane of their cloth, and flat ones that run up or
+//! down, have an up direction at each control point.
 
 use glam::{DVec3, Vec3};
 
 use crate::ControlPoint;
-use crate::definitions::{Basis, Sampling, Segment, Turn, atan2_turns};
-use crate::steep::{intervals, window};
+use crate::definitions::{Basis, Segment, Turn};
+use crate::turn::atan2_turns;
 
-/// The up directions that the control points of a yarn stand by, with the points that they belong
-/// to.
+/// The up directions of a yarn's control points, with the points that they belong to.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Leaning {
     /// Unit vectors.
     pub(crate) ups: Vec<Vec3>,
     pub(crate) points: Vec<ControlPoint>,
-    /// Whether they were given, and so stay when the points move.
+    /// Whether the ups were given. Given ups stay when the points move.
     pub(crate) given: bool,
 }
 
-/// How far the cosine of two ups at a right angle may be off zero.
+/// The largest cosine of two ups that count as at right angles. It covers rounding.
 const RIGHT_ANGLE: f64 = 1e-9;
 
-/// Where the height of a yarn points at `t`, from 0 to 1, of a control interval: `ups` are the up
-/// directions of its two control points, `tangents` the yarn's there, `tangent` the one at `t`; all
-/// of length 1. Gives a unit vector at right angles to `tangent`; zero where there is none.
+/// The direction of a yarn's height at `t`, from 0 to 1, of a control interval. `ups` are the up
+/// directions of the interval's two control points, `tangents` the yarn's tangents there, `tangent`
+/// the tangent at `t`: all unit vectors. Returns a unit vector at right angles to `tangent`, or
+/// zero if there is none.
 ///
-/// Each of the two is carried to the tangent by the smallest rotation, and they are mixed there. A
-/// yarn's height has two ends: of the second up and its opposite the one nearer to the first
-/// counts; at a right angle, but for rounding, the up itself.
+/// Each up is carried to the tangent by the smallest rotation, and the two are mixed linearly. A
+/// yarn's height has two ends, so of the second up and its opposite the one nearer to the first
+/// counts. At a right angle, up to rounding, the up itself counts.
 ///
 /// ```
 /// use glam::DVec3;
@@ -43,7 +43,7 @@ pub fn up_between(ups: [DVec3; 2], tangents: [DVec3; 2], tangent: DVec3, t: f64)
     let [one, other] = [0, 1].map(|end| across(carried(ups[end], tangents[end], tangent), tangent));
     let other = if one.dot(other) < -RIGHT_ANGLE { -other } else { other };
     match across(one * (1.0 - t) + other * t, tangent) {
-        // One that lies along the yarn says nothing.
+        // An up along the yarn has no direction across it.
         DVec3::ZERO if one == DVec3::ZERO => other,
         DVec3::ZERO => one,
         mixed => mixed,
@@ -53,17 +53,17 @@ pub fn up_between(ups: [DVec3; 2], tangents: [DVec3; 2], tangent: DVec3, t: f64)
 /// `v` turned by the smallest rotation from one unit vector to another.
 fn carried(v: DVec3, from: DVec3, to: DVec3) -> DVec3 {
     let (middle, along) = (from + to, 1.0 + from.dot(to));
-    // Straight back there is no smallest one.
+    // For opposite vectors there is no smallest rotation.
     if along < 1e-9 { v } else { v - middle * (middle.dot(v) / along) + to * (2.0 * from.dot(v)) }
 }
 
-/// The part of `v` at right angles to `tangent`, of length 1; zero where there is none.
+/// The part of `v` at right angles to `tangent`, normalised, or zero if there is none.
 fn across(v: DVec3, tangent: DVec3) -> DVec3 {
     let part = v - tangent * v.dot(tangent);
     if part.length_squared() > 1e-12 { part.normalize() } else { DVec3::ZERO }
 }
 
-/// How far outlines lean along one interval.
+/// The lean of outlines along one control interval.
 pub(crate) struct IntervalLean {
     segment: Segment,
     ups: [DVec3; 2],
@@ -77,36 +77,17 @@ impl IntervalLean {
         Self { segment, ups: ups.map(|up| up.as_dvec3()), tangents }
     }
 
-    /// Whether the second up points away from the first, so that its opposite counts.
+    /// Whether the second up points away from the first, so that its opposite counts instead.
     pub(crate) fn turns_over(&self) -> bool {
         let end = self.tangents[1];
         up_between(self.ups, self.tangents, end, 1.0).dot(across(self.ups[1], end)) < 0.0
     }
 
-    /// The turn from the upright frame's up to the yarn's own at `t`, about the tangent.
+    /// The turn about the tangent from the upright frame's up to the yarn's own at `t`.
     pub(crate) fn at(&self, t: f32) -> Turn {
         let tangent = self.segment.sample(t).tangent;
         let up = up_between(self.ups, self.tangents, tangent.as_dvec3(), f64::from(t)).as_vec3();
         let upright = Basis::upright(tangent);
         Turn::from_turns(atan2_turns(-up.dot(upright.side), up.dot(upright.up)))
-    }
-}
-
-impl Leaning {
-    /// The lean of each ring of the yarn.
-    pub(crate) fn rings(&self, closed: bool, sampling: &Sampling) -> Vec<Turn> {
-        let Self { points, ups, .. } = self;
-        let (intervals, per_interval) = (intervals(points, closed), sampling.subdivisions() + 1);
-        let last = intervals.end - 1;
-        let mut rings = Vec::with_capacity(intervals.len() * per_interval as usize + 1);
-        for interval in intervals {
-            let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
-            let lean = IntervalLean::new(&window(points, closed, interval), ends, sampling.s());
-            rings.extend((0..per_interval).map(|part| lean.at(part as f32 * sampling.step())));
-            if interval == last {
-                rings.push(if closed { rings[0] } else { lean.at(1.0) });
-            }
-        }
-        rings
     }
 }

@@ -1,5 +1,4 @@
-//! What every stage and every backend of texere shares: yarns, plans, rings, meshes, and the
-//! backend trait.
+//! The core of texere: yarns, plans, rings, meshes, and the trait that every backend implements.
 //!
 //! ```text
 //! Yarns ──> Plan ──> Trajectory ──> Mesh
@@ -7,16 +6,17 @@
 //!                    stage 1        stage 2
 //! ```
 //!
-//! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`](backend::Plan)
-//! works out every count and offset for one choice of [`Settings`]. A [`Backend`] turns control
-//! points into [`Ring`](definitions::Ring)s and rings into a [`Mesh`]; [`Pipeline`] drives it.
+//! [`Yarns`] hold the control points and the data of each yarn: material, section, twist. A
+//! [`Plan`](backend::Plan) works out every count and offset for one choice of [`Settings`]. A
+//! [`Backend`] turns control points into [`Ring`](definitions::Ring)s, and rings into a [`Mesh`]. A
+//! [`Pipeline`] drives the backend.
 //!
 //! | module | holds |
 //! |---|---|
-//! | the root | what programs need: yarns, settings, pipelines, meshes, devices, errors |
+//! | the root | types for programs: yarns, settings, pipelines, meshes, devices, errors |
 //! | [`definitions`] | the geometry that every backend must agree on to the bit: the spline, rolls, rings |
-//! | [`mod@backend`] | what a backend is written with: plans, chunks, engines, sessions |
-//! | [`settling`], [`crossings`] | how yarns come to rest, and what a device does for it |
+//! | [`mod@backend`] | types to write a backend with: plans, chunks, engines, sessions |
+//! | [`settling`], [`crossings`] | how yarns come to rest, and the part of a device in it |
 //!
 //! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course,
 //! y along the warp or wale, z out of the technical face; right-handed. Triangles are
@@ -35,6 +35,8 @@ mod device;
 mod engine;
 mod frame;
 mod half;
+mod interval;
+mod layout;
 mod lean;
 mod live;
 mod mapped;
@@ -59,6 +61,7 @@ mod stand;
 mod steep;
 mod subject;
 mod topology;
+mod traffic;
 mod turn;
 mod twist;
 mod vertex;
@@ -71,6 +74,7 @@ pub use counted::counted;
 pub use crossings::error::CrossingsError;
 pub use device::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind};
 pub use frame::Frame;
+pub use layout::{Layout, Origin, TWIST_LIMIT, Yarn, check_tension};
 pub use live::Change;
 pub use material::{HAIRINESS_LIMIT, Material};
 pub use memory::OutOfMemory;
@@ -87,7 +91,4 @@ pub use subject::Subject;
 pub use topology::{End, Topology};
 pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};
 pub use vertex::Vertex;
-pub use yarns::{
-    Layout, Origin, TWIST_LIMIT, Yarn, YarnError, Yarns, YarnsBuilder, check_material, check_points,
-    check_tension,
-};
+pub use yarns::{YarnError, Yarns, YarnsBuilder, check_material, check_points};

@@ -1,4 +1,4 @@
-//! A whole mesh that stays on its device while yarns are edited.
+//! The live mesh: a whole mesh that stays on its device while yarns are edited.
 
 mod edits;
 
@@ -10,12 +10,12 @@ use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
-/// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and
-/// made again.
+/// The whole mesh of a fabric on a device. Yarns can be edited, and only the changes are sent,
+/// scanned and made again.
 ///
-/// Unlike a [`Session`](crate::backend::Session), which works chunk by chunk in the memory of two,
-/// it keeps the meshes of all chunks. With [room](Plan::with_room) in the plan a yarn may get more
-/// control points, or fewer, and all others stay where they are.
+/// A [`Session`](crate::backend::Session) works chunk by chunk in the memory of two chunks; a live
+/// mesh keeps the meshes of all chunks. With [room](Plan::with_room) in the plan a yarn may get
+/// more control points, or fewer, and all others stay in place.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -44,49 +44,48 @@ use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 pub struct LiveMesh<E: Engine + ?Sized = dyn Engine> {
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
-    /// All control points, for whether a yarn is steep depends on those beside the ones that are
+    /// All control points: whether a yarn is steep depends on the points beside those that are
     /// sent.
     points: PaddedPoints,
-    /// Rings that are to be made again, yarn by yarn.
+    /// The rings to be made again, yarn by yarn.
     stale: BTreeMap<usize, Range<u32>>,
-    /// Whether attributes are made, too.
+    /// Whether attributes are made as well.
     attributes: bool,
     traffic: Traffic,
     engine: Box<E>,
 }
 
-/// What an update has made again in a row: vertices and indices of a chunk, counted from its start.
+/// A stretch that an update has made again: vertices and indices of a chunk, counted from its
+/// start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
     /// The chunk, an index into [`LiveMesh::chunks`].
     pub chunk: usize,
-    /// Its vertices; those of caps, which lie behind all others, are not in it.
+    /// Its vertices, without those of caps, which follow after all others.
     pub vertices: Range<u32>,
-    /// Its indices, likewise; none but with [`Topology::Indexed`].
+    /// Its indices, without those of caps. Empty unless the topology is [`Topology::Indexed`].
     pub indices: Range<u32>,
-    /// Its caps, an index range of [`Chunk::caps`].
+    /// Its caps: a range of indices into [`Chunk::caps`].
     pub caps: Range<usize>,
 }
 
 impl LiveMesh {
-    /// Makes room for the whole mesh of `plan` on `device`, in chunks that are cut to the device's
-    /// limits.
+    /// Makes room for the whole mesh of `plan` on `device`, in chunks cut to the device's limits.
     ///
-    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not
-    /// allow it, and those of [`LiveMesh::with_engine`].
+    /// **Errors**: [`SessionError::Backend`] if memory is short, or the device or its schedule
+    /// can't do the work, and the errors of [`LiveMesh::with_engine`].
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
     }
 }
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
-    /// The same with an engine that was opened for `plan`, on a device of `limits`. For backends
+    /// Makes room with an engine that was opened for `plan`, on a device of `limits`. For backends
     /// whose engines can do more than the trait [`Engine`].
     ///
-    /// **Errors**: [`SessionError::Region`] for a plan of only a region, [`SessionError::Plan`]
-    /// where not even one block fits, [`BackendError::OutOfMemory`] where all chunks together do
-    /// not, and [`BackendError::NoEditing`] for an engine that is not
-    /// [editable](Engine::is_editable).
+    /// **Errors**: [`SessionError::Region`] for a plan of a region, [`SessionError::Plan`] if not
+    /// even one block fits, [`BackendError::OutOfMemory`] if all chunks together do not fit, and
+    /// [`BackendError::NoEditing`] for an engine that is not [editable](Engine::is_editable).
     pub fn with_engine(engine: Box<E>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, SessionError> {
         if !engine.is_editable() {
             return Err(BackendError::NoEditing.into());
@@ -114,21 +113,20 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         })
     }
 
-    /// The plan as it is now.
+    /// The present plan.
     #[must_use]
     pub const fn plan(&self) -> &Arc<Plan> {
         &self.plan
     }
 
-    /// The chunks as they are now. Each has its own memory on the device, in the [slot](Slot) of
-    /// its index.
+    /// The present chunks. Each has its own memory on the device, in the [slot](Slot) of its index.
     #[must_use]
     pub fn chunks(&self) -> &[Chunk] {
         &self.chunks
     }
 
-    /// Where a yarn's rings lie: each chunk that holds some, an index into [`LiveMesh::chunks`],
-    /// with the part of it that they are.
+    /// The rings of a yarn: each chunk that holds some, an index into [`LiveMesh::chunks`], with
+    /// their part of it.
     ///
     /// **Panics** past the last yarn.
     pub fn parts(&self, yarn: usize) -> impl Iterator<Item = (usize, &Part)> {
@@ -145,21 +143,21 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         &self.engine
     }
 
-    /// Bytes moved so far.
+    /// The bytes moved so far.
     #[must_use]
     pub const fn traffic(&self) -> Traffic {
         self.traffic
     }
 
-    /// Time spent in each stage so far. Waits for all that has been launched.
+    /// The time spent in each stage so far. Waits for all work that has been launched.
     pub fn timings(&mut self) -> StageTimings {
         self.engine.timings()
     }
 
-    /// Makes again what has changed, and says where that lies, chunk by chunk. May return before it
-    /// is done: what is read or drawn later has it.
+    /// Makes again everything that has changed, and returns the changed stretches, chunk by chunk.
+    /// May return before the work is done; later reads and draws see it.
     ///
-    /// **Errors**: what the device says. What was to be made again still is.
+    /// **Errors**: [`SessionError::Backend`]. The changes then remain to be made.
     pub fn update(&mut self) -> Result<Vec<Change>, SessionError> {
         if self.plan.needs_scan() {
             self.go_through(E::scan)?;
@@ -185,9 +183,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(changes)
     }
 
-    /// Makes [attributes](crate::Attribute) beside the mesh from the next update on, which makes
-    /// all of it again. A yarn that is edited then changes as a whole: what follows the edit lies
-    /// further along.
+    /// Makes [attributes](crate::Attribute) as well from the next update on. That update makes
+    /// everything again. From then on an edit changes the whole yarn, since everything behind the
+    /// edit lies further along.
     pub fn keep_attributes(&mut self) {
         if !self.attributes {
             self.attributes = true;
@@ -195,18 +193,18 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         }
     }
 
-    /// Whether attributes are made beside the mesh.
+    /// Whether attributes are made as well as the mesh.
     #[must_use]
     pub const fn keeps_attributes(&self) -> bool {
         self.attributes
     }
 
     /// Waits for the attributes of chunk number `chunk` of [`LiveMesh::chunks`] and lends them
-    /// piece by piece, as [`Session::read_attributes`](crate::backend::Session::read_attributes)
-    /// does, in the order of the mesh's vertices.
+    /// piece by piece, in the order of the mesh's vertices, as
+    /// [`Session::read_attributes`](crate::backend::Session::read_attributes) does.
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before [`LiveMesh::keep_attributes`], and those of
-    /// [`LiveMesh::read_mesh`].
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`LiveMesh::keep_attributes`], and the
+    /// errors of [`LiveMesh::read_mesh`].
     pub fn read_attributes(
         &mut self,
         chunk: usize,
@@ -229,11 +227,11 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 
     /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by
-    /// piece, as [`Session::read_mesh`](crate::backend::Session::read_mesh) does. What there is
-    /// only room for is lent, too, and means nothing: [`Chunk::parts`] say where yarns lie.
+    /// piece, as [`Session::read_mesh`](crate::backend::Session::read_mesh) does. Unused room is
+    /// lent too, without meaning: [`Chunk::parts`] has the places of yarns.
     ///
     /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed,
-    /// [`SessionError::NoChunk`] past the last one, and what the device says.
+    /// [`SessionError::NoChunk`] past the last chunk, and [`SessionError::Backend`].
     pub fn read_mesh(&mut self, chunk: usize, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
         if !self.is_made("read_mesh", chunk)? {
             return Ok(ControlFlow::Continue(()));
@@ -248,7 +246,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(flow?)
     }
 
-    /// Whether `call` has anything to read of a chunk, in which there may be only room.
+    /// Whether a chunk has anything for `call` to read. It may consist of room only.
     fn is_made(&self, call: &'static str, chunk: usize) -> Result<bool, SessionError> {
         let here =
             self.chunks.get(chunk).ok_or(SessionError::NoChunk { chunk, chunks: self.chunks.len() })?;
@@ -269,7 +267,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         *stale = stale.start.min(rings.start)..stale.end.max(rings.end);
     }
 
-    /// The chunks that hold some of `yarn`, or have room for some.
+    /// The chunks that hold some of `yarn` or of its room.
     fn chunks_of(&self, yarn: usize) -> Range<usize> {
         let blocks = &self.plan.block_offsets()[yarn..yarn + 2];
         let first = self.chunks.partition_point(|chunk| chunk.block_range().end <= blocks[0]);
@@ -277,7 +275,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         first..end
     }
 
-    /// Calls `scan` for all yarns that have changed, a run of neighbours at a time.
+    /// Calls `scan` for all yarns that have changed, once for each run of neighbours.
     fn go_through(
         &mut self,
         scan: impl Fn(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
@@ -298,7 +296,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// The rows of each chunk that are to be made again.
+    /// The rows of each chunk to be made again.
     fn stale_rows(&self) -> BTreeMap<usize, Vec<Range<usize>>> {
         let mut stale = BTreeMap::<usize, Vec<Range<usize>>>::new();
         for (&yarn, rings) in &self.stale {
@@ -332,7 +330,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 }
 
-/// Runs of neighbours among `yarns`, which are in order.
+/// The runs of neighbours among `yarns`, which are in order.
 fn runs(yarns: &[usize]) -> impl Iterator<Item = Range<usize>> {
     yarns.chunk_by(|one, next| one + 1 == *next).map(|run| run[0]..run[run.len() - 1] + 1)
 }

@@ -1,17 +1,17 @@
-//! Cloth that is bent, or carried in any other way from place to place.
+//! Cloth that is bent, turned, or carried by any other smooth map.
 
 use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::definitions::{Basis, Segment};
-use crate::steep::window;
+use crate::definitions::Basis;
+use crate::interval::tangent;
 use crate::{ControlPoint, Layout, Yarn, YarnError, Yarns};
 
-/// How far apart places are tried to find how a map stretches, as a share of the yarn's half height
-/// there.
+/// The step of the difference quotients that measure how a map stretches, as a share of the yarn's
+/// half height there.
 const NEAR: f64 = 0.01;
 
-/// A yarn after a map: its control points, its up directions, and how many times as long it is.
+/// A mapped yarn: its control points, its up directions, and its length over the length before.
 struct Carried {
     points: Vec<ControlPoint>,
     ups: Vec<[f32; 3]>,
@@ -19,17 +19,17 @@ struct Carried {
 }
 
 impl Yarns {
-    /// The same yarns carried from place to place by `map`, mm to mm: round a cylinder, over a
-    /// saddle, or turned any way. Control points, half widths, half heights and [up
-    /// directions](Yarns::with_ups) go along, as the map stretches and turns what lies near each
-    /// point, so that yarns are as clear of one another as before where it bends the cloth little
-    /// over a yarn's thickness. Twist keeps its turns. The spline runs between the carried points:
-    /// a map that bends much between two of them needs more of them.
+    /// These yarns carried by `map`, mm to mm: round a cylinder, over a saddle, or turned any way.
+    /// Control points, half widths, half heights and [up directions](Yarns::with_ups) follow the
+    /// map's stretch and turn near each point. Where the map bends the cloth little over a yarn's
+    /// thickness, yarns stay as clear of one another as they were. Each yarn keeps its number of
+    /// turns of twist. The spline runs between the carried points, so a map that bends much between
+    /// two points needs more of them.
     ///
-    /// `map` must be smooth, and neither fold space nor turn it inside out.
+    /// `map` must be smooth. It must not fold space or turn it inside out.
     ///
-    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`] where yarns leave the limits of
-    /// size, twist and place, and [`YarnError::Up`] where the map leaves no direction.
+    /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns leave the limits of
+    /// size, twist and position, and [`YarnError::Up`] if the map leaves no direction.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -59,7 +59,7 @@ impl Yarns {
             })
             .collect();
         let twisted = |(yarn, carried): (&Yarn, &Carried)| {
-            // Untwisted yarns stay so.
+            // Untwisted yarns stay untwisted.
             let twist = if yarn.twist == 0.0 { 0.0 } else { (f64::from(yarn.twist) / carried.longer) as f32 };
             Yarn { twist, ..*yarn }
         };
@@ -72,7 +72,7 @@ impl Yarns {
         mapped.with_sources_of([self])
     }
 
-    /// The ups that control points stand by, if any, else where the upright frame's up points.
+    /// The up direction of each control point: the yarn's own, or else the upright frame's.
     pub(crate) fn standing_ups(&self) -> Vec<Vec3> {
         let yarns = self.layout().yarns().iter().enumerate();
         let of_yarn = |(number, yarn): (usize, &Yarn)| {
@@ -87,13 +87,6 @@ impl Yarns {
         };
         yarns.flat_map(of_yarn).collect()
     }
-}
-
-/// The tangent at a control point.
-pub(crate) fn tangent(points: &[ControlPoint], closed: bool, point: usize) -> Vec3 {
-    // At control points it is that of any tension.
-    let (interval, t) = if !closed && point + 1 == points.len() { (point - 1, 1.0) } else { (point, 0.0) };
-    Segment::new(&window(points, closed, interval), 0.5).sample(t).tangent
 }
 
 fn carry(
@@ -119,14 +112,14 @@ fn carry(
             DMat3::from_cols_array_2d(&[DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
                 ((map(place + axis * near) - map(place - axis * near)) / (2.0 * near)).to_array()
             }));
-        // The section at right angles to the carried yarn: what lies along the yarn is along its
+        // The section at right angles to the carried yarn. The part along the yarn lies in its
         // surface.
         let tangent = (stretch * along).normalize_or_zero();
         let across = |v: DVec3| v - tangent * v.dot(tangent);
         let (side, up) = (across(stretch * up.cross(along) * wide), across(stretch * up * high));
         let half_height = up.length();
-        // With as much area as the carried ellipse, whose axes it has but for what the map shears
-        // over the yarn's width.
+        // The width gives the section the area of the carried ellipse. Its axes are those of the
+        // ellipse, apart from the map's shear over the yarn's width.
         let half_width = side.cross(up).length() / half_height;
         let [x, y, z] = map(place).as_vec3().to_array();
         let carried_point = ControlPoint { x, y, z, ..*point };

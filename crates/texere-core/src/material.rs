@@ -1,6 +1,6 @@
-//! What a yarn is made of, as far as its look and its weight go.
+//! Materials: the look and the weight of yarns.
 
-/// A yarn's material: shared by many yarns, and free to change without touching any geometry.
+/// A yarn's material. Many yarns can share one, and it can change without touching any geometry.
 ///
 /// ```
 /// use texere_core::Material;
@@ -13,20 +13,19 @@ pub struct Material {
     pub name: String,
     /// Colour, sRGB, 8 bits a channel.
     pub srgb: [u8; 3],
-    /// Linear density in tex (g/km), where the design gives one.
+    /// Linear density in tex (g/km), if the design has one.
     pub tex: Option<f32>,
-    /// Fibres that stand off the yarn: their length in cm for a cm of yarn, as Uster testers have
-    /// it in their H. 0 for none, as of filament; [`HAIRINESS_LIMIT`] at most. Only pictures show
-    /// them.
+    /// Fibres that stand off the yarn: their length in cm per cm of yarn, the H of Uster testers. 0
+    /// for none, as in filament; at most [`HAIRINESS_LIMIT`]. Only pictures show them.
     pub hairiness: f32,
 }
 
-/// The most hairiness that is taken: spun yarns have 3 to 11 by Uster's testers, and coarse woollen
-/// some more.
+/// The largest hairiness that is accepted. Spun yarns have 3 to 11 on Uster's testers, and coarse
+/// woollen yarns a little more.
 pub const HAIRINESS_LIMIT: f32 = 30.0;
 
 impl Default for Material {
-    /// Undyed yarn of unknown weight, off which no fibres stand.
+    /// Undyed yarn of unknown weight without hairs.
     fn default() -> Self {
         Self { name: "undyed".into(), srgb: [232, 226, 212], tex: None, hairiness: 0.0 }
     }

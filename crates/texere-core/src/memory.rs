@@ -1,11 +1,11 @@
-//! Memory that the system may refuse.
+//! Allocations that the system may refuse.
 
 use bytemuck::Zeroable;
 use thiserror::Error;
 
 use crate::counted;
 
-/// Memory that could not be had.
+/// A refused allocation.
 ///
 /// ```
 /// use texere_core::OutOfMemory;
@@ -15,20 +15,20 @@ use crate::counted;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
 pub struct OutOfMemory {
-    /// What for.
+    /// The purpose.
     pub what: &'static str,
-    /// How many bytes.
+    /// The bytes asked for.
     pub bytes: u64,
 }
 
 impl OutOfMemory {
-    /// No room for `count` values.
+    /// The error for `count` values.
     fn of<T>(what: &'static str, count: u64) -> Self {
         Self { what, bytes: count.saturating_mul(size_of::<T>() as u64) }
     }
 }
 
-/// `count` zeroed values, in fresh pages that the system maps only when they are touched.
+/// A list of `count` zeroed values, in fresh pages that the system maps only when they are touched.
 ///
 /// **Errors**: [`OutOfMemory`], naming `what`.
 ///
@@ -45,7 +45,7 @@ pub fn zeroed<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, Out
     bytemuck::allocation::try_zeroed_vec(length).map_err(|()| refused())
 }
 
-/// `count` times `value`.
+/// A list of `count` copies of `value`.
 ///
 /// **Errors**: [`OutOfMemory`], naming `what`.
 ///
@@ -74,10 +74,10 @@ pub fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, OutOfMemory> 
     Ok(list)
 }
 
-/// Makes sure that `list` can take `count` more.
+/// Makes room in `list` for `count` more values.
 ///
-/// **Errors**: [`OutOfMemory`], naming `what` and the bytes of the whole list, which stays as it
-/// was.
+/// **Errors**: [`OutOfMemory`], naming `what` and the bytes of the whole list. The list then stays
+/// as it was.
 ///
 /// ```
 /// let mut picks = vec![1_u8];

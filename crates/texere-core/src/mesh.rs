@@ -1,9 +1,10 @@
-//! The mesh: vertices, triangles, and how to draw them.
+//! The mesh: vertices, triangles, and the draws that show it.
 
 use std::sync::Arc;
 
 use crate::backend::{Chunk, Plan};
-use crate::definitions::{SHARED_GAPS, index_pattern};
+use crate::definitions::index_pattern;
+use crate::topology::SHARED_GAPS;
 use crate::{End, Material, Topology, Vertex};
 
 /// A range of indices that draws (part of) one yarn.
@@ -11,30 +12,30 @@ use crate::{End, Material, Topology, Vertex};
 pub struct Draw {
     /// The yarn, from 0 among all.
     pub yarn: u32,
-    /// Its range in the mesh's indices.
+    /// The range of the mesh's indices.
     pub indices: std::ops::Range<u64>,
-    /// What to add to an index to get a vertex of the mesh.
+    /// The number to add to an index to get a vertex of the mesh.
     pub base_vertex: u64,
-    /// How many vertices from `base_vertex` on the draw may refer to, for file formats and
-    /// interfaces that ask: those of its chunk, or with a shared pattern its own.
+    /// The number of vertices from `base_vertex` on that the draw may refer to, for file formats
+    /// and interfaces that need it: those of the chunk, or with a shared pattern those of the draw.
     pub vertices: u64,
 }
 
-/// A range of indices that draws (part of) one yarn of a chunk from buffers of the chunk's own:
-/// what an indexed draw of a GPU's interface takes.
+/// A range of indices that draws (part of) one yarn of a chunk from the chunk's own buffers: the
+/// arguments of an indexed draw of a GPU's interface.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChunkDraw {
     /// The yarn, from 0 among all.
     pub yarn: u32,
-    /// Its range in the chunk's indices, or in the [shared pattern](Plan::shared_indices).
+    /// The range of the chunk's indices, or of the [shared pattern](Plan::shared_indices).
     pub indices: std::ops::Range<u32>,
-    /// What to add to an index to get a vertex of the chunk.
+    /// The number to add to an index to get a vertex of the chunk.
     pub base_vertex: i32,
 }
 
 impl Plan {
-    /// Gaps between rings that the shared pattern covers: those of the longest part that there is
-    /// room for, at most [`SHARED_GAPS`].
+    /// The gaps between rings that the shared pattern covers: those of the longest part, room
+    /// included, but at most [`SHARED_GAPS`].
     fn shared_gaps(&self) -> u64 {
         let longest = self.ring_offsets().windows(2).map(|bounds| bounds[1] - bounds[0] - 1).max();
         longest.unwrap_or(0).min(SHARED_GAPS)
@@ -46,8 +47,8 @@ impl Plan {
         self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
     }
 
-    /// The indices of [`Topology::Shared`]: the pattern of the longest part, then, with caps, for
-    /// each section those of its start cap and of its finish cap.
+    /// The indices of [`Topology::Shared`]: the pattern of the longest part. With caps, the indices
+    /// of the start cap and of the finish cap follow for each section.
     #[must_use]
     pub fn shared_indices(&self) -> Vec<u32> {
         let sides = self.settings().sides;
@@ -65,9 +66,9 @@ impl Plan {
         indices
     }
 
-    /// [`Plan::shared_indices`] in half the memory, for an interface that draws with 16-bit indices
-    /// and a base vertex. None where one of them does not fit: with more than seven sides, if a
-    /// yarn is long enough.
+    /// [`Plan::shared_indices`] in half the memory, for interfaces that draw with 16-bit indices
+    /// and a base vertex. `None` if an index does not fit, which needs more than seven sides and a
+    /// long yarn.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -86,7 +87,7 @@ impl Plan {
         self.shared_indices().into_iter().map(|index| u16::try_from(index).ok()).collect()
     }
 
-    /// The indices of a cap of `section`, counted from the cap's first vertex: three a triangle,
+    /// The indices of a cap of `section`, counted from the cap's first vertex: three per triangle,
     /// facing out of the yarn.
     pub fn cap_indices(&self, section: usize, end: End) -> impl Iterator<Item = u32> {
         self.cap_triangles(section).iter().flat_map(move |&[a, b, c]| match end {
@@ -95,22 +96,22 @@ impl Plan {
         })
     }
 
-    /// How to draw a chunk as part of a whole mesh, yarn by yarn, its caps last. Empty with
+    /// The draws of a chunk as part of a whole mesh, yarn by yarn, its caps last. Empty with
     /// [`Topology::None`].
     pub fn draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = Draw> + 'a {
         self.draws_from(chunk, chunk.first_vertex(), chunk.first_index())
     }
 
-    /// How to draw a chunk from buffers of its own, such as a device lends, likewise: vertices and
-    /// indices count from the chunk's first.
+    /// The draws of a chunk from its own buffers, such as a device lends: vertices and indices
+    /// count from the chunk's first. Yarn by yarn, caps last. Empty with [`Topology::None`].
     ///
-    /// Of a [`LiveMesh`](crate::backend::LiveMesh) draw these and nothing else: in the room between
-    /// yarns lie triangles from before an edit. They change with an edit that makes a yarn longer
-    /// or shorter.
+    /// Draw only these of a [`LiveMesh`](crate::backend::LiveMesh): unused room between yarns holds
+    /// triangles from before an edit. The draws change with an edit that makes a yarn longer or
+    /// shorter.
     pub fn chunk_draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = ChunkDraw> + 'a {
         self.draws_from(chunk, 0, 0).map(|draw| ChunkDraw {
             yarn: draw.yarn,
-            // A chunk's counts fit: it has at most as many vertices as an `i32` counts.
+            // The conversion is exact: a chunk has at most as many vertices as an `i32` counts.
             indices: draw.indices.start as u32..draw.indices.end as u32,
             base_vertex: draw.base_vertex as i32,
         })
@@ -126,7 +127,7 @@ impl Plan {
         let topology = self.settings().topology;
         let tubes = chunk.parts().iter().flat_map(move |part| {
             let gaps = u64::from(part.rings) - 1;
-            // A shared pattern starts again at each stretch's first ring; an indexed part is one
+            // A shared pattern starts again at each stretch's first ring. An indexed part is one
             // stretch.
             let stretch = if topology == Topology::Shared { SHARED_GAPS } else { gaps.max(1) };
             (0..gaps.div_ceil(stretch)).map(move |number| {
@@ -197,7 +198,7 @@ impl MeshPiece<'_> {
     }
 }
 
-/// The caller's memory for a chunk's mesh: slices exactly as long as planned.
+/// The caller's memory for a chunk's mesh: slices of exactly the planned lengths.
 #[derive(Debug)]
 pub struct MeshMut<'a> {
     /// `chunk.vertices()` long.
@@ -208,7 +209,7 @@ pub struct MeshMut<'a> {
 
 /// A whole fabric's mesh in host memory.
 ///
-/// It keeps plan, chunks and materials, so that a writer needs nothing else, and a change of colour
+/// It keeps the plan, chunks and materials, so a writer needs nothing else, and a change of colour
 /// never rebuilds geometry.
 ///
 /// ```
@@ -232,21 +233,21 @@ pub struct Mesh {
     pub vertices: Vec<Vertex>,
     /// All indices: chunk after chunk, or the shared pattern.
     pub indices: Vec<u32>,
-    /// The chunks, which say what yarn each vertex belongs to.
+    /// The chunks, which map each vertex to its yarn.
     pub chunks: Vec<Chunk>,
-    /// The plan that it was made from.
+    /// The plan of the mesh.
     pub plan: Arc<Plan>,
     /// The materials that yarns refer to.
     pub materials: Arc<[Material]>,
 }
 
 impl Mesh {
-    /// How to draw the mesh, yarn by yarn.
+    /// The draws of the mesh, yarn by yarn.
     pub fn draws(&self) -> impl Iterator<Item = Draw> {
         self.chunks.iter().flat_map(|chunk| self.plan.draws(chunk))
     }
 
-    /// All triangles as vertex numbers of the mesh.
+    /// All triangles, as numbers of the mesh's vertices.
     pub fn triangles(&self) -> impl Iterator<Item = [u64; 3]> {
         self.draws().flat_map(|draw| {
             let range = draw.indices.start as usize..draw.indices.end as usize;

@@ -1,4 +1,4 @@
-//! A backend that does nothing: for tests of what happens before a device is reached.
+//! A backend that does nothing, for tests that need no device.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::backend::{
 };
 use crate::{Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, DeviceKind, Limits};
 
-/// A backend that writes nothing: outputs stay as they were.
+/// A backend that writes nothing: outputs keep their contents.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;

@@ -7,7 +7,7 @@ use crate::Vertex;
 /// The step of the grid that packed positions lie on: a power of two of mm, the same for a whole
 /// fabric.
 ///
-/// It is a choice of [`Settings`](crate::Settings). A finer one is more exact, a coarser one
+/// It is one of the [`Settings`](crate::Settings). A finer step is more exact, a coarser one
 /// [reaches](Quantum::reach) further.
 ///
 /// ```
@@ -22,9 +22,8 @@ pub struct Quantum {
     exponent: i8,
 }
 
-/// The exponents of the finest and the coarsest quantum. With the finest a fibre of the least
-/// radius is a thousand quanta thick; the coarsest reaches from one end of all coordinates to the
-/// other.
+/// The exponents of the finest and the coarsest quantum. With the finest, a fibre of the least
+/// radius is a thousand quanta thick. The coarsest reaches across all coordinates.
 const EXPONENTS: std::ops::RangeInclusive<i8> = -24..=11;
 
 /// The bits of a coordinate.
@@ -38,18 +37,18 @@ impl Default for Quantum {
 }
 
 impl Quantum {
-    /// 2⁻¹² mm, a quarter of a micrometre: a four-hundredth of the radius of a thread of 0.2 mm. It
-    /// reaches 256 mm.
+    /// 2⁻¹² mm, a quarter of a micrometre: 1/400 of the radius of a thread of 0.2 mm. It reaches
+    /// 256 mm.
     pub const USUAL: Self = Self { exponent: -12 };
 
     /// Bits of each packed coordinate.
     pub const BITS: u32 = 21;
 
-    /// Quanta after which packed coordinates begin again.
+    /// The quanta after which packed coordinates repeat.
     pub const WRAP: f32 = (1 << Self::BITS) as f32;
 
-    /// The finest quantum that reaches `mm`, which is 2⁻²⁴ mm at the least; the coarsest of all, 2
-    /// m, where none does.
+    /// The finest quantum that reaches `mm`, at least 2⁻²⁴ mm. If none reaches it, the coarsest: 2
+    /// m.
     #[must_use]
     pub fn reaching(mm: f32) -> Self {
         let all = EXPONENTS.map(|exponent| Self { exponent });
@@ -63,28 +62,28 @@ impl Quantum {
         f32::from_bits(((127 + self.exponent as i32) as u32) << 23)
     }
 
-    /// Quanta in a mm.
+    /// The number of quanta in a mm.
     #[must_use]
     #[inline]
     pub const fn per_mm(self) -> f32 {
         f32::from_bits(((127 - self.exponent as i32) as u32) << 23)
     }
 
-    /// How far, mm, a vertex may lie in x, y or z from the place that it is
-    /// [unpacked](PackedVertex::unpack) near: half of the range of a packed coordinate, less what
-    /// both are rounded by.
+    /// The largest distance, mm, in x, y or z between a vertex and the place near which it is
+    /// [unpacked](PackedVertex::unpack): half of the range of a packed coordinate, less the
+    /// rounding of both.
     #[must_use]
     pub const fn reach(self) -> f32 {
         (Self::WRAP / 2.0 - 2.0) * self.mm()
     }
 
-    /// The nearest whole quanta to a coordinate, mm; what is too far off for an `i64` is as far as
-    /// that goes.
+    /// A coordinate, mm, rounded to whole quanta, and clamped to the range of an `i64`.
     fn whole(self, mm: f32) -> i64 {
         (mm * self.per_mm()).round_ties_even() as i64
     }
 
-    /// The lowest bits of those: all products are of powers of two, and the difference is exact.
+    /// The lowest bits of a coordinate's whole quanta. All products are by powers of two, and the
+    /// difference is exact.
     #[inline]
     fn wrapped(self, mm: f32) -> u32 {
         let quanta = mm * self.per_mm();
@@ -95,17 +94,17 @@ impl Quantum {
 
 /// A [`Vertex`] in half the bytes.
 ///
-/// **Shape**: two `u32` and two `i16`, 12 bytes. `position` has the lowest 21 bits of x, y and z,
-/// rounded to whole [quanta](crate::Settings::quantum): x in bits 0 to 20 of the 64, the first word
-/// lowest, y in bits 21 to 41, z in bits 42 to 62; the last bit is 0. `normal` is the octahedral
-/// map of the normal (Meyer, Süßmuth, Sußner, Stamminger and Greiner 2010), in steps of 1/32767
-/// from -32767 on.
+/// **Shape**: two `u32` and two `i16`, 12 bytes. `position` has the lowest 21 bits of x, y and z in
+/// whole [quanta](crate::Settings::quantum): x in bits 0 to 20 of the 64, first word lowest, y in
+/// bits 21 to 41, z in bits 42 to 62. The last bit is 0. `normal` is the octahedral map of the
+/// normal (Meyer, Süßmuth, Sußner, Stamminger and Greiner 2010), in steps of 1/32767 from -32767 to
+/// 32767.
 ///
-/// What a coordinate has above its 21 bits is not kept: a vertex lies within the quantum's
+/// The bits of a coordinate above these 21 are not kept. A vertex lies within the quantum's
 /// [reach](Quantum::reach) of a place that the reader names, such as the middle of the cloth, the
-/// eye, or a control point beside it. So the bits depend on the position alone, not on a block, a
-/// chunk or a cap: equal positions are packed alike, and unpack alike near whatever place. There
-/// are no cracks between what is cut apart.
+/// eye, or a control point beside it, and that place supplies the high bits. So the packed bits
+/// depend on the position alone, not on a block, a chunk or a cap: equal positions are packed
+/// alike, and unpack alike near any place. Where a cloth is cut apart there are no cracks.
 ///
 /// **Errors of rounding**: half a quantum in each coordinate, 6.6e-5 rad in the normal.
 ///
@@ -129,8 +128,8 @@ pub struct PackedVertex {
 const _: () = assert!(size_of::<PackedVertex>() == 12 && std::mem::offset_of!(PackedVertex, normal) == 8);
 
 impl PackedVertex {
-    /// Added to an `f32` of less than 2²², it leaves the nearest whole number, of two the even one,
-    /// in the lowest bits of the sum.
+    /// A number that rounds: added to an `f32` of less than 2²², it leaves the nearest whole
+    /// number, ties to even, in the lowest bits of the sum.
     pub const ROUNDING: f32 = 12_582_912.0;
 
     /// Steps of the normal from 0 to 1.
@@ -147,14 +146,14 @@ impl PackedVertex {
         }
     }
 
-    /// The same vertex with another normal.
+    /// This vertex with another normal.
     #[must_use]
     pub fn with_normal(self, normal: [f32; 3]) -> Self {
         Self { normal: octahedral(normal), ..self }
     }
 
-    /// The vertex that lies within [reach](Quantum::reach) of `near`, mm. `quantum` is that which
-    /// it was packed with.
+    /// The vertex within [reach](Quantum::reach) of `near`, mm. `quantum` is the one that it was
+    /// packed with.
     #[must_use]
     pub fn unpack(&self, near: [f32; 3], quantum: Quantum) -> Vertex {
         let [low, high] = self.position;
@@ -181,7 +180,7 @@ fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
     flat.map(|value| (value * PackedVertex::NORMAL_STEPS + PackedVertex::ROUNDING).to_bits() as i16)
 }
 
-/// The unit vector.
+/// The unit vector of these steps.
 fn from_octahedral(steps: [i16; 2]) -> [f32; 3] {
     let [x, y] = steps.map(|steps| f32::from(steps) / PackedVertex::NORMAL_STEPS);
     let z = 1.0 - x.abs() - y.abs();

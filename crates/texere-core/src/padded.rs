@@ -1,12 +1,12 @@
-//! Control points as kernels read them: each yarn with its virtual ends.
+//! Padded control points, as kernels read them: each yarn with its virtual ends.
 
 use std::ops::Range;
 
 use crate::backend::{Plan, zeroed};
 use crate::{ControlPoint, OutOfMemory};
 
-/// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has
-/// end cases.
+/// The control points of a fabric, padded as [`Plan::padded_offsets`] describes, so that kernels
+/// need no special cases at ends.
 ///
 /// ```
 /// use texere_core::backend::{PaddedPoints, Plan};
@@ -35,9 +35,9 @@ impl PaddedPoints {
     }
 
     /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual
-    /// ends that they touch. Points past the fabric's last are left out.
+    /// ends that depend on them. Points past the fabric's last are ignored.
     ///
-    /// Gives back the range of padded points that may have changed.
+    /// Returns the range of padded points that may have changed.
     pub fn upload(&mut self, plan: &Plan, first: u64, points: &[ControlPoint]) -> Range<u64> {
         let (layout, sent) = (plan.layout(), first..first.saturating_add(points.len() as u64));
         let yarns = layout.yarns_of(sent.clone());
@@ -72,12 +72,12 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
     range.start as usize..range.end as usize
 }
 
-/// Works out the virtual ends of one padded yarn from the control points between them: equations 3
-/// and 4 of the paper for an open yarn, wrapped neighbours for a closed one.
+/// Works out the virtual ends of one padded yarn from the control points between them: the paper's
+/// equations 3 and 4 for an open yarn, wrapped neighbours for a closed one.
 ///
-/// `padded` lies as [`Plan::padded_offsets`] says: one place before the yarn's own points, and one
-/// (open) or three (closed) behind them. **Panics** for fewer than two points of its own (three
-/// when closed).
+/// `padded` has the layout of [`Plan::padded_offsets`]: one place before the yarn's own points, and
+/// one (open) or three (closed) behind them. **Panics** for fewer than two own points (three if
+/// closed).
 ///
 /// ```
 /// use texere_core::backend::renew_virtual_ends;
@@ -97,19 +97,4 @@ pub fn renew_virtual_ends(padded: &mut [ControlPoint], closed: bool) {
         padded[0] = padded[1].reflected(&padded[2]);
         padded[count - 1] = padded[count - 2].reflected(&padded[count - 3]);
     }
-}
-
-/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn
-/// has none.
-#[inline]
-pub fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
-    if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {
-        return [before, start, end, after];
-    }
-    let count = points.len();
-    let at = |index: usize| points[index % count];
-    let (start, end) = (at(first), at(first + 1));
-    let before = if closed || first > 0 { at(first + count - 1) } else { start.reflected(&end) };
-    let after = if closed || first + 2 < count { at(first + 2) } else { end.reflected(&start) };
-    [before, start, end, after]
 }

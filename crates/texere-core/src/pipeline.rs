@@ -1,4 +1,4 @@
-//! The pipeline: plans the work and drives any backend.
+//! The pipeline: it plans the work and drives any backend.
 
 mod error;
 
@@ -15,14 +15,14 @@ use crate::{
 
 pub use self::error::PipelineError;
 
-/// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed
-/// in between.
+/// Control points per call of upload: 16 MB. Between two calls progress is reported and a
+/// cancellation noticed.
 const UPLOAD_POINTS: usize = 1 << 20;
 
-/// How far a run has come.
+/// The progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progress {
-    /// Rings whose mesh (or trajectory) has been handed over.
+    /// Rings whose mesh (or trajectory) has been delivered.
     pub rings: u64,
     /// Rings in all.
     pub total: u64,
@@ -30,7 +30,7 @@ pub struct Progress {
 
 type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
 
-/// From yarns to a mesh on any backend.
+/// Makes a mesh of yarns on any backend.
 ///
 /// ```
 /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
@@ -42,12 +42,12 @@ type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
 pub struct Pipeline<'a> {
     yarns: &'a Yarns,
     settings: Settings,
-    /// Whether there are as many subdivisions as the twist of the yarns needs, since nobody chose
-    /// others.
+    /// Whether the number of subdivisions follows the twist of the yarns: true until the caller
+    /// chooses a number.
     follows_twist: bool,
     limits: Limits,
     within: Option<Bounds>,
-    /// Rings handed over so far.
+    /// Rings delivered so far.
     done: u64,
     settler: Option<&'a mut dyn Settler>,
     progress: Option<OnProgress<'a>>,
@@ -64,8 +64,9 @@ impl std::fmt::Debug for Pipeline<'_> {
 
 impl<'a> Pipeline<'a> {
     /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, upright, indexed, no caps.
-    /// Where that undersamples twist, K is as large as [`Settings::following`] says, and tubes of a
-    /// polygon have as many sides as it has corners, unless these are chosen.
+    /// If that undersamples twist, K is as large as [`Settings::following`] makes it. Tubes with a
+    /// polygon section have as many sides as the polygon has corners. [`Pipeline::subdivisions`]
+    /// and [`Pipeline::sides`] override both.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
@@ -80,7 +81,8 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// Takes all settings at once, also the subdivisions: those of [`Settings::of`] follow twist.
+    /// Sets all settings at once, subdivisions included. [`Settings::of`] gives settings that
+    /// follow twist.
     #[must_use]
     pub fn settings(mut self, settings: Settings) -> Self {
         self.settings = settings;
@@ -88,8 +90,8 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Points inserted between two control points (K), whatever twist needs:
-    /// [`Pipeline::undersampled`] tells.
+    /// Sets the points inserted between two control points (K), whatever the twist needs.
+    /// [`Pipeline::undersampled`] warns if there are too few.
     #[must_use]
     pub fn subdivisions(mut self, subdivisions: u32) -> Self {
         self.settings.subdivisions = subdivisions;
@@ -97,21 +99,21 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Sides of the tube (nc).
+    /// Sets the sides of the tube (nc).
     #[must_use]
     pub fn sides(mut self, sides: u32) -> Self {
         self.settings.sides = sides;
         self
     }
 
-    /// How sections are oriented.
+    /// Sets the orientation of sections.
     #[must_use]
     pub fn frame(mut self, frame: Frame) -> Self {
         self.settings.frame = frame;
         self
     }
 
-    /// How triangles are encoded.
+    /// Sets the encoding of triangles.
     #[must_use]
     pub fn topology(mut self, topology: Topology) -> Self {
         self.settings.topology = topology;
@@ -132,17 +134,18 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Cuts chunks to `limits` where the device's own are wider, instead of to [`Limits::default`]:
-    /// bounds the memory of a [`Pipeline::stream`], and how far one step of progress goes.
+    /// Cuts chunks to `limits` where they are stricter than the device's own. The default is
+    /// [`Limits::default`]. Limits bound the memory of a [`Pipeline::stream`] and the size of one
+    /// step of progress.
     #[must_use]
     pub fn limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Makes only what lies in a box, such as [`Bounds::rectangle`]: whole blocks of rings, and of
-    /// each the same bits as in the whole mesh. More in [`Plan::within`]. A
-    /// [`Pipeline::trajectory`] is whole all the same.
+    /// Makes only the part of the mesh in a box, such as [`Bounds::rectangle`]: whole blocks of
+    /// rings, with the same bits as in the whole mesh. See [`Plan::within`]. A
+    /// [`Pipeline::trajectory`] is always whole.
     ///
     /// ```
     /// # use texere_core::backend::NullBackend;
@@ -164,12 +167,12 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Takes control points from where `settler` has left them instead of those of the yarns, whose
-    /// layout stays: on the device that it works on they don't leave it. What lies
-    /// [within](Pipeline::within) a box is still told by those of the yarns, and so is which yarns
-    /// are [steep](crate::Layout::is_steep) and how outlines [lean](crate::Layout::ups): where
-    /// yarns settle so far that they run up or down elsewhere, or where flattened ones do at all,
-    /// make new [`Yarns`] of what has been [read back](crate::settling::settled).
+    /// Takes the control points of `settler` instead of those of the yarns, whose layout stays. On
+    /// the settler's own device they are not copied to the host. The yarns' own points still decide
+    /// three things: which blocks lie [within](Pipeline::within) a box, which yarns are
+    /// [steep](crate::Layout::is_steep), and how outlines [lean](crate::Layout::ups). If settling
+    /// makes yarns run up or down in new places, or makes flattened yarns do so at all, build new
+    /// [`Yarns`] from the points that are [read back](crate::settling::settled).
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {
@@ -189,9 +192,8 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Calls `progress` while control points are uploaded, with no rings done, and after each
-    /// chunk; the last call has all rings done. `Break` ends the run there with
-    /// [`PipelineError::Cancelled`].
+    /// Calls `progress` during the upload of control points, with 0 rings, and after each chunk.
+    /// The last call has all rings. `Break` ends the run with [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
         self.progress = Some(Box::new(progress));
@@ -204,13 +206,13 @@ impl<'a> Pipeline<'a> {
         self.yarns
     }
 
-    /// The settings that the mesh is made with.
+    /// The settings of the mesh, with subdivisions that follow twist unless others were chosen.
     #[must_use]
     pub fn chosen(&self) -> Settings {
         if self.follows_twist { self.settings.following(self.yarns) } else { self.settings }
     }
 
-    /// What the mesh will not show of the twist of the yarns, if anything: a warning, written out.
+    /// The warning that the mesh undersamples the twist of the yarns, if it does.
     #[must_use]
     pub fn undersampled(&self) -> Option<Undersampled> {
         Undersampled::of(self.yarns, &self.chosen())
@@ -218,8 +220,8 @@ impl<'a> Pipeline<'a> {
 
     /// The plan for these settings.
     ///
-    /// **Errors**: those of [`Plan::new`], and [`PipelineError::Backend`] where there is no memory
-    /// to find what lies within a box.
+    /// **Errors**: the errors of [`Plan::new`], and [`PipelineError::Backend`] if memory is short
+    /// while blocks within a box are found.
     pub fn plan(&self) -> Result<Plan, PipelineError> {
         let plan = Plan::new(self.yarns.layout().clone(), self.chosen())?;
         let Some(bounds) = &self.within else { return Ok(plan) };
@@ -236,8 +238,8 @@ impl<'a> Pipeline<'a> {
 
     /// The whole mesh, in host memory.
     ///
-    /// **Errors**: [`PipelineError`] where the settings can't be planned for, memory does not
-    /// suffice, the device fails, or progress asked to stop.
+    /// **Errors**: [`PipelineError`] if the settings can't be planned for, memory is short, the
+    /// device fails, or the progress callback asks to stop.
     pub fn mesh(mut self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
         let (plan, mut session) = self.start(device)?;
         let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
@@ -250,7 +252,7 @@ impl<'a> Pipeline<'a> {
             let (chunk_indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
             (vertices_left, indices_left) = (others, other_indices);
             session.mesh_into(chunk, MeshMut { vertices: chunk_vertices, indices: chunk_indices })?;
-            self.tell(&plan, chunk)?;
+            self.advance(&plan, chunk)?;
         }
         if plan.settings().topology == Topology::Shared {
             indices = plan.shared_indices();
@@ -258,13 +260,13 @@ impl<'a> Pipeline<'a> {
         Ok(Mesh { vertices, indices, chunks, plan, materials: self.yarns.materials().clone() })
     }
 
-    /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: the
-    /// control points and two chunks at a time. Of each chunk come all vertices in order, then all
-    /// indices in order; a piece of indices may end anywhere, also within a triangle. No triangle
-    /// comes twice: what a chunk repeats of another are vertices. A sink that answers `Break` ends
-    /// the run, and its answer comes back; by then at most one chunk more has been worked on.
+    /// The mesh piece by piece, each with its chunk, in bounded memory: the control points and two
+    /// chunks at a time. Each chunk comes as all vertices in order, then all indices in order. A
+    /// piece of indices may end anywhere, even within a triangle. No triangle comes twice; only
+    /// vertices are repeated where a chunk ends inside a yarn. If the sink answers `Break`, the run
+    /// ends and the answer is returned; at most one more chunk has been worked on by then.
     ///
-    /// **Errors**: those of [`Pipeline::mesh`].
+    /// **Errors**: the errors of [`Pipeline::mesh`].
     pub fn stream<B>(
         mut self,
         device: &dyn Backend,
@@ -277,7 +279,7 @@ impl<'a> Pipeline<'a> {
             session.mesh(chunk)?;
         }
         while let Some(chunk) = waiting {
-            // The next chunk is worked on while this one is read.
+            // The device works on the next chunk while this one is read.
             waiting = chunks.next();
             if let Some(next) = &waiting {
                 session.mesh(next)?;
@@ -293,13 +295,13 @@ impl<'a> Pipeline<'a> {
             if let Some(value) = answer {
                 return Ok(ControlFlow::Break(value));
             }
-            self.tell(&plan, &chunk)?;
+            self.advance(&plan, &chunk)?;
         }
         Ok(ControlFlow::Continue(()))
     }
 
-    /// What shaders and textures ask of each vertex, in host memory: in the order of
-    /// [`Pipeline::mesh`]'s vertices with the same settings and limits.
+    /// The attributes of each vertex, for shaders and textures, in host memory. They have the order
+    /// of [`Pipeline::mesh`]'s vertices with the same settings and limits.
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
@@ -313,7 +315,7 @@ impl<'a> Pipeline<'a> {
     /// # }
     /// ```
     ///
-    /// **Errors**: those of [`Pipeline::mesh`], and
+    /// **Errors**: the errors of [`Pipeline::mesh`], and
     /// [`BackendError::NoAttributes`](crate::BackendError::NoAttributes).
     pub fn attributes(self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
         self.of_vertices(device, "attributes", |session, chunk, out: &mut [Attribute]| {
@@ -326,7 +328,7 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    /// Packed vertices, 12 bytes each, in host memory: in the order of [`Pipeline::mesh`]'s
+    /// Packed vertices, 12 bytes each, in host memory. They have the order of [`Pipeline::mesh`]'s
     /// vertices with the same settings and limits.
     ///
     /// ```
@@ -340,7 +342,7 @@ impl<'a> Pipeline<'a> {
     /// # }
     /// ```
     ///
-    /// **Errors**: those of [`Pipeline::mesh`], and
+    /// **Errors**: the errors of [`Pipeline::mesh`], and
     /// [`BackendError::NoPacking`](crate::BackendError::NoPacking).
     pub fn packed(self, device: &dyn Backend) -> Result<Vec<PackedVertex>, PipelineError> {
         self.of_vertices(device, "packed vertices", |session, chunk, out: &mut [PackedVertex]| {
@@ -352,7 +354,7 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    /// What `make` makes of all vertices, chunk by chunk, in host memory.
+    /// One value per vertex, made by `make` chunk by chunk, in host memory.
     fn of_vertices<T: bytemuck::Zeroable>(
         mut self,
         device: &dyn Backend,
@@ -365,12 +367,12 @@ impl<'a> Pipeline<'a> {
         for chunk in &chunks {
             let own = &mut all[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
             let _ = make(&mut session, chunk, own)?;
-            self.tell(&plan, chunk)?;
+            self.advance(&plan, chunk)?;
         }
         Ok(all)
     }
 
-    /// The centrelines alone, in host memory.
+    /// The centrelines, without a mesh, in host memory.
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
@@ -381,7 +383,7 @@ impl<'a> Pipeline<'a> {
     /// # }
     /// ```
     ///
-    /// **Errors**: those of [`Pipeline::mesh`].
+    /// **Errors**: the errors of [`Pipeline::mesh`].
     pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
         self.within = None;
         let (plan, mut session) = self.start(device)?;
@@ -389,7 +391,7 @@ impl<'a> Pipeline<'a> {
         let mut done = 0;
         for chunk in plan.chunks(&self.limits_on(device))? {
             session.trajectory(&chunk)?;
-            // A repeated ring is the first of the next chunk, which overwrites it.
+            // A repeated ring is also the first of the next chunk, which overwrites it.
             let mut at = done;
             let _ = session.read_trajectory(&chunk, &mut |piece| {
                 rings[at..at + piece.len()].copy_from_slice(piece);
@@ -397,12 +399,12 @@ impl<'a> Pipeline<'a> {
                 ControlFlow::Continue(())
             })?;
             done += chunk.rings() as usize - usize::from(chunk.repeats_ring());
-            self.tell(&plan, &chunk)?;
+            self.advance(&plan, &chunk)?;
         }
         Ok(Trajectory { rings, offsets: plan.ring_offsets().to_vec() })
     }
 
-    /// Plans, opens a session, uploads and scans.
+    /// Makes the plan, opens a session, uploads and scans.
     fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Session), PipelineError> {
         let plan = Arc::new(self.plan()?);
         let mut session = Session::new(device, plan.clone())?.with_limits(&self.limits);
@@ -424,14 +426,14 @@ impl<'a> Pipeline<'a> {
         Ok((plan, session))
     }
 
-    /// Counts a chunk as handed over.
-    fn tell(&mut self, plan: &Plan, chunk: &Chunk) -> Result<(), PipelineError> {
+    /// Counts a chunk as delivered.
+    fn advance(&mut self, plan: &Plan, chunk: &Chunk) -> Result<(), PipelineError> {
         self.done += u64::from(chunk.rings()) - u64::from(chunk.repeats_ring());
         self.report(Progress { rings: self.done, total: plan.counts().rings })
     }
 
     fn report(&mut self, progress: Progress) -> Result<(), PipelineError> {
-        match self.progress.as_mut().map(|tell| tell(progress)) {
+        match self.progress.as_mut().map(|report| report(progress)) {
             Some(ControlFlow::Break(())) => Err(PipelineError::Cancelled),
             _ => Ok(()),
         }

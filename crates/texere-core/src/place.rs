@@ -1,12 +1,12 @@
-//! A place on a yarn.
+//! Places on yarns.
 
 use glam::DVec3;
 
 use crate::definitions::{Segment, tangent_factor};
-use crate::padded::neighbours;
+use crate::interval::neighbours;
 use crate::{ControlPoint, Yarns};
 
-/// One place of a yarn.
+/// A place on a yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YarnPlace {
     /// The yarn, from 0.
@@ -14,7 +14,7 @@ pub struct YarnPlace {
     /// The control interval: the number of the control point that it starts from, from 0 within the
     /// yarn.
     pub interval: usize,
-    /// Where in the interval, from 0 to 1.
+    /// The parameter in the interval, from 0 to 1.
     pub t: f64,
     /// The centreline there, mm.
     pub position: [f64; 3],
@@ -23,9 +23,9 @@ pub struct YarnPlace {
 }
 
 impl YarnPlace {
-    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`, such as
-    /// a picked triangle has it. None where there is no such yarn or interval, and for a `t` that
-    /// is none.
+    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`, for
+    /// example of a picked triangle. `None` if there is no such yarn or interval, or `t` is outside
+    /// its range.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};
@@ -52,9 +52,9 @@ impl YarnPlace {
         Some(Self { yarn, interval, t, position, source })
     }
 
-    /// The place of yarn number `yarn` that is nearest to `position`, mm, such as a point on its
-    /// surface that a picture shows. It is found between the yarn's control points as if they were
-    /// joined by straight lines. None where there is no such yarn.
+    /// The place on yarn number `yarn` that is nearest to `position`, mm, such as a point on its
+    /// surface that a picture shows. The search treats the yarn as straight between control points.
+    /// `None` if there is no such yarn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};

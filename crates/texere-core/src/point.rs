@@ -1,4 +1,4 @@
-//! The control point: the one thing a structure has to produce.
+//! Control points: the only geometry that a structure has to produce.
 
 use std::fmt;
 
@@ -11,12 +11,12 @@ use crate::half;
 ///
 /// The half width lies level in the cloth, the half height out of it, both at right angles to the
 /// yarn, whatever its twist: yarns flatten where they cross and spread where they float, while
-/// their fibres turn inside. Of a round yarn both are the radius.
+/// their fibres turn inside. In a round yarn both are the radius.
 ///
 /// **Shape**: three `f32` and two half floats (IEEE 754 binary16), 16 bytes, 16-byte stride.
-/// **Units**: millimetres. The spline interpolates all five components, so slubs (thick places) and
-/// flat places are made by these two alone. A half float has 11 bits: sizes are rounded to the
-/// nearest of them, by at most 1 in 2048.
+/// **Units**: millimetres. The spline interpolates all five components, so half width and half
+/// height alone make slubs (thick places) and flat places. A half float has 11 bits: sizes are
+/// rounded to the nearest one, by at most 1 in 2048.
 ///
 /// ```
 /// use texere_core::ControlPoint;
@@ -50,29 +50,30 @@ const _: () = assert!(
         && std::mem::offset_of!(ControlPoint, halves) == 12
 );
 
-/// The furthest that a coordinate may lie from the origin, mm (a thousand kilometres).
+/// The largest distance of a coordinate from the origin, mm (a thousand kilometres).
 ///
-/// Beyond it the squares and cubes that the spline forms could leave the range of `f32`.
+/// Beyond it, squares and cubes in the spline could leave the range of `f32`.
 pub const COORDINATE_LIMIT: f32 = 1e9;
 
-/// The least half width and half height that are taken for a yarn's, mm: a tenth of a micrometre.
-/// The smallest number that a half float holds with all its bits is 6.1e-5.
+/// The least half width and half height of a yarn, mm: a tenth of a micrometre. The smallest number
+/// that a half float holds with all its bits is 6.1e-5.
 pub const RADIUS_MIN: f32 = 1e-4;
 
-/// The most half width and half height that are taken for a yarn's, mm: thirty metres. A half float
-/// ends at 65,504, and a virtual end may be twice as large as its neighbour.
+/// The largest half width and half height of a yarn, mm: thirty metres. A half float ends at
+/// 65,504, and a virtual end may be twice as large as its neighbour.
 pub const RADIUS_MAX: f32 = 3e4;
 
 impl ControlPoint {
     /// A control point of a round yarn at (`x`, `y`, `z`) with `radius`, all in mm. The radius is
-    /// rounded to the nearest half float, to the even one of two.
+    /// rounded to the nearest half float, ties to even.
     #[must_use]
     #[inline]
     pub fn new(x: f32, y: f32, z: f32, radius: f32) -> Self {
         Self { x, y, z, halves: Halves::new(radius, radius) }
     }
 
-    /// The same point of a yarn that is flattened there, mm: rounded as [`ControlPoint::new`] does.
+    /// This point with other sizes, for a yarn that is flattened there, mm. They are rounded like
+    /// the radius of [`ControlPoint::new`].
     #[must_use]
     #[inline]
     pub fn flattened(self, half_width: f32, half_height: f32) -> Self {
@@ -100,7 +101,7 @@ impl ControlPoint {
         self.halves.height()
     }
 
-    /// Whether the yarn is as wide as high here.
+    /// Whether the yarn is as wide as it is high here.
     #[must_use]
     #[inline]
     pub const fn is_round(&self) -> bool {
@@ -108,7 +109,7 @@ impl ControlPoint {
     }
 
     /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes
-    /// are worked out in `f32` and rounded to half floats.
+    /// are computed in `f32` and rounded to half floats.
     ///
     /// The sizes of a virtual end may be negative; they only steer the spline's slope.
     #[must_use]
@@ -122,7 +123,7 @@ impl ControlPoint {
 }
 
 impl Halves {
-    /// Both sizes, mm, rounded to the nearest half floats, to the even one of two.
+    /// Both sizes, mm, rounded to the nearest half floats, ties to even.
     #[must_use]
     #[inline]
     pub fn new(width: f32, height: f32) -> Self {
@@ -143,8 +144,8 @@ impl Halves {
         half::to_f32(self.0[1])
     }
 
-    /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are
-    /// ordered as their bits are; those below it, infinity and NaN come after all of them.
+    /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero have the
+    /// order of their bits. Negative ones, infinity and NaN come after all of them.
     pub(crate) const fn within_limits(self) -> bool {
         const LEAST: u16 = half::from_f32(RADIUS_MIN);
         const MOST: u16 = half::from_f32(RADIUS_MAX);
@@ -163,7 +164,7 @@ impl fmt::Debug for Halves {
 mod tests {
     use super::*;
 
-    /// All half floats that there are, each against its own value.
+    /// Compares all half floats with the limits by their values.
     #[test]
     fn limits_of_sizes_are_limits_of_their_bits() {
         for bits in 0..=u16::MAX {

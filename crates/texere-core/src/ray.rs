@@ -1,4 +1,4 @@
-//! Half lines, to pick with.
+//! Half lines for picking.
 
 /// A half line.
 ///
@@ -9,14 +9,14 @@
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it begins, mm.
+    /// The start, mm.
     pub origin: [f64; 3],
-    /// Where it goes; it may be of any length but 0.
+    /// The direction, of any length but 0.
     pub direction: [f64; 3],
 }
 
 impl Ray {
-    /// The point that lies `distance` lengths of its direction along it, mm.
+    /// The point at `distance` lengths of the direction from the start, mm.
     #[must_use]
     pub fn at(&self, distance: f64) -> [f64; 3] {
         std::array::from_fn(|axis| self.origin[axis] + distance * self.direction[axis])

@@ -1,4 +1,4 @@
-//! The ring: one sample of a yarn's centreline, the element of a trajectory.
+//! Rings: samples of a yarn's centreline, the elements of a trajectory.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -6,7 +6,7 @@ use glam::Vec3;
 use crate::definitions::{Basis, Sample, Turn};
 use crate::{SectionPoint, Vertex};
 
-/// One place along a yarn: everything of it that a section needs to stand there.
+/// A sample of a yarn's centreline with everything that its section needs there.
 ///
 /// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm; growths in mm per mm; `roll` in 2⁻³²
 /// turns.
@@ -32,8 +32,8 @@ pub struct Ring {
     pub width_growth: f32,
     /// Growth of the half height along the yarn.
     pub height_growth: f32,
-    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame: 0 but
-    /// where the yarn has [up directions that it stands by](crate::Layout::ups).
+    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame. 0
+    /// unless the yarn has [up directions](crate::Layout::ups).
     pub lean: Turn,
 }
 
@@ -63,14 +63,14 @@ impl Ring {
         }
     }
 
-    /// Whether the yarn is round here and stays so: width and height are the same and grow alike.
+    /// Whether the yarn is round here and stays round: width and height are equal and grow alike.
     #[must_use]
     #[inline]
     pub fn is_round(&self) -> bool {
         self.half_width == self.half_height && self.width_growth == self.height_growth
     }
 
-    /// How a section stands here.
+    /// The stance of a section here.
     #[must_use]
     #[inline]
     pub fn stance(&self) -> Stance {
@@ -85,7 +85,7 @@ impl Ring {
         }
     }
 
-    /// The vertex at `point` of the section that stands here as `stance` says.
+    /// The vertex at `point` of the section with `stance`.
     ///
     /// The section is turned by the roll, then stretched to the half width along the side and to
     /// the half height along the up of the upright frame. Its normal is stretched by the inverse
@@ -111,15 +111,15 @@ impl Ring {
                 let SectionPoint { x, y, normal_x, normal_y } = point.rolled(*sin, *cos);
                 let (wide, high) = (self.half_width, self.half_height);
                 let at = |x: f32, y: f32| *side * x + *up * y;
-                // Each times the other's half: the inverse transpose, times the product of both
-                // halves.
+                // Each component times the other's half: the inverse transpose, times the product
+                // of both halves.
                 let (normal_x, normal_y) = (normal_x * high, normal_y * wide);
                 let lean = self.width_growth * x * normal_x + self.height_growth * y * normal_y;
                 let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y + lean * lean).sqrt();
                 let normal = at(normal_x * inverse, normal_y * inverse) - tangent * (lean * inverse);
                 // Zero is added so that no sum is -0. The vertex is then the same to the bit
-                // whether a lean or a roll of zero is worked out or left out, and opposite points
-                // have opposite normals.
+                // whether a lean or a roll of zero is computed or skipped, and opposite points have
+                // opposite normals.
                 (centre + Vec3::ZERO + at(x * wide, y * high), normal + Vec3::ZERO)
             }
         };
@@ -127,22 +127,21 @@ impl Ring {
     }
 }
 
-/// How a section stands on a [`Ring`]: the same for all its vertices.
+/// The stance of a section on a [`Ring`], common to all its vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stance {
-    /// Of a yarn that is round there. Flattening does nothing, so the frame may turn with the
-    /// section.
+    /// For a round yarn. Flattening does nothing, so the frame may turn with the section.
     Round {
         /// The frame, turned by the roll.
         basis: Basis,
     },
-    /// Of a flattened yarn: the section turns inside an outline that does not.
+    /// For a flattened yarn: the section turns inside an outline that does not.
     Flattened {
         /// The upright frame, turned by the lean.
         basis: Basis,
-        /// The sine of the roll against that frame.
+        /// The sine of the roll against this frame.
         sin: f32,
-        /// Its cosine.
+        /// The cosine of the roll against this frame.
         cos: f32,
     },
 }
@@ -152,7 +151,7 @@ pub enum Stance {
 pub struct Trajectory {
     /// All rings, yarn after yarn.
     pub rings: Vec<Ring>,
-    /// Where each yarn's rings start, and their total last (the paper's Ωp): yarns + 1 values.
+    /// The start of each yarn's rings, and their total last (the paper's Ωp): yarns + 1 values.
     pub offsets: Vec<u64>,
 }
 

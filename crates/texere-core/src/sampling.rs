@@ -1,9 +1,9 @@
-//! Sampling of the spline: its tension, and how many rings it gets.
+//! The sampling of the spline: its tension, and the positions of rings on it.
 
 use crate::definitions::{Sample, Segment, tangent_factor};
 use crate::{ArcLength, ControlPoint, Layout, PlanError};
 
-/// Tension of the spline and points inserted between control points (the paper's u and K).
+/// The tension of the spline and the points inserted between control points (the paper's u and K).
 ///
 /// ```
 /// use texere_core::definitions::Sampling;
@@ -24,9 +24,9 @@ pub struct Sampling {
     step: f32,
 }
 
-/// The most points that may be inserted between two control points; a thousand already puts rings
-/// of a 0.1 mm yarn less than a micrometre apart.
-pub const SUBDIVISIONS_MAX: u32 = 1023;
+/// The most points that may be inserted between two control points. A thousand already put the
+/// rings of a 0.1 mm yarn less than a micrometre apart.
+pub(crate) const SUBDIVISIONS_MAX: u32 = 1023;
 
 impl Default for Sampling {
     /// The paper's: Catmull-Rom (tension 0), one inserted point.
@@ -36,10 +36,10 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// Sampling of yarns of `layout`, whose [tension](Layout::tension) is the u, with
-    /// `subdivisions` K in \[0, [`SUBDIVISIONS_MAX`]\].
+    /// A sampling of the yarns of `layout`, whose [tension](Layout::tension) is the u, with
+    /// `subdivisions` K from 0 to 1023.
     ///
-    /// **Errors**: [`PlanError::Subdivisions`] outside this range.
+    /// **Errors**: [`PlanError::Subdivisions`] above that.
     pub fn new(layout: &Layout, subdivisions: u32) -> Result<Self, PlanError> {
         let tension = layout.tension();
         if subdivisions > SUBDIVISIONS_MAX {
@@ -68,7 +68,7 @@ impl Sampling {
         self.s
     }
 
-    /// `1 / (K + 1)` as `f32`: ring k of an interval lies at t = k times this, one rounding on
+    /// `1 / (K + 1)` as `f32`. Ring k of an interval lies at t = k times this, with one rounding on
     /// every device.
     #[must_use]
     #[inline]
@@ -76,8 +76,8 @@ impl Sampling {
         self.step
     }
 
-    /// Rings of a yarn of `points` control points: `(points - 1)(K + 1) + 1` open,
-    /// `points (K + 1) + 1` closed.
+    /// The rings of a yarn of `points` control points: `(points - 1)(K + 1) + 1` if open, `points
+    /// (K + 1) + 1` if closed.
     #[must_use]
     pub const fn rings(&self, points: u64, closed: bool) -> u64 {
         let intervals = if closed { points } else { points - 1 };
@@ -87,7 +87,7 @@ impl Sampling {
     /// The spline at ring `ring` of a yarn, whose *padded* control points start at `padded[0]`.
     ///
     /// `rings` is the yarn's ring count. Ring `j (K + 1) + k` lies at t = k / (K + 1) of interval
-    /// j; the last ring of an open yarn at t = 1 of its last interval.
+    /// j. The last ring of an open yarn lies at t = 1 of its last interval.
     #[must_use]
     #[inline]
     pub fn sample(&self, padded: &[ControlPoint], ring: u32, rings: u32, closed: bool) -> RingSample {
@@ -107,21 +107,21 @@ impl Sampling {
         }
     }
 
-    /// The length of the spline from ring `ring`, not the yarn's last, to the next one. `padded` is
-    /// as in [`Sampling::sample`].
+    /// The length of the spline from ring `ring` to the next. `ring` must not be the yarn's last.
+    /// `padded` is as in [`Sampling::sample`].
     #[must_use]
     #[inline]
     pub fn step_length(&self, padded: &[ControlPoint], ring: u32) -> ArcLength {
         let per_interval = self.subdivisions + 1;
         let (interval, part) = ((ring / per_interval) as usize, ring % per_interval);
         let window = [padded[interval], padded[interval + 1], padded[interval + 2], padded[interval + 3]];
-        // Not by the step, whose last multiple may be a bit off 1.
+        // Not a multiple of the step: its last multiple may differ from 1 in the last bit.
         let end = if part + 1 == per_interval { 1.0 } else { (part + 1) as f32 * self.step };
         ArcLength::from_mm(Segment::new(&window, self.s).length(part as f32 * self.step, end))
     }
 }
 
-/// The spline at a ring, with what the step to the next ring needs.
+/// The spline at a ring, with the data for the step to the next ring.
 #[derive(Debug, Clone, Copy)]
 pub struct RingSample {
     /// The spline there.
@@ -133,8 +133,8 @@ pub struct RingSample {
 }
 
 impl RingSample {
-    /// The way from this ring's centre to the next one's, mm, from offsets within the interval, so
-    /// that it keeps its digits far from the origin.
+    /// The vector from this ring's centre to the next one's, mm. It is made from offsets within the
+    /// interval, so it keeps its digits far from the origin.
     #[must_use]
     #[inline]
     pub fn chord_to(&self, next: &Self) -> glam::Vec3 {

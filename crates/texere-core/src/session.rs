@@ -1,4 +1,4 @@
-//! One fabric on one device: the rules of its calls, and what is in flight.
+//! A session: one fabric on one device. It keeps the order of calls and the chunks in flight.
 
 mod error;
 
@@ -11,27 +11,16 @@ use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
 };
 use crate::settling::{Settler, SettlingYarn};
+use crate::traffic::Traffic;
 use crate::{Backend, BackendError, ControlPoint, Limits, Vertex};
 
 pub use self::error::SessionError;
 
-/// Bytes that a session has moved between host and device, so far. A backend that works in the
-/// host's own memory lends its results where they lie, so it reads none back.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Traffic {
-    /// Control points, their virtual ends included, sent by [`Session::upload`] or
-    /// [`Session::take_settled`]. Tables are not counted: they are sent once.
-    pub uploaded: u64,
-    /// Rings, vertices, packed or not, and indices that came back, and control points of a settler
-    /// on another device.
-    pub read: u64,
-}
-
-/// One fabric on one device: upload, scan, then the stages chunk by chunk.
+/// One fabric on one device: upload and scan, then the stages chunk by chunk.
 ///
-/// Chunks come from [`Plan::chunks`] of the session's plan, with the device's limits or stricter
-/// ones. Two may be in flight; running a stage for a third may use the memory of the oldest again.
-/// [`Pipeline`](crate::Pipeline) does all this; by hand it reads
+/// Chunks come from [`Plan::chunks`] of the session's plan, cut to the device's limits or stricter
+/// ones. Two chunks may be in flight: a stage for a third may reuse the memory of the oldest.
+/// [`Pipeline`](crate::Pipeline) does all this. By hand it reads
 ///
 /// ```
 /// use std::{ops::ControlFlow, sync::Arc};
@@ -65,17 +54,17 @@ pub struct Session<E: Engine + ?Sized = dyn Engine> {
     scanned: bool,
     measured: bool,
     in_flight: [InFlight; 2],
-    /// The slot that the next new chunk takes.
+    /// The slot for the next new chunk.
     next: Slot,
     traffic: Traffic,
     engine: Box<E>,
 }
 
-/// What lies in a slot.
+/// The contents of a slot.
 #[derive(Debug, Default)]
 struct InFlight {
-    /// The tables that are there. The chunk's index would not do: chunks of another cut have the
-    /// same ones.
+    /// The tables in the slot. A chunk's index can't stand for them: chunks of different cuts share
+    /// indices.
     tables: Option<TablesId>,
     has_rings: bool,
     has_mesh: bool,
@@ -90,18 +79,18 @@ impl InFlight {
 }
 
 impl Session {
-    /// Starts work on a plan on `device`.
+    /// Starts a session for a plan on `device`.
     ///
-    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not
-    /// allow it.
+    /// **Errors**: [`SessionError::Backend`] if memory is short, or the device or its schedule
+    /// can't do the work.
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Ok(Self::with_engine(device.engine(plan.clone())?, device.info().limits, plan))
     }
 }
 
 impl<E: Engine + ?Sized> Session<E> {
-    /// Starts work on `plan` with an engine that was opened for it, on a device of `limits`. For
-    /// backends whose engines can do more than the trait [`Engine`].
+    /// Starts a session for `plan` with an engine that was opened for it, on a device of `limits`.
+    /// For backends whose engines can do more than the trait [`Engine`].
     #[must_use]
     pub fn with_engine(engine: Box<E>, limits: Limits, plan: Arc<Plan>) -> Self {
         Self {
@@ -116,15 +105,15 @@ impl<E: Engine + ?Sized> Session<E> {
         }
     }
 
-    /// Cuts a scan's chunks to `limits` where the device's own are wider: as the caller cuts those
-    /// of the stages, so that their tables are sent once.
+    /// Cuts a scan's chunks to `limits` where they are stricter than the device's own. With the
+    /// limits that the caller cuts chunks to, tables are sent once for scan and stages.
     #[must_use]
     pub fn with_limits(mut self, limits: &Limits) -> Self {
         self.limits = self.limits.min(limits);
         self
     }
 
-    /// The plan that it works on.
+    /// The plan of the session.
     #[must_use]
     pub const fn plan(&self) -> &Arc<Plan> {
         &self.plan
@@ -136,13 +125,14 @@ impl<E: Engine + ?Sized> Session<E> {
         &self.engine
     }
 
-    /// Takes control points, the first of which is number `first` of the fabric: any range, so that
-    /// a generator can feed block by block and an edit send one yarn. Points that never came are
-    /// zeros. They are taken as they are: [`Yarns`](crate::Yarns) are sound, others a caller may
-    /// check with [`check_points`](crate::check_points).
+    /// Takes control points, the first of which is number `first` of the fabric. Any range is
+    /// allowed: a generator can feed block by block, and an edit can send one yarn. Points that
+    /// never come are zeros. The session does not check positions and sizes: points of
+    /// [`Yarns`](crate::Yarns) are sound, and [`check_points`](crate::check_points) checks any
+    /// others.
     ///
-    /// **Errors**: [`SessionError::UploadRange`] past the last control point, and what the device
-    /// says.
+    /// **Errors**: [`SessionError::UploadRange`] past the last control point, and
+    /// [`SessionError::Backend`].
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
         let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
         if end > total {
@@ -153,12 +143,13 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Takes all control points from where a settler has left them. Where it works on the same
-    /// device they never leave that. Which yarns are [steep](crate::Layout::is_steep), and how
-    /// outlines [lean](crate::Layout::ups), stays as the plan has it.
+    /// Takes all control points from a settler. If it works on the same device, the points never
+    /// leave that device. The new points change neither which yarns are
+    /// [steep](crate::Layout::is_steep) nor how outlines [lean](crate::Layout::ups): both stay as
+    /// planned.
     ///
     /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of
-    /// control points than the plan's, and what either device says.
+    /// control points than the plan's, and [`SessionError::Backend`] of either device.
     pub fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<(), SessionError> {
         let points = |strand: &SettlingYarn| u64::from(strand.points);
         let settled = settler.plan().strands().iter().map(points);
@@ -173,11 +164,11 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 
     /// Works out the roll at each block's start, and the whole turn of each closed yarn: once after
-    /// uploads. There is nothing to do where [`Plan::needs_scan`] is false, or nothing was uploaded
-    /// since.
+    /// uploads. Does nothing if [`Plan::needs_scan`] is false, or if nothing was uploaded since the
+    /// last scan.
     ///
-    /// **Errors**: [`SessionError::Plan`] where the device's limits hold no block, and what the
-    /// device says.
+    /// **Errors**: [`SessionError::Plan`] if not even one block fits the device's limits, and
+    /// [`SessionError::Backend`].
     pub fn scan(&mut self) -> Result<(), SessionError> {
         if self.plan.needs_scan() && !self.scanned {
             self.go_through(E::scan)?;
@@ -186,10 +177,10 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Works out how long each yarn is at each block's start, for [`Session::attributes`]: once
-    /// after uploads. There is nothing to do where nothing was uploaded since.
+    /// Works out the length of yarn before each block's start, which [`Session::attributes`] needs:
+    /// once after uploads. Does nothing if nothing was uploaded since the last call.
     ///
-    /// **Errors**: [`BackendError::NoAttributes`] and those of [`Session::scan`].
+    /// **Errors**: [`BackendError::NoAttributes`], and the errors of [`Session::scan`].
     pub fn measure(&mut self) -> Result<(), SessionError> {
         if !self.measured {
             self.go_through(E::measure)?;
@@ -203,7 +194,8 @@ impl<E: Engine + ?Sized> Session<E> {
         &mut self,
         scan: impl FnOnce(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
     ) -> Result<(), SessionError> {
-        // A yarn's roll at any place comes from all of it before.
+        // A yarn's roll at any place depends on all of the yarn before it, so a scan covers the
+        // whole plan.
         let whole = self.plan.whole();
         let chunks = whole.chunks(&self.limits)?;
         // Put back only on success: after an error it is unknown which tables are loaded.
@@ -218,19 +210,19 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Stage 1, rings from control points. May return before it is done.
+    /// Stage 1: makes rings from control points. May return before the work is done.
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before a scan that is needed;
-    /// [`SessionError::ForeignChunk`]; and what the device says.
+    /// **Errors**: [`SessionError::OutOfOrder`] before a scan that is needed,
+    /// [`SessionError::ForeignChunk`], and [`SessionError::Backend`].
     pub fn trajectory(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         let slot = self.start("trajectory", chunk)?;
         self.ensure_rings(slot, chunk)
     }
 
-    /// Stage 2, vertices and indices, with stage 1 in it where that has not run for this chunk. May
-    /// return before it is done.
+    /// Stage 2: makes vertices and indices, after stage 1 if that has not run for this chunk. May
+    /// return before the work is done.
     ///
-    /// **Errors**: those of [`Session::trajectory`].
+    /// **Errors**: the errors of [`Session::trajectory`].
     pub fn mesh(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         let slot = self.start_mesh("mesh", chunk)?;
         self.in_flight[slot.index()].has_mesh = false;
@@ -239,12 +231,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 where
-    /// only a fused [`Session::mesh`] has run. A sink that answers `Break` ends the reading, and
-    /// the answer comes back.
+    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 if only a
+    /// fused [`Session::mesh`] has run. If the sink answers `Break`, reading ends and the answer is
+    /// returned.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
-    /// device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and
+    /// [`SessionError::Backend`].
     pub fn read_trajectory(
         &mut self,
         chunk: &Chunk,
@@ -262,11 +254,11 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 
     /// Waits for this chunk's mesh and lends it piece by piece: all vertices in order, then all
-    /// indices in order. The pieces lie in the engine's own or in mapped memory. A sink that
-    /// answers `Break` ends the reading, and the answer comes back.
+    /// indices in order. The pieces lie in the engine's own or in mapped memory. If the sink
+    /// answers `Break`, reading ends and the answer is returned.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
-    /// device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and
+    /// [`SessionError::Backend`].
     pub fn read_mesh(&mut self, chunk: &Chunk, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
         let slot = self.find(chunk, |here| here.has_mesh)?;
         let mut bytes = 0;
@@ -278,8 +270,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// What shaders and textures ask of each vertex of `chunk`, in memory of its own. May return
-    /// before it is done.
+    /// Makes the [attributes](crate::Attribute) of each vertex of `chunk`, for shaders and
+    /// textures, in memory of their own. May return before the work is done.
     ///
     /// ```
     /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
@@ -294,7 +286,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`], and those of
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`], and the errors of
     /// [`Session::trajectory`].
     pub fn attributes(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         self.check_own(chunk)?;
@@ -308,11 +300,11 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 
     /// Waits for this chunk's attributes and lends them piece by piece, in the order of its
-    /// vertices, each piece with the number of its first. A sink that answers `Break` ends the
-    /// reading, and the answer comes back.
+    /// vertices. Each piece comes with the number of its first vertex. If the sink answers `Break`,
+    /// reading ends and the answer is returned.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
-    /// device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and
+    /// [`SessionError::Backend`].
     pub fn read_attributes(
         &mut self,
         chunk: &Chunk,
@@ -328,10 +320,10 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Stage 2 with packed vertices instead of others, 12 bytes each, in memory of their own: no
-    /// mesh is needed for it. They have the order of the mesh's vertices, and come without indices:
-    /// [`Plan::shared_indices`] has those of [`Topology::Shared`](crate::Topology::Shared), which
-    /// is meant for whoever saves memory. May return before it is done.
+    /// Stage 2 with packed vertices, 12 bytes each, in memory of their own. It needs no mesh. They
+    /// have the order of the mesh's vertices and come without indices: [`Plan::shared_indices`] has
+    /// those of [`Topology::Shared`](crate::Topology::Shared), the topology for little memory. May
+    /// return before the work is done.
     ///
     /// ```
     /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
@@ -346,22 +338,22 @@ impl<E: Engine + ?Sized> Session<E> {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`BackendError::NoPacking`], and those of [`Session::trajectory`].
+    /// **Errors**: [`BackendError::NoPacking`], and the errors of [`Session::trajectory`].
     pub fn packed(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         let slot = self.start_mesh("packed", chunk)?;
-        // What an earlier call has left is gone, whatever becomes of this one.
+        // The results of an earlier call are lost even if this one fails.
         self.in_flight[slot.index()].has_packed = false;
         self.engine.packed(slot, chunk)?;
         self.in_flight[slot.index()].has_packed = true;
         Ok(())
     }
 
-    /// Waits for this chunk's packed vertices and lends them piece by piece, in order, each piece
-    /// with the number of its first. A sink that answers `Break` ends the reading, and the answer
-    /// comes back.
+    /// Waits for this chunk's packed vertices and lends them piece by piece, in order. Each piece
+    /// comes with the number of its first vertex. If the sink answers `Break`, reading ends and the
+    /// answer is returned.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the
-    /// device says.
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and
+    /// [`SessionError::Backend`].
     pub fn read_packed(
         &mut self,
         chunk: &Chunk,
@@ -377,10 +369,10 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Runs stage 2 into the caller's slices, which must be exactly as long as planned. The mesh is
-    /// not in flight afterwards.
+    /// Stage 2 with its results in the caller's slices, which must have exactly the planned
+    /// lengths. The mesh is not in flight afterwards.
     ///
-    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and those of
+    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and the errors of
     /// [`Session::mesh`].
     pub fn mesh_into(&mut self, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), SessionError> {
         let lengths = [
@@ -400,15 +392,15 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Sends the tables of `chunk` unless they are there, and starts no stage: for a backend that
-    /// lends them to kernels of its caller's.
+    /// Sends the tables of `chunk` unless they are on the device, and starts no stage. For a
+    /// backend that lends them to its caller's kernels.
     ///
-    /// **Errors**: those of [`Session::trajectory`].
+    /// **Errors**: the errors of [`Session::trajectory`].
     pub fn slot_of_tables(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.start("slot_of_tables", chunk)
     }
 
-    /// Where the mesh of `chunk` lies on the device, for a backend that lends its memory.
+    /// The slot of the mesh of `chunk`, for a backend that lends its memory.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::mesh`] has been called for this chunk.
@@ -416,7 +408,7 @@ impl<E: Engine + ?Sized> Session<E> {
         self.find(chunk, |here| here.has_mesh)
     }
 
-    /// Where the attributes of `chunk` lie on the device, likewise.
+    /// The slot of the attributes of `chunk`, for a backend that lends its memory.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::attributes`] has been called for this chunk.
@@ -424,7 +416,7 @@ impl<E: Engine + ?Sized> Session<E> {
         self.find(chunk, |here| here.has_attributes)
     }
 
-    /// Where the packed vertices of `chunk` lie on the device, likewise.
+    /// The slot of the packed vertices of `chunk`, for a backend that lends its memory.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::packed`] has been called for this chunk.
@@ -432,18 +424,18 @@ impl<E: Engine + ?Sized> Session<E> {
         self.find(chunk, |here| here.has_packed)
     }
 
-    /// Time spent in each stage so far. Waits for all that has been launched.
+    /// The time spent in each stage so far. Waits for all work that has been launched.
     pub fn timings(&mut self) -> StageTimings {
         self.engine.timings()
     }
 
-    /// Bytes moved so far.
+    /// The bytes moved so far.
     #[must_use]
     pub const fn traffic(&self) -> Traffic {
         self.traffic
     }
 
-    /// Earlier results belong to the old points.
+    /// Forgets earlier results, which belong to the old points.
     fn forget_points(&mut self) {
         (self.scanned, self.measured) = (false, false);
         self.in_flight.iter_mut().for_each(InFlight::forget_results);
@@ -455,14 +447,15 @@ impl<E: Engine + ?Sized> Session<E> {
         }
     }
 
-    /// Checks that `chunk` is of this session's plan, and so that its tables fit the plan's counts.
+    /// Checks that `chunk` belongs to this session's plan, so that its tables fit the plan's
+    /// counts.
     fn check_own(&self, chunk: &Chunk) -> Result<(), SessionError> {
         if self.plan.owns(chunk) { Ok(()) } else { Err(SessionError::ForeignChunk { chunk: chunk.index() }) }
     }
 
-    /// The slot of `chunk`, with its tables, for a stage.
+    /// The slot of `chunk` for a stage, with its tables loaded.
     fn start(&mut self, call: &'static str, chunk: &Chunk) -> Result<Slot, SessionError> {
-        // Before any slot is given up: a chunk that is refused takes none.
+        // Checked first: a refused chunk takes no slot.
         self.check_own(chunk)?;
         if self.plan.needs_scan() && !self.scanned {
             return Err(SessionError::OutOfOrder { call, needed: "scan" });
@@ -470,7 +463,7 @@ impl<E: Engine + ?Sized> Session<E> {
         self.seat(chunk)
     }
 
-    /// The slot of `chunk`, with its tables.
+    /// The slot of `chunk`, with its tables loaded.
     fn seat(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
         let (slot, loaded) = claim(&mut self.in_flight, &mut self.next, chunk);
         if !loaded {
@@ -480,7 +473,7 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(slot)
     }
 
-    /// The same for stage 2, with the rings that it reads.
+    /// The slot of `chunk` for stage 2, with the rings that stage 2 reads.
     fn start_mesh(&mut self, call: &'static str, chunk: &Chunk) -> Result<Slot, SessionError> {
         let slot = self.start(call, chunk)?;
         if self.engine.mesh_reads_rings() {
@@ -512,13 +505,13 @@ fn slot_of(in_flight: &[InFlight; 2], chunk: &Chunk) -> Option<Slot> {
     Slot::BOTH.into_iter().find(holds)
 }
 
-/// The slot that holds the tables of `chunk`, and `true`. If none does: the slot that was taken
+/// The slot that holds the tables of `chunk`, and `true`. If no slot does: the slot that was taken
 /// longest ago, emptied, and `false`.
 fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot, bool) {
     if let Some(slot) = slot_of(in_flight, chunk) {
         return (slot, true);
     }
-    // An empty slot first: a chunk that could not be loaded leaves one.
+    // An empty slot goes first: a chunk that could not be loaded leaves one.
     let is_empty = |slot: Slot| in_flight[slot.index()].tables.is_none();
     let slot = if is_empty(other(*next)) && !is_empty(*next) { other(*next) } else { *next };
     *next = other(slot);
@@ -526,7 +519,7 @@ fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot
     (slot, false)
 }
 
-/// The other one of both slots.
+/// The other slot.
 const fn other(slot: Slot) -> Slot {
     Slot::BOTH[1 - slot.index()]
 }
@@ -534,6 +527,6 @@ const fn other(slot: Slot) -> Slot {
 const _: () = {
     const fn sends<T: Send + ?Sized>() {}
     sends::<Session>();
-    // What a session counts as read.
+    // The sizes that a session counts as read.
     assert!(size_of::<Vertex>() == 24 && size_of::<Ring>() == 48);
 };

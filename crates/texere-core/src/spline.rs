@@ -1,7 +1,7 @@
 //! The cubic cardinal spline through the control points (the paper's equations 1 to 4).
 //!
-//! Everything is evaluated on differences from the interval's first point, which is added last:
-//! from absolute coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3
+//! Everything is evaluated on differences from the interval's first point, which is added last.
+//! From absolute coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3
 //! rad.
 
 use std::ops::{Add, Div, Mul, Sub};
@@ -24,7 +24,7 @@ use crate::ControlPoint;
 #[derive(Debug, Clone, Copy)]
 pub struct Segment {
     start: Vec3,
-    /// `P[j+1] - P[j]`: the offset at t = 1, free of rounding.
+    /// `P[j+1] - P[j]`: the offset at t = 1, without rounding.
     span: Vec3,
     /// Coefficients of t, t², t³.
     position: [Vec3; 3],
@@ -32,20 +32,20 @@ pub struct Segment {
     half_height: Size,
     /// The largest difference between a control point and the start along any axis, mm.
     largest: f32,
-    /// A squared velocity up to this counts as zero.
+    /// The largest squared velocity that counts as zero.
     at_rest: f32,
 }
 
-/// What holds a stretch of a [`Segment`].
+/// Bounds of a stretch of a [`Segment`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hull {
     /// The least of its centres, mm.
     pub(crate) low: Vec3,
-    /// The greatest, mm.
+    /// The greatest of its centres, mm.
     pub(crate) high: Vec3,
-    /// The most of its half widths, mm.
+    /// The largest of its half widths, mm.
     pub(crate) half_width: f32,
-    /// The most of its half heights, mm.
+    /// The largest of its half heights, mm.
     pub(crate) half_height: f32,
 }
 
@@ -64,48 +64,48 @@ pub struct Sample {
     pub tangent: Vec3,
     /// The growth of the half width along the yarn (mm per mm), within ±[`SLOPE_LIMIT`].
     pub width_growth: f32,
-    /// The growth of the half height, likewise.
+    /// The growth of the half height along the yarn (mm per mm), within ±[`SLOPE_LIMIT`].
     pub height_growth: f32,
 }
 
-/// A velocity whose square is below this share of the segment's squared size counts as zero.
+/// The share of the segment's squared size below which a squared velocity counts as zero.
 ///
-/// Repeated points and cusps give exact zeros; the share (a millionth of the size) catches those
-/// that rounding moves a little off zero, whose direction would be noise.
+/// Repeated points and cusps give exact zeros. The share (a millionth of the size) also catches
+/// zeros that rounding moves a little, whose direction would be noise.
 pub const ZERO_VELOCITY: f32 = 1e-12;
 
 /// The squared length, mm², up to which a length counts as zero whatever the segment's size: 1e-15
-/// mm. The squares of much shorter ones leave the normal range of `f32`, and some devices flush
+/// mm. The squares of much shorter lengths leave the normal range of `f32`, and some devices flush
 /// them to zero.
 pub const NO_LENGTH: f32 = 1e-30;
 
 /// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is
-/// within 1e-4 rad of the axis, and the square of anything steeper would start to leave the range
+/// within 1e-4 rad of the axis, and the square of anything steeper would begin to leave the range
 /// of `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
 
-/// Half width and half height between two control points never fall below this share of the smaller
-/// one.
+/// The least half width and half height between two control points, as a share of the smaller one
+/// at the two.
 ///
 /// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no
 /// tube.
 pub const RADIUS_FLOOR: f32 = 0.5;
 
-/// Where Gauss and Legendre's rule with eight points tries a function between -1 and 1: at each of
-/// these and its negative.
+/// The nodes of Gauss and Legendre's rule with eight points, for functions between -1 and 1: these
+/// four and their negatives.
 ///
 /// **Source**: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, table 25.4.
 pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_289_84];
 
-/// The weight of each of them, likewise.
+/// The weight of each node and of its negative.
 pub const ARC_WEIGHTS: [f32; 4] = [0.362_683_8, 0.313_706_64, 0.222_381_03, 0.101_228_54];
 
-/// Where the slowest of a rule's places is slower than this share of the fastest, a spline may all
-/// but stand still in between, and its speed has a kink there: then each of [`ARC_PANELS`] parts
-/// has a rule of its own.
+/// The evenness that a single rule needs: the speed at its slowest node over that at its fastest.
+/// Below it the spline may almost stand still in between, and its speed has a kink there. Then each
+/// of [`ARC_PANELS`] parts has a rule of its own.
 pub const ARC_EVEN: f32 = 0.5;
 
-/// The parts that a length is worked out in where the spline's speed is uneven.
+/// The parts of a length where the spline's speed is uneven.
 pub const ARC_PANELS: u32 = 16;
 
 /// s = (1 - tension) / 2, the factor of the spline's tangents (the paper's equation 2), in the
@@ -153,9 +153,9 @@ impl Segment {
 
     /// The spline at `t` in \[0, 1\].
     ///
-    /// Where the velocity vanishes the tangent is the direction that the yarn takes right after
-    /// (right before, at t = 1, a yarn's end): the first derivative that does not vanish, and +x
-    /// where all do.
+    /// At a point without velocity the tangent is the direction that the yarn takes right after
+    /// (right before, at t = 1, a yarn's end): the first derivative that does not vanish, or +x if
+    /// all do.
     #[must_use]
     #[inline]
     pub fn sample(&self, t: f32) -> Sample {
@@ -167,7 +167,7 @@ impl Segment {
             let inverse = 1.0 / speed_squared.sqrt();
             (velocity * inverse, inverse)
         } else {
-            // Where the yarn does not move nothing grows along it.
+            // Nothing grows along a yarn that stands still.
             (self.direction_at_rest(t), 0.0)
         };
         let (half_width, width_growth) = self.half_width.sample(t, inverse);
@@ -183,7 +183,7 @@ impl Segment {
         }
     }
 
-    /// How fast the centre moves at `t`, mm for the whole of the parameter.
+    /// The speed of the centre at `t`, mm per unit of the parameter.
     #[inline]
     fn speed(&self, t: f32) -> f32 {
         let [c1, c2, c3] = self.position;
@@ -191,7 +191,8 @@ impl Segment {
     }
 
     /// The length of the spline between two parameters in \[0, 1\], mm, by Gauss and Legendre's
-    /// rule with eight points; where its speed is [uneven](ARC_EVEN), in [`ARC_PANELS`] parts.
+    /// rule with eight points. If its speed is [uneven](ARC_EVEN), the rule is applied in
+    /// [`ARC_PANELS`] parts.
     ///
     /// ```
     /// use texere_core::definitions::Segment;
@@ -229,14 +230,14 @@ impl Segment {
         (sum * half, slowest >= ARC_EVEN * fastest)
     }
 
-    /// A box that holds the spline's samples between `from` and `to`, and sizes that they do not
-    /// exceed: those of the control points of the stretch as a Bézier curve, made larger by what
-    /// rounding may take from them.
+    /// A box that holds the spline's samples between `from` and `to`, and upper bounds of its
+    /// sizes: those of the stretch's control points as a Bézier curve, enlarged by the rounding
+    /// that samples may have.
     pub(crate) fn hull(&self, from: f32, to: f32) -> Hull {
         let [low, high] = extremes(self.position, Vec3::ZERO, from, to, [Vec3::min, Vec3::max]);
-        // Coefficients are up to 3.5 times as large as the largest difference, and each is rounded
-        // some ten times here and in `sample`: together that is less than 50 units in the last
-        // place of the difference.
+        // Coefficients are up to 3.5 times the largest difference, and each is rounded some ten
+        // times here and in `sample`. Together that is less than 50 units in the last place of the
+        // difference.
         let slack = Vec3::splat(64.0 * f32::EPSILON * self.largest);
         let size = |size: &Size| {
             let [_, most] = extremes(size.terms, size.start, from, to, [f32::min, f32::max]);
@@ -268,8 +269,8 @@ impl Segment {
     }
 }
 
-/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at
-/// `a` and the one after next at `c`.
+/// The coefficients of t, t² and t³ between a point and the next. Relative to the point, the next
+/// lies at `b`, the one before at `a`, and the one after next at `c`.
 #[inline]
 pub(crate) fn coefficients<T>(a: T, b: T, c: T, s: f32) -> [T; 3]
 where
@@ -278,9 +279,9 @@ where
     [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)]
 }
 
-/// The least and the greatest control point, by the two functions, of the Bézier curve that
-/// `start + (terms[0] + (terms[1] + terms[2] t) t) t` is between `from` and `to`: the curve does
-/// not leave them.
+/// The least and the greatest control point, by the two functions, of `start + (terms[0] +
+/// (terms[1] + terms[2] t) t) t` as a Bézier curve between `from` and `to`. The curve stays within
+/// them.
 fn extremes<T>(
     [c1, c2, c3]: [T; 3],
     start: T,
@@ -291,7 +292,7 @@ fn extremes<T>(
 where
     T: Copy + Add<Output = T> + Mul<f32, Output = T>,
 {
-    // The same polynomial of how far along the stretch, from 0 to 1.
+    // The polynomial as a function of the share of the stretch, from 0 to 1.
     let along = to - from;
     let first = start + (c1 + (c2 + c3 * from) * from) * from;
     let (c1, c2, c3) = (
@@ -321,8 +322,7 @@ impl Size {
         Self { start, terms: coefficients(a, b, c, s), floor: start.min(end) * RADIUS_FLOOR }
     }
 
-    /// The size at `t` and its growth along the yarn, where `inverse` is one over the spline's
-    /// speed.
+    /// The size at `t` and its growth along the yarn. `inverse` is one over the spline's speed.
     #[inline]
     fn sample(&self, t: f32, inverse: f32) -> (f32, f32) {
         let [r1, r2, r3] = self.terms;

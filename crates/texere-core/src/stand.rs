@@ -1,36 +1,36 @@
-//! How a yarn stands: whether it is steep, and which up directions its outline leans by.
+//! The stand of a yarn: whether it is steep, and the up directions that its outline leans by.
 
 use std::sync::Arc;
 
 use glam::Vec3;
 
 use crate::ControlPoint;
-use crate::definitions::{Basis, Turn, UPRIGHT_TURN, VERTICAL};
+use crate::definitions::{Basis, Turn, VERTICAL};
+use crate::interval::{intervals, neighbours, tangent};
 use crate::lean::Leaning;
-use crate::mapped::tangent;
-use crate::steep::{carried_steps, intervals, is_flat, runs_straight, upright_turns_beyond, window, wrings};
+use crate::steep::{UPRIGHT_TURN, carried_steps, is_flat, runs_straight, upright_turns_beyond, wrings};
 
-/// By how much the upright frame of a flattened yarn may turn about it within a control interval,
-/// and by how much its ups are turned from control point to control point where it is handed over,
-/// turns: 15 degrees.
+/// The largest turn of the upright frame of a flattened yarn within a control interval, turns: 15
+/// degrees. It is also the largest turn of its ups from control point to control point where they
+/// return to the upright frame.
 ///
-/// With 20 rings of a flat jersey turn by up to 34, since its tangents bend between two points
-/// (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With less a quarter of a
-/// turn takes longer, and the sections of a flat yarn stand off the plane of their cloth for as
-/// far.
+/// With 20 degrees, rings of a flat jersey turn by up to 34, since its tangents bend between two
+/// points (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With less, a quarter
+/// of a turn takes longer, and the sections of a flat yarn stand off the plane of their cloth for
+/// longer.
 const HANDED_OVER: f32 = 15.0 / 360.0;
 
-/// The squared sine of the angle to z within which the upright frame of a flattened yarn does not
-/// count: 15 degrees. Which way the side of a binder points that goes straight down through the
-/// cloth is a matter of how it trembles. Without it a binder is turned on its way down, and still
-/// so where it lies level again (`a_flat_yarn_stands_upright_where_it_lies_flat`).
+/// The squared sine of the angle to z, 15 degrees, within which the upright frame of a flattened
+/// yarn does not count. A binder that goes straight down through the cloth has a side whose
+/// direction is a matter of small tremors. Without this limit a binder is turned on its way down,
+/// and is still turned where it lies level again (`a_flat_yarn_stands_upright_where_it_lies_flat`).
 const NEAR_POLE: f32 = 0.067;
 
-/// Points on either side of the lap of a closed yarn whose ups are looked for: in so many steps of
-/// [`HANDED_OVER`] a frame turns by whole turns.
+/// The points on either side of the lap of a closed yarn that its ups depend on. In this many steps
+/// of [`HANDED_OVER`] a frame makes a whole turn.
 const LAP_POINTS: usize = 24;
 
-/// Whether a yarn is steep, and how its outline leans if it does.
+/// Whether a yarn is steep, and the up directions of its outline if it leans.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stand {
     pub(crate) steep: bool,
@@ -38,9 +38,9 @@ pub(crate) struct Stand {
 }
 
 impl Stand {
-    /// How the yarn through `points` stands, which was given the up directions `ups` or none.
+    /// The stand of the yarn through `points` with the given up directions, or without any.
     ///
-    /// A flattened yarn without ups gets some where the upright frame turns too fast for it.
+    /// A flattened yarn without ups gets some if its upright frame turns too fast.
     pub(crate) fn of(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3]>) -> Self {
         let given = ups.is_some();
         let upright = Self { steep: false, leaning: None };
@@ -53,8 +53,8 @@ impl Stand {
             None => {
                 let tangents: Vec<_> =
                     (0..points.len()).map(|point| tangent(points, closed, point)).collect();
-                // On end the upright frame has no direction, but for a convention that does not
-                // turn with the cloth.
+                // On a vertical yarn the upright frame has no direction but a convention that does
+                // not turn with the cloth.
                 let stands_on_end = tangents.iter().any(|tangent| level(tangent) < VERTICAL);
                 if !stands_on_end && !upright_turns_beyond(points, closed, HANDED_OVER) {
                     return upright;
@@ -67,19 +67,19 @@ impl Stand {
     }
 }
 
-/// The ups of a flattened yarn: those of the upright frame where that turns slowly. Elsewhere, and
-/// near its pole, they are carried along, and turned by [`HANDED_OVER`] at most from point to point
-/// to where it stands further on.
+/// The ups of a flattened yarn. They are those of the upright frame where it turns slowly.
+/// Elsewhere, and near the vertical, they are carried along, and turned by at most [`HANDED_OVER`]
+/// from point to point towards the upright frame further on.
 fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<Vec3> {
     let count = points.len();
-    // How far a frame that is carried along is turned against the upright one at each point.
+    // The turn of a carried frame against the upright one at each point.
     let mut rolls = vec![0.0];
     for interval in intervals(points, closed) {
-        let window = window(points, closed, interval);
+        let window = neighbours(points, closed, interval);
         rolls.push(rolls[interval] + carried_steps(&window).map(|step| f64::from(step.turns())).sum::<f64>());
     }
-    // Round a closed yarn so often that the middle lap has neighbours enough on either side for a
-    // frame to be handed over by half a turn.
+    // A closed yarn is laid out in several laps, so that its middle lap has enough neighbours on
+    // either side for a frame to return by half a turn.
     let laps = if closed { 2 * LAP_POINTS.div_ceil(count) + 1 } else { 1 };
     let whole = rolls[rolls.len() - 1];
     let mut before: Option<f64> = None;
@@ -88,15 +88,15 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
             let (lap, point) = (place / count, place % count);
             let counts = level(&tangents[point]) > NEAR_POLE;
             let upright = counts.then(|| -rolls[point] - lap as f64 * whole)?;
-            // An outline turned by half a turn is the same.
+            // An outline turned by half a turn is the same outline.
             let near = before.map_or(upright, |before| upright - ((upright - before) * 2.0).round() / 2.0);
             before = Some(near);
             before
         })
         .collect();
     let turns = if closed && asked.iter().all(Option::is_none) {
-        // Nothing says how it stands: what a lap turns is spread over its points, for an outline
-        // turned by half a turn is the same.
+        // No point asks for a direction: the turn of a lap is spread over its points, up to half
+        // turns, which leave an outline the same.
         let left = whole - (whole * 2.0).round() / 2.0;
         (0..laps * count)
             .map(|place| -whole * (place / count) as f64 - left * (place % count) as f64 / count as f64)
@@ -118,9 +118,9 @@ fn level(tangent: &Vec3) -> f32 {
     tangent.truncate().length_squared()
 }
 
-/// Turns that follow those asked for, of one place each, as nearly as steps of [`HANDED_OVER`] at
-/// most do: half way between the highest of those that are nowhere above what is asked, and the
-/// lowest that are nowhere below.
+/// The turns nearest to those asked for, one per place, whose steps are at most [`HANDED_OVER`].
+/// They lie half way between two bounds: the highest turns that exceed nothing asked for, and the
+/// lowest that fall below nothing asked for.
 fn followed(asked: &[Option<f64>]) -> Vec<f64> {
     let step = f64::from(HANDED_OVER);
     let bound = |sign: f64| {

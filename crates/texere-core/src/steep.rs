@@ -1,79 +1,75 @@
-//! Yarns that run so steeply somewhere that upright frames would wring them.
+//! Steep yarns: those that upright frames would wring.
 
 use std::f32::consts::TAU;
 use std::iter::once;
-use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
 use crate::definitions::{Segment, Turn};
+use crate::interval::{intervals, neighbours};
 use crate::lean::IntervalLean;
 use crate::{ControlPoint, Frame};
 
-/// By how much an upright frame may turn about a yarn within one control interval, turns: 4
-/// degrees.
+/// The largest turn of an upright frame about a yarn within one control interval, turns: 4 degrees.
+/// Yarns above it are steep.
 ///
 /// Woven threads that keep to their planes turn by nothing, and those that a settled cloth pushes
-/// aside by up to a degree; the loops of knits turn by 10 degrees and more. Two rings are at most
+/// aside by up to a degree. The loops of knits turn by 10 degrees and more. Two rings are at most
 /// an interval apart, so the tube between them is never narrower than cos 2° of its radius.
-pub const UPRIGHT_TURN: f32 = 4.0 / 360.0;
+pub(crate) const UPRIGHT_TURN: f32 = 4.0 / 360.0;
 
-/// Places within an interval between which the turn is added up. With 4 a hairpin through the
-/// vertical was taken for half as much.
+/// The places within an interval between which the turn is added up. With 4 places a hairpin
+/// through the vertical counted for half its turn.
 const PLACES: u32 = 16;
 
-/// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly the
-/// turn of all of it.
+/// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly changes
+/// the turn over the whole of it.
 const S: f32 = 0.5;
 
-/// Whether the upright frame of a yarn turns about it by more than `most`, in turns, within an
-/// interval of `points`, against a frame that is carried along.
+/// Whether the upright frame of a yarn turns about it by more than `most` turns within an interval,
+/// against a frame that is carried along.
 pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: f32) -> bool {
     intervals(points, closed).any(|interval| {
-        let window = window(points, closed, interval);
+        let window = neighbours(points, closed, interval);
         turn_at_most(&window) > most && turn(&window, |_| 0.0) > most
     })
 }
 
-/// Whether the frame that stands by the up directions `ups` of a yarn's points would wring it.
+/// Whether frames along the up directions `ups` of a yarn's points would wring it.
 ///
-/// That of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a flattened
-/// one turns with its ups in any case, and its section goes along, so that its shape stays; but not
-/// where they turn over.
+/// The frame of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a
+/// flattened yarn turns with its ups in any case, and its section goes along, so its shape stays,
+/// unless the ups turn over.
 pub(crate) fn wrings(points: &[ControlPoint], closed: bool, ups: &[Vec3]) -> bool {
     let flat = is_flat(points);
     intervals(points, closed).any(|interval| {
-        let window = window(points, closed, interval);
+        let window = neighbours(points, closed, interval);
         let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
         let lean = IntervalLean::new(&window, ends, S);
         if flat { lean.turns_over() } else { turn(&window, |t| lean.at(t).turns()) > UPRIGHT_TURN }
     })
 }
 
-/// The numbers of a yarn's control intervals.
-pub(crate) const fn intervals(points: &[ControlPoint], closed: bool) -> Range<usize> {
-    0..if closed { points.len() } else { points.len() - 1 }
-}
-
-/// Whether a yarn is flattened anywhere.
+/// Whether a yarn is flattened at any control point.
 pub(crate) fn is_flat(points: &[ControlPoint]) -> bool {
     points.iter().any(|point| !point.is_round())
 }
 
 /// Whether the yarn's direction in plan swings so little that no interval can turn by more than
-/// [`UPRIGHT_TURN`], however steep it is. Woven threads are told by this alone, in some thirty
-/// instructions a control point instead of 450.
+/// [`UPRIGHT_TURN`], however steep it is. This test alone settles woven threads, in some thirty
+/// instructions per control point instead of 450.
 ///
-/// It is the bound of [`turn_at_most`], with the tangent of the swing for the angle and 1 for the
-/// sine of the slope. In plan the middle one of an interval's Bézier velocities goes three times
-/// along the chord, less the two at its ends. Of a yarn that keeps to a plane it may go back, as it
-/// does beside a chord that is much longer, as long as the velocity itself does not.
+/// The bound is that of [`turn_at_most`], with the tangent of the swing for its angle and 1 for the
+/// sine of the slope. In plan, the middle one of an interval's three Bézier velocities is three
+/// times the chord less the two at the ends. In a yarn that keeps to a plane the middle velocity
+/// may point backwards, as it does beside a chord that is much longer, provided the velocity itself
+/// never does.
 pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
     let (first, last) = (&points[0], &points[points.len() - 1]);
     let back = closed.then(|| plan(last, first));
     let start = plan(first, &points[1]);
-    // Virtual ends go on straight.
+    // Virtual ends continue straight.
     let beyond = if closed { start } else { plan(&points[points.len() - 2], last) };
     let bend = |one: Vec2, other: Vec2| (one.perp_dot(other).abs(), one.dot(other));
     let mut here = start;
@@ -89,23 +85,10 @@ pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     })
 }
 
-/// The four control points that steer interval number `interval` of a yarn, virtual ends included.
-pub(crate) fn window(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
-    let count = points.len();
-    let mut window = [0, 1, 2, 3].map(|further| points[(interval + count + further - 1) % count]);
-    if !closed && interval == 0 {
-        window[0] = window[1].reflected(&window[2]);
-    }
-    if !closed && interval + 2 == count {
-        window[3] = window[2].reflected(&window[1]);
-    }
-    window
-}
-
-/// No less than the interval's turn, from its velocity's three Bézier points alone: infinite where
-/// they do not tell.
+/// An upper bound on the interval's turn, from the three Bézier points of its velocity. Infinite if
+/// they give no bound.
 ///
-/// An upright frame turns by the sine of the yarn's slope for each turn of its direction in plan.
+/// An upright frame turns by the sine of the yarn's slope times the turn of its direction in plan.
 fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     let [before, start, end, after] = window.map(|point| point.position());
     let (span, first, last) = (end - start, (end - before) * S, (after - start) * S);
@@ -119,12 +102,12 @@ fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     let highest = velocities.iter().map(|velocity| velocity.z.abs()).fold(0.0, f32::max);
     let swing = plan.map(|velocity| along.perp_dot(velocity).atan2(along.dot(velocity)));
     let swing = swing.iter().fold(0.0, |swing, angle| angle.abs().max(swing));
-    // A cubic's direction may swing out and back.
+    // The factor 4: a cubic's direction may swing out and back, on both sides.
     4.0 * swing / TAU * highest / (highest * highest + least * least).sqrt()
 }
 
-/// The turns between places along the interval of a frame that stands so far, in turns, off the
-/// upright one, added up without regard to sign.
+/// The sum of the absolute turns, from place to place along the interval, of a frame that stands
+/// `lean` turns off the upright one.
 fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     let mut here = lean(0.0);
     let steps = carried_steps(window).enumerate().map(|(place, step)| {
@@ -136,8 +119,7 @@ fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     steps.sum()
 }
 
-/// By how much a frame that is carried along turns against the upright one, from place to place
-/// along the interval.
+/// The turns of a carried frame against the upright one, from place to place along the interval.
 pub(crate) fn carried_steps(window: &[ControlPoint; 4]) -> impl Iterator<Item = Turn> {
     let segment = Segment::new(window, S);
     let mut here = segment.sample(0.0);
@@ -154,8 +136,7 @@ pub(crate) fn carried_steps(window: &[ControlPoint; 4]) -> impl Iterator<Item = 
 mod tests {
     use super::*;
 
-    /// What is told from chords alone is what the turns themselves say, on either side of the
-    /// limit.
+    /// A yarn that runs straight by its chords never turns by more than the limit.
     #[test]
     fn no_yarn_that_runs_straight_is_steep() {
         let mut seed = 1_u32;
@@ -174,7 +155,7 @@ mod tests {
                 })
                 .collect();
             let intervals = if closed { 6 } else { 5 };
-            let most = (0..intervals).map(|interval| turn(&window(&points, closed, interval), |_| 0.0));
+            let most = (0..intervals).map(|interval| turn(&neighbours(&points, closed, interval), |_| 0.0));
             let most = most.fold(0.0, f32::max);
             if runs_straight(&points, closed) {
                 straight += 1;

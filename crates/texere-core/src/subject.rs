@@ -1,9 +1,10 @@
-//! What of a cloth an error is about, so that readers can say where a design says that.
+//! Subjects of errors: the property of a cloth that an error is about, so that readers can name the
+//! line of a design that sets it.
 
 use crate::{BackendError, BoundaryError, CrossingsError, Origin, SettlingError, YarnError};
 
-/// What of a cloth an error is about, in the words of whoever designed it. Numbers are counted from
-/// 1.
+/// The property of a cloth that an error is about, in the words of its designer. Numbers are
+/// counted from 1.
 ///
 /// ```
 /// use texere_core::SettlingError;
@@ -13,35 +14,35 @@ use crate::{BackendError, BoundaryError, CrossingsError, Origin, SettlingError, 
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subject {
-    /// How large it is, and what follows from that.
+    /// The cloth's size, and quantities that follow from it.
     Size,
-    /// How many wales a warp knit has.
+    /// The number of wales of a warp knit.
     Width,
-    /// How many courses a warp knit has.
+    /// The number of courses of a warp knit.
     Height,
-    /// How often a repeat is copied.
+    /// The number of copies of a repeat.
     Copies,
-    /// How its yarns go: its weave, its stitches or its laps.
+    /// The structure: weave, stitches or laps.
     Structure,
-    /// How far wales lie apart.
+    /// The spacing of wales.
     Wales,
-    /// How far courses lie apart.
+    /// The spacing of courses.
     Courses,
-    /// How long loops are.
+    /// The length of loops.
     Loops,
-    /// How far ends lie apart, all of them.
+    /// The spacing of all ends.
     Ends,
-    /// How far picks lie apart, all of them.
+    /// The spacing of all picks.
     Picks,
-    /// How far an end or a pick lies from the one before.
+    /// The spacing of one end or pick from the one before.
     Spacing(Origin),
-    /// How thick a thread is.
+    /// The thickness of a thread.
     Thickness(Origin),
-    /// How flat a thread is.
+    /// The flatness of a thread.
     Flatness(Origin),
-    /// How stiff a thread is.
+    /// The stiffness of a thread.
     Stiffness(Origin),
-    /// How a thread is twisted.
+    /// The twist of a thread.
     Twist(Origin),
     /// The colour or material of a thread.
     Color(Origin),
@@ -49,41 +50,41 @@ pub enum Subject {
     Section(Origin),
     /// The warp's share of the crimp.
     Crimp,
-    /// Which yarns are knitted.
+    /// The carriers of a knit.
     Carriers,
-    /// How many guide bars there are.
+    /// The number of guide bars.
     Bars,
-    /// What the guides of that bar hold.
+    /// The threading of a guide bar.
     Threading(usize),
-    /// Where that bar stands.
+    /// The offset of a guide bar.
     Offset(usize),
-    /// How much yarn that bar takes.
+    /// The run-in of a guide bar.
     RunIn(usize),
-    /// What that bar's Jacquard displaces.
+    /// The Jacquard of a guide bar.
     Jacquard(usize),
-    /// Which length yarns are given while they settle.
+    /// The length that settling gives yarns.
     Length,
-    /// What draws yarns in while they settle.
+    /// The tension that draws yarns in while they settle.
     Tension,
-    /// What a knit is pressed to.
+    /// The thickness that a knit is pressed to.
     Press,
-    /// How far cloth is stretched along its warp.
+    /// The stretch of cloth along its warp.
     WarpStretch,
-    /// How far cloth is stretched along its weft.
+    /// The stretch of cloth along its weft.
     WeftStretch,
-    /// How taut the warp is.
+    /// The tension of the warp.
     WarpTension,
-    /// How taut the weft is.
+    /// The tension of the weft.
     WeftTension,
-    /// How hard woven cloth is pressed.
+    /// The pressure on woven cloth.
     Calender,
 }
 
-// None of these has an arm for all others, so that whoever adds an error says what it is about.
+// The methods below match every variant by name, so that a new error needs a decision.
 
 impl SettlingError {
-    /// What of the cloth it is about. None of memory, of settings that no design has, and of calls
-    /// that don't fit the yarns.
+    /// The property of the cloth that the error is about. `None` for memory, settings that no
+    /// design has, and calls that don't fit the yarns.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {
@@ -104,8 +105,8 @@ impl SettlingError {
 }
 
 impl CrossingsError {
-    /// What of the cloth it is about. None of memory, of settings that no design has, and of calls
-    /// that don't fit the threads.
+    /// The property of the cloth that the error is about. `None` for memory, settings that no
+    /// design has, and calls that don't fit the threads.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {
@@ -132,7 +133,8 @@ impl CrossingsError {
 }
 
 impl BoundaryError {
-    /// What of the cloth it is about. None of calls that don't fit the yarns.
+    /// The property of the cloth that the error is about. `None` for calls that don't fit the
+    /// yarns.
     #[must_use]
     pub const fn subject(&self) -> Option<Subject> {
         match self {
@@ -145,8 +147,8 @@ impl BoundaryError {
 }
 
 impl YarnError {
-    /// What of the cloth it is about; which thread it is it does not know. None of tables that
-    /// don't fit one another, and of splines' tension, which no design says.
+    /// The property of the cloth that the error is about. The thread is unknown here. `None` for
+    /// tables that don't fit one another, and for the tension of splines, which no design sets.
     #[must_use]
     pub const fn subject(&self) -> Option<Subject> {
         Some(match self {
@@ -172,7 +174,7 @@ impl YarnError {
 }
 
 impl BackendError {
-    /// What of the cloth it is about. None of devices, and of memory.
+    /// The property of the cloth that the error is about. `None` for errors of devices and memory.
     #[must_use]
     pub const fn subject(&self) -> Option<Subject> {
         match self {

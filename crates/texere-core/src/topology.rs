@@ -1,33 +1,33 @@
-//! How triangles are encoded.
+//! The encoding of triangles.
 
-/// One of a yarn's two ends.
+/// One of the two ends of a yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum End {
-    /// Where its rings start.
+    /// The end with its first ring.
     Start,
-    /// Where they finish.
+    /// The end with its last ring.
     Finish,
 }
 
-/// How triangles are encoded. They are counter-clockwise seen from outside.
+/// The encoding of triangles, which are counter-clockwise seen from outside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Topology {
-    /// Three `u32` indices a triangle, counted from the chunk's first vertex.
+    /// Three `u32` indices per triangle, counted from the chunk's first vertex.
     #[default]
     Indexed,
-    /// One index pattern for all parts, drawn with a base vertex. Halves the bytes that have to be
+    /// One index pattern for all parts, drawn with a base vertex. It halves the bytes to be
     /// written.
     Shared,
     /// No indices: for a caller who knows the pattern.
     None,
 }
 
-/// The most gaps between rings that the shared pattern covers; longer parts take several draws.
-/// With up to seven sides every index of it fits 16 bits.
-pub const SHARED_GAPS: u64 = 8192;
+/// The most gaps between rings that the shared pattern covers. Longer parts take several draws.
+/// With up to seven sides every index fits 16 bits.
+pub(crate) const SHARED_GAPS: u64 = 8192;
 
 /// The indices of the quads between a ring and the next, counted from the ring's first vertex: six
-/// for each side.
+/// per side.
 ///
 /// ```
 /// let quad = &texere_core::definitions::index_pattern(6)[..6];

@@ -6,9 +6,9 @@
 //! to the bit, so serial, parallel, chunked and GPU scans agree whatever their order.
 //!
 //! The polynomials are those of Moshier's Cephes library (`sinf`, `cosf`, `atanf`, single
-//! precision, 1992), the arctangent's coefficients divided by 2π so that it answers in turns. They
-//! are written out here because a platform's own `sin` differs from the next platform's in the last
-//! bit.
+//! precision, 1992). The arctangent's coefficients are divided by 2π so that the result is in
+//! turns. The polynomials are written out here because `sin` differs from platform to platform in
+//! the last bit.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -28,14 +28,14 @@ pub struct Turn(pub u32);
 /// The sine's coefficients of x³, x⁵ and x⁷, for x within an eighth of a turn.
 pub const SINE: [f32; 3] = [-1.666_665_5e-1, 8.332_161e-3, -1.951_529_6e-4];
 
-/// The cosine's coefficients of x⁴, x⁶ and x⁸, likewise.
+/// The cosine's coefficients of x⁴, x⁶ and x⁸, for x within an eighth of a turn.
 pub const COSINE: [f32; 3] = [4.166_664_6e-2, -1.388_731_6e-3, 2.443_315_7e-5];
 
 /// The arctangent's coefficients of q, q³ and so on to q⁹, in turns, for q up to [`TAN_EIGHTH`].
 pub const ARCTANGENT: [f32; 5] =
     [0.159_154_94, -5.305_101_6e-2, 3.179_573e-2, -2.208_701_8e-2, 1.281_793_2e-2];
 
-/// tan(π/8), where the arctangent's range is cut in two.
+/// tan(π/8), where the arctangent's range is split in two.
 pub const TAN_EIGHTH: f32 = 0.414_213_57;
 
 impl Turn {
@@ -52,8 +52,7 @@ impl Turn {
     #[must_use]
     #[inline]
     pub fn from_turns(turns: f32) -> Self {
-        // In [-1/2, 1/2]; the subtraction may round a hair below -1/2, which `max` takes back into
-        // range.
+        // In [-1/2, 1/2]. The subtraction may round a hair below -1/2, which `max` corrects.
         let wrapped = (turns - (turns + 0.5).floor()).max(-0.5);
         Self(((wrapped * Self::STEPS + 0.5).floor() as i32).cast_unsigned())
     }
@@ -71,7 +70,7 @@ impl Turn {
         f64::from(self.0.cast_signed()) * (std::f64::consts::TAU / f64::from(Self::STEPS))
     }
 
-    /// Sine and cosine, each within 1.2e-7 of the truth.
+    /// Sine and cosine, each within 1.2e-7 of the exact value.
     #[must_use]
     #[inline]
     pub fn sin_cos(self) -> (f32, f32) {
@@ -84,13 +83,13 @@ impl Turn {
         let ([s1, s2, s3], [c1, c2, c3]) = (SINE, COSINE);
         let sin = ((s3 * z + s2) * z + s1) * z * x + x;
         let cos = ((c3 * z + c2) * z + c1) * z * z - 0.5 * z + 1.0;
-        // Without a branch, so that loops over many turns can be vectorised.
+        // Written without a branch, so that loops over many turns can be vectorised.
         let (sin, cos) = if quarter & 1 == 0 { (sin, cos) } else { (cos, sin) };
         (if quarter & 2 == 0 { sin } else { -sin }, if (quarter + 1) & 2 == 0 { cos } else { -cos })
     }
 
-    /// The turn scaled by `part / whole`, rounded to the nearest step: how a closed yarn spreads
-    /// its whole turn.
+    /// The turn scaled by `part / whole`, rounded to the nearest step. A closed yarn spreads its
+    /// whole turn like this.
     #[must_use]
     #[inline]
     pub fn share(self, part: u32, whole: u32) -> Self {
@@ -121,13 +120,9 @@ impl std::iter::Sum for Turn {
 
 /// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], within 3e-8
 /// turns; 0 for (0, 0).
-///
-/// ```
-/// assert_eq!(texere_core::definitions::atan2_turns(1.0, 0.0), 0.25);
-/// ```
 #[must_use]
 #[inline]
-pub fn atan2_turns(y: f32, x: f32) -> f32 {
+pub(crate) fn atan2_turns(y: f32, x: f32) -> f32 {
     let (along, across) = (x.abs(), y.abs());
     let (low, high) = if across > along { (along, across) } else { (across, along) };
     let (numerator, denominator, eighth) =

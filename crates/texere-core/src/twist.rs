@@ -1,5 +1,5 @@
-//! How many rings twist needs: from the twist of yarns and how far apart their control points lie,
-//! before anything is made.
+//! The number of rings that twist needs, worked out from the twist of yarns and the distances of
+//! their control points before anything is made.
 
 use std::fmt;
 
@@ -7,33 +7,34 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::backend::renew_virtual_ends;
-use crate::definitions::{SUBDIVISIONS_MAX, tangent_factor};
+use crate::definitions::tangent_factor;
+use crate::sampling::SUBDIVISIONS_MAX;
 use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 
-/// By how much twist turns a section from one ring to the next at most, radians, where it shows: 30
+/// The largest turn of a section by twist from one ring to the next, where it shows, radians: 30
 /// degrees.
 ///
-/// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of what it is on them. At
-/// half a lobe's turn, 90 degrees of two plies, nobody can tell which way the plies lean; beyond
-/// that they lean the other way.
+/// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of its width on them. At
+/// half a lobe's turn, 90 degrees of two plies, the direction in which plies lean is lost; beyond
+/// that they appear to lean the other way.
 pub const TWIST_STEP: f64 = std::f64::consts::FRAC_PI_6;
 
-/// The same of round yarns in a mesh, radians: 90 degrees. A circle looks the same however it is
-/// turned, so all that shows is that the tube gets narrower between rings, here to cos 45°, 0.71.
-/// It would be wrung, as `check` has it, from 120 degrees on.
+/// The largest turn of a round yarn in a mesh, radians: 90 degrees. A circle looks the same however
+/// it is turned, so the only visible effect is that the tube gets narrower between rings, here to
+/// cos 45°, 0.71. The command `check` counts it as wrung from 120 degrees on.
 const ROUND_STEP: f64 = std::f64::consts::FRAC_PI_2;
 
-/// The most subdivisions that twist alone leads to: 5.3 turns between two control points. A sewing
-/// thread of three plies with 1,200 turns a metre has that where its control points lie 4.4 mm
+/// The most subdivisions that twist alone leads to: 5.3 turns between two control points. A
+/// three-ply sewing thread with 1,200 turns a metre needs them where control points lie 4.4 mm
 /// apart, a woollen yarn of 300 turns a metre at 18 mm.
 pub const TWIST_SUBDIVISIONS_MAX: u32 = 63;
 
-/// The most rings that twist alone leads to in a whole fabric: of six sides 600 MB of mesh. Hostile
-/// twist would else make gigabytes of any cloth of a few hundred threads.
+/// The most rings that twist alone leads to in a whole fabric: 600 MB of mesh with six sides.
+/// Without this limit a hostile twist would make gigabytes of any cloth of a few hundred threads.
 const TWIST_RINGS_MAX: u64 = 1 << 21;
 
-/// A yarn whose twist the rings of a mesh are too far apart for, so that its plies lean the wrong
-/// way or its tube is wrung. Written out, it is a warning of one line.
+/// A warning: the rings of a mesh are too far apart for the twist of a yarn, so that its plies lean
+/// the wrong way or its tube is wrung. Its text is one line.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Pipeline, Section, Settings, Undersampled, Yarn, Yarns};
@@ -53,21 +54,21 @@ const TWIST_RINGS_MAX: u64 = 1 << 21;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Undersampled {
-    /// The yarn of which that is worst.
+    /// The yarn with the worst undersampling.
     pub yarn: usize,
-    /// Where it comes from.
+    /// The yarn's origin.
     pub origin: Origin,
-    /// By how much twist turns it from one ring to the next, radians.
+    /// The turn of the yarn by twist from one ring to the next, radians.
     pub step: f64,
-    /// How much at most is drawn as it is, radians: [`TWIST_STEP`], and three times that for round
-    /// yarns.
+    /// The largest turn that shows correctly, radians: [`TWIST_STEP`], and three times that for
+    /// round yarns.
     pub step_max: f64,
-    /// The fewest subdivisions that do. There may be more than a mesh can have.
+    /// The fewest subdivisions that are enough. A mesh may not allow that many.
     pub needed: u64,
 }
 
 impl Undersampled {
-    /// What a mesh of `yarns` with `settings` does not show of their twist, if anything.
+    /// The warning for a mesh of `yarns` with `settings`, if it undersamples their twist.
     #[must_use]
     pub fn of(yarns: &Yarns, settings: &Settings) -> Option<Self> {
         let most = Turning::most(yarns, step_of_outline)?;
@@ -99,34 +100,34 @@ impl fmt::Display for Undersampled {
 }
 
 impl Settings {
-    /// The usual settings for a mesh of `yarns`: [`Settings::default`], but as many subdivisions as
-    /// [their twist needs](Settings::following), and as many sides as a polygon has
-    /// [corners](crate::Layout::corners).
+    /// The usual settings for a mesh of `yarns`: [`Settings::default`], with the subdivisions that
+    /// [their twist needs](Settings::following) and the sides that a polygon's
+    /// [corners](crate::Layout::corners) need.
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
         Self::sided(yarns).following(yarns)
     }
 
-    /// [`Settings::default`], but for as many sides as a polygon among the sections has corners.
+    /// [`Settings::default`], with as many sides as a polygon among the sections has corners.
     pub(crate) fn sided(yarns: &Yarns) -> Self {
         let usual = Self::default();
         Self { sides: yarns.layout().corners().unwrap_or(usual.sides), ..usual }
     }
 
-    /// The same with so many subdivisions that rings follow the twist of all `yarns`: it turns none
-    /// by more than [`TWIST_STEP`] from one ring to the next, and no round yarn, of which twist
-    /// hardly shows, by more than 90 degrees.
+    /// These settings with enough subdivisions for the twist of all `yarns`: it turns no yarn by
+    /// more than [`TWIST_STEP`] from one ring to the next. A round yarn, whose twist hardly shows,
+    /// may turn by 90 degrees.
     ///
-    /// There are never fewer than before, and never more than [`TWIST_SUBDIVISIONS_MAX`] or than
-    /// make two million rings in all, unless there were before. What is left then is told by
-    /// [`Undersampled::of`].
+    /// The number never falls. It never grows above [`TWIST_SUBDIVISIONS_MAX`], or beyond two
+    /// million rings in all. [`Undersampled::of`] reports the twist that is still undersampled.
     #[must_use]
     pub fn following(self, yarns: &Yarns) -> Self {
         self.with_steps(yarns, Turning::most(yarns, step_of_outline))
     }
 
-    /// The same for pictures, which show fibres, and so the twist of round yarns too: no yarn is
-    /// turned by more than [`TWIST_STEP`], within the same bounds.
+    /// These settings with enough subdivisions for pictures, which show fibres and so the twist of
+    /// round yarns: no yarn turns by more than [`TWIST_STEP`], within the bounds of
+    /// [`Settings::following`].
     #[must_use]
     pub fn following_fibres(self, yarns: &Yarns) -> Self {
         self.with_steps(yarns, Turning::most(yarns, |_| TWIST_STEP))
@@ -141,25 +142,25 @@ impl Settings {
     }
 }
 
-/// By how much a section may be turned from one ring to the next so that its outline is drawn as it
-/// is, radians.
+/// The largest turn of a section from one ring to the next that shows its outline correctly,
+/// radians.
 fn step_of_outline(section: &Section) -> f64 {
     if *section == Section::Circle { ROUND_STEP } else { TWIST_STEP }
 }
 
-/// How far twist turns a yarn.
+/// The turn of a yarn by twist.
 #[derive(Debug, Clone, Copy)]
 struct Turning {
     yarn: usize,
-    /// Radians in the interval between two control points in which that is most, if its rings lay
-    /// there as densely as where they lie furthest apart.
+    /// The turn in radians in the interval with most turn, if all its rings lay as densely as where
+    /// they lie furthest apart.
     interval: f64,
-    /// Radians that it may be from ring to ring.
+    /// The largest allowed turn from ring to ring, radians.
     step_max: f64,
 }
 
 impl Turning {
-    /// The yarn that needs most rings, of those that are twisted. Of equal ones the first.
+    /// The twisted yarn that needs most rings; the first of equal ones.
     fn most(yarns: &Yarns, step_max: impl Fn(&Section) -> f64 + Sync) -> Option<Self> {
         let layout = yarns.layout();
         let turning = |(number, yarn): (usize, &Yarn)| {
@@ -177,12 +178,12 @@ impl Turning {
 
     /// The fewest steps between two control points.
     fn steps(&self) -> u64 {
-        // What rounding adds to a share that is whole is no step.
+        // Rounding may add a little to a whole share. That is no step.
         ((self.share() - 1e-6).ceil() as u64).max(1)
     }
 }
 
-/// The most that twist turns a yarn within an interval, radians.
+/// The largest turn of a yarn by twist within an interval, radians.
 fn turn_of_interval(yarn: &Yarn, points: &[ControlPoint], tension: f32) -> f64 {
     let mut padded = Vec::with_capacity(points.len() + 4);
     padded.extend(points.first());
@@ -191,14 +192,14 @@ fn turn_of_interval(yarn: &Yarn, points: &[ControlPoint], tension: f32) -> f64 {
     renew_virtual_ends(&mut padded, yarn.closed);
     let s = f64::from(tangent_factor::<f32>(tension));
     let fastest = padded.windows(4).map(|window| fastest(window, s)).fold(0.0, f64::max);
-    // A closed yarn gives back up to half a turn along its way, so that its ends meet.
+    // A closed yarn takes back up to half a turn along its way, so that its ends meet.
     let closing = if yarn.closed { std::f64::consts::PI / points.len() as f64 } else { 0.0 };
     f64::from(yarn.twist.abs()) * fastest + closing
 }
 
-/// No less than the spline's greatest speed between the middle two of four points, mm an interval,
-/// and no more than rings that lie evenly in it need by much: a cubic's velocity lies in the hull
-/// of its three Bézier points, here of those of either half.
+/// An upper bound on the spline's speed between the middle two of four points, mm per interval. It
+/// exceeds the need of evenly spaced rings by little: a cubic's velocity lies in the hull of its
+/// three Bézier points, here of those of either half.
 fn fastest(window: &[ControlPoint], s: f64) -> f64 {
     let at = |point: usize| window[point].position().as_dvec3();
     let (span, first, last) = (at(2) - at(1), (at(2) - at(0)) * s, (at(3) - at(1)) * s);

@@ -9,15 +9,15 @@ use texere_core::{ArcLength, Attribute};
 use crate::engine::Work;
 use crate::rolls::block_number;
 
-/// How long `yarn` is from the first ring of its block number `block` to that of the next one, or
-/// to its last ring.
+/// The length of `yarn` from the first ring of its block number `block` to the first ring of the
+/// next block, or to the yarn's last ring.
 pub(crate) fn block_length(plan: &Plan, points: &PaddedPoints, yarn: usize, block: u32) -> ArcLength {
     let (padded, first) = (points.yarn(plan, yarn), block * BLOCK_RINGS);
     let end = (first + BLOCK_RINGS).min(plan.rings(yarn) - 1);
     (first..end).map(|ring| plan.sampling().step_length(padded, ring)).sum()
 }
 
-/// Turns the lengths of a yarn's blocks into those of all blocks before each.
+/// Replaces the length of each of a yarn's blocks by the sum of all blocks before it.
 pub(crate) fn sum_up(blocks: &mut [ArcLength]) {
     let mut along = ArcLength::ZERO;
     for block in blocks {
@@ -31,7 +31,7 @@ pub(crate) fn blocks_of(plan: &Plan, yarn: usize) -> Range<usize> {
     first..first + plan.rings(yarn).div_ceil(BLOCK_RINGS) as usize
 }
 
-/// Makes the attributes of a block: `out` holds those of its vertices.
+/// Writes the attributes of a block's vertices to `out`.
 pub(crate) fn block(work: &Work, block: &Block, out: &mut [Attribute]) {
     let (plan, yarn) = (&work.plan, block.yarn as usize);
     let (padded, rings, closed) = (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
@@ -53,7 +53,8 @@ pub(crate) fn block(work: &Work, block: &Block, out: &mut [Attribute]) {
     }
 }
 
-/// Makes those of caps once those of tubes stand: the end ring's again.
+/// Writes the attributes of caps, which repeat those of the end rings. The attributes of tubes must
+/// be there.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: &mut [Attribute]) {
     let sides = work.plan.settings().sides as usize;
     for cap in chunk.caps() {

@@ -1,4 +1,4 @@
-//! The two backends as a caller opens them.
+//! The two backends, and how a caller opens them.
 
 use std::sync::Arc;
 
@@ -12,13 +12,13 @@ use crate::engine::CpuEngine;
 use crate::parallel::{Parallel, ParallelCrossings, ParallelSettler};
 use crate::serial::{Serial, SerialCrossings, SerialSettler};
 
-/// One thread, one yarn after the other: the reference.
+/// The reference backend: one thread makes one yarn after the other.
 #[derive(Debug)]
 pub struct SerialBackend {
     info: DeviceInfo,
 }
 
-/// All cores, equal ranges of rings: the backend to use where there is no GPU.
+/// The parallel backend: all cores make equal ranges of rings. Use it where there is no GPU.
 #[derive(Debug)]
 pub struct ParallelBackend {
     info: DeviceInfo,
@@ -76,9 +76,9 @@ impl ParallelBackend {
         Ok(Self::with("cpu", Parallel::new()?))
     }
 
-    /// Opens it once for each kind of vectors that the processor has, the widest ones last,
-    /// whatever `TEXERE_SIMD` says: for tests that all kinds give the same. Each one's name says
-    /// which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
+    /// Opens the backend once for each kind of vectors that the processor has, the widest last,
+    /// whatever `TEXERE_SIMD` says. Tests check with it that all kinds give the same bits. The
+    /// names say the kind: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
     ///
     /// ```
     /// use texere_core::Backend;

@@ -5,8 +5,8 @@ use texere_core::{Cap, End, Topology, Vertex};
 
 use crate::engine::Work;
 
-/// Writes the caps of `chunk` once its tube vertices stand: the end ring's positions again, with
-/// the end's own normal.
+/// Writes the caps of `chunk`: the positions of the end ring again, with the end's own normal. The
+/// tube's vertices must be there.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
     let plan = &work.plan;
     let sides = plan.settings().sides as usize;
@@ -26,7 +26,7 @@ pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
     }
 }
 
-/// The normal of a closed end: the tangent there, out of the yarn.
+/// The normal of a cap: the tangent at the yarn's end, pointing out of the yarn.
 pub(crate) fn end_normal(work: &Work, cap: &Cap) -> [f32; 3] {
     let (plan, yarn) = (&work.plan, cap.yarn as usize);
     let rings = plan.rings(yarn);

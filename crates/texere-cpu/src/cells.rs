@@ -1,4 +1,5 @@
-//! Which chords may be neighbours: those in cells side by side.
+//! A grid of cells that chords are sorted into. Only chords in the same cell or in cells side by
+//! side may be neighbours.
 
 use std::ops::Range;
 
@@ -14,26 +15,26 @@ pub(crate) fn owners(plan: &SettlingPlan) -> Vec<u32> {
     owners
 }
 
-/// What is known of all chords when cells are made for them.
+/// How far chords reach, and the longest of them: what cells are made from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extent {
-    /// Where their middles lie, units.
+    /// The least coordinates of their middles, units; `high` are the greatest.
     pub(crate) low: IVec3,
     pub(crate) high: IVec3,
-    /// The longest one, mm.
+    /// The longest chord, mm.
     pub(crate) longest: f32,
 }
 
 impl Extent {
-    /// Of no chords.
+    /// The extent of no chords.
     pub(crate) const NOTHING: Self = Self { low: IVec3::MAX, high: IVec3::MIN, longest: 0.0 };
 
-    /// With a chord more.
+    /// This extent with one more chord.
     pub(crate) fn with(self, middle: IVec3, length: f32) -> Self {
         self.and(Self { low: middle, high: middle, longest: length })
     }
 
-    /// Of both.
+    /// The extent of both.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -43,13 +44,13 @@ impl Extent {
     }
 }
 
-/// Cells over x and y, numbered row by row. A chord's neighbours lie in its own cell or one beside
-/// it.
+/// Cells over x and y, numbered row by row. They are so large that a chord's neighbours lie in its
+/// own cell or one beside it.
 #[derive(Debug)]
 pub(crate) struct Grid {
-    /// Where it begins, units; 0 along an axis that repeats.
+    /// Where the grid begins, units; 0 along an axis that repeats.
     low: [f64; 2],
-    /// One over its width and height.
+    /// One over the grid's width and height.
     inverse: [f64; 2],
     /// Columns and rows.
     count: [u32; 2],
@@ -57,8 +58,8 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Of cells that are as large as `growth` asks, and no more of them than there are chords: a
-    /// cloth may lie scattered over a large field.
+    /// A grid whose cells are as large as `growth` requires. It has no more cells than there are
+    /// chords, for a cloth may lie scattered over a large field.
     pub(crate) fn new(plan: &SettlingPlan, growth: f32, extent: &Extent) -> Self {
         let most = (plan.counts().chords as i64).max(64);
         let mut size =
@@ -68,7 +69,7 @@ impl Grid {
             let open = i64::from(extent.high[axis]) - i64::from(extent.low[axis]) + 1;
             if repeats[axis] { i64::from(plan.period()[axis]) } else { open.max(1) }
         });
-        // So many that each has the size at least.
+        // As many as there can be while each has the size at least.
         let mut count = spans.map(|span| (span / size).max(1));
         while count[0] * count[1] > most {
             size *= 2;
@@ -82,12 +83,12 @@ impl Grid {
         }
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub(crate) const fn cells(&self) -> usize {
         self.count[0] as usize * self.count[1] as usize
     }
 
-    /// The cell of a chord with that middle.
+    /// The cell of a chord whose middle is `middle`.
     #[inline]
     pub(crate) fn cell(&self, middle: IVec3) -> u32 {
         let mut cell = [0; 2];
@@ -99,8 +100,8 @@ impl Grid {
         cell[1] * self.count[0] + cell[0]
     }
 
-    /// The cells beside one and itself, none of them twice: ranges of their numbers, some of them
-    /// empty.
+    /// A cell and those beside it, none of them twice, as ranges of their numbers. Some ranges may
+    /// be empty.
     #[inline]
     pub(crate) fn beside(&self, cell: u32) -> [Range<u32>; 6] {
         let [width, height] = self.count;
@@ -116,7 +117,7 @@ impl Grid {
     }
 }
 
-/// One of `count` columns or rows, and those beside it.
+/// A column (or row) of `count`, and those beside it.
 #[inline]
 fn around(own: u32, count: u32, repeats: bool) -> [Range<u32>; 2] {
     let here = own.saturating_sub(1)..(own + 2).min(count);

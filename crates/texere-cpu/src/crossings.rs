@@ -1,4 +1,4 @@
-//! The memory of crossings, and the step of one: what both schedules share.
+//! What both CPU settlers of crossings share: their memory, and the step of one crossing.
 
 use std::sync::Arc;
 
@@ -6,13 +6,13 @@ use texere_core::BackendError;
 use texere_core::backend::zeroed;
 use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, CrossingsSeen};
 
-/// Where all crossings are.
+/// The states of all crossings.
 #[derive(Debug)]
 pub(crate) struct CrossingsMemory {
     pub(crate) plan: Arc<CrossingsPlan>,
-    /// As they are.
+    /// The crossings as they are.
     pub(crate) crossings: Vec<CrossingState>,
-    /// As others find them in the next pass, and in the one after it.
+    /// The crossings as others find them: in the next pass, and in the one after it.
     pub(crate) found: Vec<CrossingState>,
     pub(crate) next: Vec<CrossingState>,
 }
@@ -25,20 +25,20 @@ impl CrossingsMemory {
         Ok(Self { crossings: room()?, found: room()?, next: room()?, plan })
     }
 
-    /// All crossings as they start.
+    /// Takes the states that crossings start from.
     pub(crate) fn upload(&mut self, crossings: &[CrossingState]) {
         self.crossings.copy_from_slice(crossings);
         self.found.copy_from_slice(crossings);
     }
 
-    /// What others will find is found from now on.
+    /// Ends a pass: what it wrote for others to find is what the next pass finds.
     pub(crate) fn end_pass(&mut self) {
         std::mem::swap(&mut self.found, &mut self.next);
     }
 }
 
-/// Crossing `number` makes its step of a pass, where all were `found`, and goes on to where the
-/// `next` pass finds it.
+/// Crossing `number` makes its step of a pass. It reads all crossings as `found`, and writes to
+/// `next` what the next pass finds of it.
 pub(crate) fn step(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,

@@ -1,4 +1,5 @@
-//! An engine on the CPU: memory and timings; the stages themselves come from an [`Executor`].
+//! The engine on a CPU: it holds memory and takes timings. The stages themselves are an
+//! [`Executor`]'s.
 
 use std::fmt::Debug;
 use std::ops::{ControlFlow, Range};
@@ -17,21 +18,22 @@ use texere_core::{
 use crate::pages;
 use crate::rolls::Rolls;
 
-/// What the stages read.
+/// What all stages read.
 #[derive(Debug)]
 pub(crate) struct Work {
     pub(crate) plan: Arc<Plan>,
     pub(crate) points: PaddedPoints,
     pub(crate) rolls: Rolls,
-    /// How long each yarn is at each block's first ring. Empty until it is asked for.
+    /// The length of its yarn up to each block's first ring. Empty until attributes are asked for.
     pub(crate) lengths: Vec<ArcLength>,
 }
 
-/// One way to run the scan and the two stages on a CPU.
+/// A way to run the scan and the stages on a CPU.
 pub(crate) trait Executor: Copy + Debug + Send + 'static {
-    /// Whether `mesh` and `packed` work out their rings themselves.
+    /// Whether `mesh` and `packed` work out their rings themselves, rather than read those of
+    /// `trajectory`.
     const FUSED: bool;
-    /// The rolls of `yarns`; those of others stay.
+    /// Works out the rolls of `yarns`. The rolls of other yarns stay as they are.
     fn scan(
         self,
         plan: &Plan,
@@ -40,16 +42,18 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
         yarns: Range<usize>,
     ) -> Result<(), BackendError>;
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
-    /// `rings` are those of `chunk`, unless fused.
+    /// Makes the mesh of `chunk`. `rings` are the chunk's; where the executor is
+    /// [`FUSED`](Self::FUSED) they mean nothing.
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>);
-    /// `rings` likewise.
+    /// Makes the packed vertices of `chunk`; `rings` likewise.
     fn packed(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: &mut [PackedVertex]);
-    /// How long `yarns` are at each block's start; `lengths` has one for each block of the plan.
+    /// Works out the lengths of `yarns` up to each block's start. `lengths` has one for each block
+    /// of the plan.
     fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>);
     fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]);
 }
 
-/// Memory of a chunk in flight, which serves the next chunk but one again.
+/// The memory of a chunk in flight. The next chunk but one takes it again.
 #[derive(Debug, Default)]
 struct ChunkMemory {
     rings: Vec<Ring>,
@@ -81,7 +85,7 @@ impl<E: Executor> CpuEngine<E> {
     }
 }
 
-/// Makes `buffer` `length` long; what it held is lost. Memory that is large enough is kept.
+/// Makes `buffer` `length` values long. What it held is lost; memory that is large enough is kept.
 pub(crate) fn resize<T: bytemuck::Zeroable>(
     what: &'static str,
     buffer: &mut Vec<T>,
@@ -122,7 +126,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
         timed(&mut timings.scan, || executor.scan(plan, points, rolls, chunks.yarns()))
     }
 
-    /// A chunk's tables are read where they lie.
+    /// Does nothing else: a chunk's tables are read where they lie.
     fn load(&mut self, slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
         self.memory.resize_with(self.memory.len().max(slot.index() + 1), ChunkMemory::default);
         Ok(())

@@ -1,4 +1,4 @@
-//! Packed vertices, from those of a block.
+//! The packed vertices of caps.
 
 use texere_core::PackedVertex;
 use texere_core::backend::Chunk;
@@ -6,8 +6,8 @@ use texere_core::backend::Chunk;
 use crate::caps::end_normal;
 use crate::engine::Work;
 
-/// Makes those of caps once those of tubes stand: the end ring's positions again, with the end's
-/// own normal.
+/// Writes the packed vertices of caps: the positions of the end ring again, with the end's own
+/// normal. Those of tubes must be there.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: &mut [PackedVertex]) {
     let sides = work.plan.settings().sides as usize;
     for cap in chunk.caps() {

@@ -1,4 +1,4 @@
-//! Rolls at block starts: what a block needs to know of the yarn before it.
+//! Rolls at block starts: all that a block needs to know of the yarn before it.
 
 use texere_core::backend::{BLOCK_RINGS, Block, Plan};
 use texere_core::definitions::Turn;
@@ -22,8 +22,8 @@ impl Rolls {
         self.at_block.get(block as usize).copied().unwrap_or(Turn::ZERO)
     }
 
-    /// The roll of ring `ring` of `yarn` whose steps so far add up to `sum`: a closed yarn gives
-    /// back its share of the whole turn, so that its last ring meets its first.
+    /// The roll of ring `ring` of `yarn`, where steps up to it add up to `sum`. Along a closed yarn
+    /// the whole turn is taken away bit by bit, so that its last ring meets its first.
     pub(crate) fn closed_up(&self, plan: &Plan, yarn: usize, ring: u32, sum: Turn) -> Turn {
         if !plan.yarn(yarn).closed {
             return sum;
@@ -37,7 +37,7 @@ impl Rolls {
     }
 }
 
-/// Number of the block that a row is, counted over all yarns.
+/// The number of the block that `row` describes, counted over all yarns.
 pub(crate) fn block_number(plan: &Plan, row: &Block) -> u64 {
     plan.block_offsets()[row.yarn as usize] + u64::from(row.first_ring / BLOCK_RINGS)
 }

@@ -9,50 +9,50 @@ use crate::weft::WeftError;
 use crate::woven::WovenError;
 use crate::yarn_check::ThreadError;
 
-/// A structure that can't be taken, or whose yarns can't be made or measured. What only one kind of
-/// structure can have wrong is that kind's.
+/// A structure that is refused, or whose yarns can't be made or measured. Each kind of structure
+/// has an error of its own for what only it can have wrong.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FabricError {
-    /// Woven cloth.
+    /// An error of woven cloth.
     #[error(transparent)]
     Woven(#[from] WovenError),
-    /// A weft knit, or the loops of any knit.
+    /// An error of a weft knit, or of the loops of any knit.
     #[error(transparent)]
     Weft(#[from] WeftError),
-    /// A warp knit.
+    /// An error of a warp knit.
     #[error(transparent)]
     Warp(#[from] WarpError),
-    /// A thread, of whatever structure.
+    /// An error of a thread of any structure.
     #[error(transparent)]
     Thread(#[from] ThreadError),
-    /// Memory could not be had.
+    /// The system refused memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// What was made of the structure could not be measured.
+    /// The structure's yarns could not be measured.
     #[error(transparent)]
     Contact(ContactError),
-    /// A boundary that is not that of the yarns.
+    /// A boundary that does not belong to the yarns.
     #[error("the boundary is not that of the yarns")]
     Boundary(#[from] BoundaryError),
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,
-    /// Yarns that are not those that a repeat is laid with.
+    /// Yarns that don't belong to the repeat whose copies are to be placed.
     #[error("yarns of {points}; the repeat's have {planned}", points = counted(*.points, "control point"))]
     OtherYarns {
         /// Control points of the yarns.
         points: u64,
-        /// Control points of the repeat's.
+        /// Control points of the repeat's yarns.
         planned: u64,
     },
-    /// The yarns can't be taken.
+    /// Yarns that the core refuses.
     #[error("the cloth's yarns are not sound")]
     Yarns(#[from] YarnError),
 }
 
 impl From<ContactError> for FabricError {
-    /// Short memory and a request to stop keep their names, whatever met them.
+    /// Short memory and a cancelled call keep their own variants.
     fn from(error: ContactError) -> Self {
         match error {
             ContactError::OutOfMemory(error) => Self::OutOfMemory(error),

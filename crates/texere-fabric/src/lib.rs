@@ -7,19 +7,19 @@
 //! ```
 //!
 //! A [`Drawdown`] says at each crossing whether the warp lies on top. It comes from a weaver's
-//! [`Draft`], from a [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds
-//! what each thread is like and where it lies, and turns all into [`texere_core::Yarns`].
+//! [`Draft`], from a [`Weave`] in its usual notation, or straight from a function. A [`Woven`]
+//! cloth adds what each thread is like and where it lies, and makes [`texere_core::Yarns`] of all.
 //!
 //! A [`Structure`] is the fabric of any design: a [`WovenDesign`], a weft knit ([`weft::Knitted`])
 //! or a warp knit ([`warp::WarpKnitted`]). It says what is wrong with the fabric
 //! ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
-//! Yarns are about where they belong then. [`settle`] lets them come to rest on a device,
-//! [`Structure::settle`] those of a structure; a [`Repeat`] settles once and is copied.
+//! These yarns are about where they belong. [`settle`] lets yarns come to rest on a device,
+//! [`Structure::settle`] the yarns of a structure. A [`Repeat`] settles once and is copied.
 //!
-//! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption,
-//! crimp, cover, weight, thickness), and the diameter of a yarn of known weight ([`diameter_mm`]).
-//! What is measured on yarns alone, whatever their structure, is in [`texere_contact`].
+//! [`Measures`] are what designers ask for: yarn consumption, crimp, cover, weight, thickness.
+//! [`diameter_mm`] gives the diameter of a yarn of known weight. [`texere_contact`] measures yarns
+//! alone, whatever their structure.
 //!
 //! ```
 //! use texere_core::{Material, Section};
@@ -49,19 +49,20 @@ mod yarn_check;
 mod yarn_size;
 
 pub use diagnosis::{
-    ClothClearance, ClothFault, Crossing, Cure, Diagnosis, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
-    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
+    ClothClearance, ClothFault, Crossing, Cure, Diagnosis, Faults, Jams, Pieces, Remedy, StitchPlace,
+    ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use error::FabricError;
-pub use look_alike::{hyphen_look_alike, slash_look_alike};
+pub use look_alike::hyphen_look_alike;
+pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled, settle};
 pub use structure::Structure;
 pub use warning::FabricWarning;
+pub(crate) use woven::POINTS_MAX;
 pub use woven::{
-    CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
-    POINTS_MAX, Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett,
-    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
+    BySet, Crimp, Draft, Drawdown, JamReport, Loom, NO_CROSSING, Pitch, Relief, SPACING_MAX, SPACING_MIN,
+    Sett, Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
     WovenRest,
 };
 pub use yarn_check::ThreadError;

@@ -1,7 +1,7 @@
-//! Signs that look like a hyphen or a slash and are none, as word processors put them in its place.
+//! Signs that look like a hyphen or a slash and are none. Word processors put them in its place.
 
-/// What the first sign of a text is called that looks like a hyphen and is none, with its number in
-/// Unicode.
+/// The name, with its number in Unicode, of the first sign of a text that looks like a hyphen and
+/// is none.
 ///
 /// ```
 /// assert_eq!(texere_fabric::hyphen_look_alike("1\u{2013}0"), Some("an en dash (U+2013)"));
@@ -12,15 +12,9 @@ pub fn hyphen_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(hyphen)
 }
 
-/// What the first sign of a text is called that looks like a slash and is none, with its number in
-/// Unicode.
-///
-/// ```
-/// assert_eq!(texere_fabric::slash_look_alike("2\u{2044}2"), Some("a fraction slash (U+2044)"));
-/// assert_eq!(texere_fabric::slash_look_alike("2/2"), None);
-/// ```
-#[must_use]
-pub fn slash_look_alike(text: &str) -> Option<&'static str> {
+/// The name, with its number in Unicode, of the first sign of a text that looks like a slash and is
+/// none.
+pub(crate) fn slash_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(slash)
 }
 

@@ -1,4 +1,4 @@
-//! What designers and mills ask of a fabric: yarn consumption, crimp, cover, weight, thickness.
+//! Measures that designers and mills ask for: yarn consumption, crimp, cover, weight, thickness.
 
 use std::ops::Range;
 
@@ -10,11 +10,10 @@ use crate::own::Own;
 use crate::reach::{Reach, mean_reach};
 use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
-use crate::{FabricError, Thread, Woven, tex_from_cotton_count};
+use crate::{BySet, FabricError, Thread, Woven, tex_from_cotton_count};
 
-/// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a
-/// cubic, whose turning points are met to 1/64 of an interval, and its height to the square of
-/// that.
+/// Steps at which each interval's height is measured. The spline's height is a cubic: its turning
+/// points are met to 1/64 of an interval, and its height to the square of that.
 const SAMPLES: u32 = 32;
 
 /// A cotton yarn of count Ne 1 is 1/28 inch thick.
@@ -23,7 +22,7 @@ const SAMPLES: u32 = 32;
 /// 1937.
 const PEIRCE: f64 = 28.0;
 
-/// What is known of a cloth once its yarns are laid.
+/// Measures of a cloth and its yarns.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -43,27 +42,27 @@ pub struct Measures {
     /// Length of yarn of each material, mm, in the materials' order. Ends that hang out of a knit
     /// do not count.
     pub length_mm: Vec<f64>,
-    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1, in whole
-    /// repeats. Turns at a selvedge count as weft; of a cloth whose weft turns it is what the mill
-    /// has to wind, not the wave of a pick alone.
+    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. None of a knit. Turns
+    /// at a selvedge count as weft: in a cloth whose weft turns this is what the mill has to wind,
+    /// not the wave of a pick alone.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define it so.
     ///
     /// None of a knit.
-    pub crimp: Option<[f64; 2]>,
-    /// How much of woven cloth its threads cover.
+    pub crimp: Option<BySet<f64>>,
+    /// The cover of woven cloth. None of a knit.
     pub cover: Option<Cover>,
-    /// What only knits have.
+    /// Measures of a knit. None of woven cloth.
     pub knit: Option<KnitMeasures>,
-    /// Weight, g/m², where every material that is used has a tex: length × tex over the cloth's
-    /// area.
+    /// Weight, g/m²: length × tex over the cloth's area. None unless every material that is used
+    /// has a tex.
     pub areal_weight: Option<f64>,
     /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the
     /// highest.
     pub thickness_mm: f64,
 }
 
-/// What knitters ask of a knit beside its weight and thickness.
+/// Measures of a knit beside its weight and thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnitMeasures {
     /// Loops of the whole cloth.
@@ -74,34 +73,35 @@ pub struct KnitMeasures {
     pub loop_length_mm: f64,
     /// Loops to the square centimetre.
     pub stitch_density: f64,
-    /// √tex over the loop length in cm, where every yarn that is used has a tex and it is the same.
+    /// The tightness factor: √tex over the loop length in cm. None unless all yarns that are used
+    /// have one and the same tex.
     ///
     /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11
     /// to 17, 14 to 15 as a rule.
     pub tightness: Option<f64>,
 }
 
-/// How much of the cloth its threads cover, seen from the face.
+/// The share of the cloth that its threads cover, seen from the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
-    /// Peirce's cover factors of the warp and the weft: threads to the inch over √Ne, that is 28
+    /// Peirce's cover factors: threads to the inch over √Ne, that is 28
     /// times the share of width that round cotton yarns of the threads' weight take. It needs the
     /// tex of every material that is used.
     ///
     /// **Source**: Peirce 1937 (K = n/√N; at 28 cotton threads lie side by side).
-    pub factor: Option<[f64; 2]>,
+    pub factor: Option<BySet<f64>>,
     /// Peirce's K₁ + K₂ - K₁ K₂ / 28.
     pub cloth_factor: Option<f64>,
-    /// Share of the width that ends take, of the length that picks take: widths of sections over
-    /// spacings; 1 at most.
-    pub fraction: [f64; 2],
-    /// Share of the area that either covers: c₁ + c₂ - c₁ c₂.
+    /// Share of the width that ends take, and of the length that picks take: widths of sections
+    /// over spacings, 1 at most.
+    pub fraction: BySet<f64>,
+    /// Share of the area that either set covers: c₁ + c₂ - c₁ c₂.
     pub cloth: f64,
 }
 
 impl Measures {
-    /// What is measured of a knit of so many loops, so many wales and courses, and so many mm of
-    /// width and height. `own` is what of each yarn is the cloth's.
+    /// Measures of a knit of `loops`, of `size` wales and courses and `size_mm` width and height.
+    /// `own` is the part of each yarn that is the cloth's.
     pub(crate) fn of_knit(
         yarns: &Yarns,
         own: impl Fn(usize) -> Own + Sync,
@@ -130,10 +130,10 @@ impl Measures {
         }
     }
 
-    /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest. One repeat
-    /// has the numbers that many have: what is measured is whole repeats, as they lie among others.
-    /// What depends on tex is measured in repeats of the weave and of the yarns' tex, or in the
-    /// whole cloth where that is no longer.
+    /// Measures a woven `cloth` and its `yarns`, as they are woven or at rest. Whole repeats are
+    /// measured, as they lie among others, so that one repeat has the numbers of many. Values that
+    /// depend on tex are measured in repeats of the weave and of the yarns' tex, or in the whole
+    /// cloth where that is no longer.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
     /// the cloth's yarns.
@@ -160,7 +160,7 @@ impl Measures {
             threads.map(|(thread, ratio)| Some(tex(thread)? * ratio / extent)).sum::<Option<f64>>()
         });
         Ok(Self {
-            crimp: Some([crimp(0), crimp(1)]),
+            crimp: Some(BySet { warp: crimp(0), weft: crimp(1) }),
             cover: Some(Cover::of(cloth, yarns, whole, by_weight)),
             knit: None,
             areal_weight: weights.into_iter().sum(),
@@ -180,16 +180,16 @@ impl Cover {
         Ok(Self::of(cloth, yarns, cloth.whole(), cloth.whole_by_weight()))
     }
 
-    /// The cover, measured in so many threads of either set as [`Woven::whole`] and
-    /// [`Woven::whole_by_weight`] say.
+    /// The cover, measured in the numbers of threads that [`Woven::whole`] and
+    /// [`Woven::whole_by_weight`] give.
     fn of(cloth: &Woven, yarns: &Yarns, whole: [(usize, f64); 2], by_weight: [(usize, f64); 2]) -> Self {
         let sets = [(cloth.warp(), whole[0]), (cloth.weft(), whole[1])]
             .map(|(set, (count, mm))| (&set[..count], mm));
         let turns = |threads: &[Thread], section: usize| {
             threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
         };
-        // Level, and in the mean of all directions: a twisted thread shows one side after the
-        // other.
+        // Widths of a level section, and in the mean of all directions. A twisted thread shows one
+        // side after the other.
         let widths: Vec<[f32; 2]> = (0..)
             .zip(cloth.sections())
             .map(|(number, section)| {
@@ -209,7 +209,7 @@ impl Cover {
             taken[set] += 2.0 * f64::from(wide) * mean_half_width(points);
         }
         let fraction = [0, 1].map(|set| f64::min(taken[set] / sets[set].1, 1.0));
-        // n / √N added up thread by thread: each has its own count.
+        // n / √N is added up thread by thread, since each has its own count.
         let factors =
             [(cloth.warp(), by_weight[0]), (cloth.weft(), by_weight[1])].map(|(set, (count, across))| {
                 let threads = &set[..count];
@@ -220,17 +220,17 @@ impl Cover {
                 let sum: Option<f64> = threads.iter().map(root).sum();
                 sum.map(|sum| sum / (across / INCH_MM))
             });
-        let factor = if let [Some(warp), Some(weft)] = factors { Some([warp, weft]) } else { None };
+        let factor = if let [Some(warp), Some(weft)] = factors { Some(BySet { warp, weft }) } else { None };
         Self {
             factor,
-            cloth_factor: factor.map(|[warp, weft]| warp + weft - warp * weft / PEIRCE),
-            fraction,
+            cloth_factor: factor.map(|BySet { warp, weft }| warp + weft - warp * weft / PEIRCE),
             cloth: fraction[0] + fraction[1] - fraction[0] * fraction[1],
+            fraction: BySet::of(fraction),
         }
     }
 }
 
-/// Half the width of a yarn in the mean over its length, mm: chords stand for intervals.
+/// Mean half width of a yarn over its length, mm. Chords stand for intervals.
 fn mean_half_width(points: &[ControlPoint]) -> f64 {
     let add = |[sum, length]: [f64; 2], pair: &[ControlPoint]| {
         let chord = f64::from(pair[0].position().distance(pair[1].position()));
@@ -245,8 +245,8 @@ fn mean_half_width(points: &[ControlPoint]) -> f64 {
     }
 }
 
-/// Length of yarn of each material, mm, in the materials' order; `lengths` are the yarns' (see
-/// [`lengths_mm`](texere_contact::lengths_mm)).
+/// Length of yarn of each material, mm, in the materials' order. `lengths` are the yarns' lengths,
+/// mm (see [`lengths_mm`](texere_contact::lengths_mm)).
 #[must_use]
 pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; yarns.materials().len()];
@@ -256,7 +256,7 @@ pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     sums
 }
 
-/// Weight (g) of these lengths (mm) of materials; none where one that is used has no tex.
+/// Weight (g) of lengths (mm) of materials. None where a material that is used has no tex.
 #[must_use]
 pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
     let used = lengths_mm.iter().zip(materials).filter(|(length, _)| **length > 0.0);
@@ -264,15 +264,15 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
     used.map(|(length, material)| Some(length * 1e-6 * f64::from(material.tex?))).sum()
 }
 
-/// From the lowest point of the yarns' surfaces to the highest, mm: centrelines and, above and
-/// below, half the height of the upright sections, or of twisted ones, which turn through every
-/// direction, the furthest that they reach.
+/// Thickness from the lowest point of the yarns' surfaces to the highest, mm. Upright sections
+/// reach half their height above and below the centreline. A twisted section turns through every
+/// direction, and counts with its furthest reach.
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns) -> f64 {
     thickness_within(yarns, |_| 0..usize::MAX)
 }
 
-/// That of the intervals that begin at those control points of each yarn.
+/// Thickness of the intervals that begin at the control points `own` of each yarn.
 fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
     let s = tangent_factor(yarns.tension());
@@ -287,7 +287,7 @@ fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -
         let own = own(yarn);
         for first in own.start..own.end.min(intervals) {
             let four = neighbours(points, what.closed, first);
-            // Nothing lies beyond the Bézier polygon: most intervals can't be the lowest or the
+            // Nothing lies beyond the Bézier polygon. Most intervals can't be the lowest or the
             // highest.
             let heights = bezier(&four.map(|point| point.z), s);
             let thickest = bezier(&four.map(|point| point.half_height()), s).into_iter().fold(0.0, f32::max);
@@ -299,7 +299,8 @@ fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -
             let segment = Segment::new(&four, s);
             for k in 0..=SAMPLES {
                 let sample = segment.sample(k as f32 / SAMPLES as f32);
-                // A section stands on the centreline: where that climbs, it reaches less far up.
+                // A section stands at right angles to the centreline. Where that climbs, the
+                // section reaches less far up.
                 let level = sample.tangent.truncate().length() * sample.half_height;
                 extent[0] = extent[0].min(f64::from(sample.centre.z - level * below));
                 extent[1] = extent[1].max(f64::from(sample.centre.z + level * above));

@@ -1,23 +1,23 @@
-//! What of a yarn is the cloth's own.
+//! The part of a yarn that is the cloth's own.
 
 use std::ops::Range;
 
 use texere_contact::{part_length_mm, round_length_mm};
 use texere_core::{ControlPoint, Yarns};
 
-/// What of a yarn is the cloth's: what lies beyond is cut off where a sample ends, and another
-/// sample would have it elsewhere.
+/// The part of a yarn that is the cloth's. What lies beyond depends on where a sample is cut off.
 #[derive(Debug, Clone)]
 pub(crate) struct Own {
-    /// The control points.
+    /// The range of its control points.
     pub(crate) points: Range<usize>,
-    /// How far its next round lies from this one, mm, where it goes on for ever; the last point
-    /// leads to that one's first.
+    /// The vector (x and y, mm) from this round to the next, of a yarn that goes on for ever. The
+    /// last point then leads to the first of the next round.
     pub(crate) onward: Option<[f64; 2]>,
 }
 
 impl Own {
-    /// The yarn goes on for ever: all its points but so many before and beyond.
+    /// The part of a yarn that goes on for ever: all its points without `before` at its beginning
+    /// and `beyond` at its end.
     pub(crate) fn round(yarns: &Yarns, yarn: usize, [before, beyond]: [u32; 2], onward: [f64; 2]) -> Self {
         let count = yarns.yarn_points(yarn).map_or(0, <[ControlPoint]>::len);
         let points = before as usize..count.saturating_sub(beyond as usize);
@@ -27,7 +27,7 @@ impl Own {
         Self { points, onward: Some(onward) }
     }
 
-    /// The intervals that begin at its points: where it ends, none does at the last one.
+    /// The intervals of the part. Where the yarn ends none begins at its last point.
     pub(crate) fn intervals(&self) -> Range<usize> {
         let Range { start, end } = self.points;
         start..end.saturating_sub(usize::from(self.onward.is_none()))

@@ -1,24 +1,24 @@
-//! How far sections reach, as they stand untwisted and as twist turns them.
+//! Reach of sections, untwisted and turned by twist.
 
 use texere_core::{Section, SectionPoint};
 
 /// Points at which a section is measured.
 const POINTS: u32 = 1024;
 
-/// By how much sizes may be wrong that are worked out in `f32`.
+/// The relative error of sizes computed in `f32`.
 const ROUNDING: f32 = 1e-5;
 
-/// How far a section reaches from the centreline, in halves of the yarn's width and height.
+/// Reach of a section from the centreline, in halves of the yarn's width and height.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
     /// To either side, untwisted.
     pub(crate) width: f32,
     /// Down and up, untwisted.
     pub(crate) heights: [f32; 2],
-    /// In the furthest of all directions: twist turns it to every side.
+    /// In the furthest direction. Twist turns it to every side.
     pub(crate) furthest: f32,
-    /// By how much the ellipse of this width and height has to grow to hold the section: 1 but for
-    /// boxy ones.
+    /// The factor by which the ellipse of this width and height has to grow to hold the section: 1
+    /// but for boxy sections.
     boxiness: f32,
 }
 
@@ -39,8 +39,8 @@ impl Reach {
         }
     }
 
-    /// Half width and half height of the ellipse, or of the circle that a twisted section turns in,
-    /// that threads which cross make room for.
+    /// Half width and half height of the room that crossing threads leave the section: an ellipse,
+    /// or the circle that a twisted section turns in.
     pub(crate) fn room(&self, twist: f32) -> [f32; 2] {
         if twist != 0.0 {
             return [self.furthest; 2];
@@ -49,8 +49,8 @@ impl Reach {
     }
 }
 
-/// The mean of how far a section reaches in each direction: its hull's perimeter over a full turn
-/// (Cauchy 1832).
+/// Mean reach of a section over all directions: its hull's perimeter over a full turn (Cauchy
+/// 1832).
 pub(crate) fn mean_reach(section: &Section) -> f32 {
     let outline = section.outline(POINTS);
     let reach = |k: u32| {

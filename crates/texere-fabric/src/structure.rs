@@ -11,7 +11,7 @@ use crate::{
     FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, Stretch, WovenDesign,
 };
 
-/// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
+/// How the yarns of a fabric interlace, for any kind of fabric.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -37,7 +37,7 @@ pub enum Structure {
 }
 
 impl Structure {
-    /// The woven design, where the fabric is woven: for what only weaving has, such as a draft.
+    /// The woven design, with what only weaving has, such as a draft. None of a knit.
     #[must_use]
     pub const fn woven(&self) -> Option<&WovenDesign> {
         match self {
@@ -46,7 +46,7 @@ impl Structure {
         }
     }
 
-    /// The knit, where the fabric is weft-knitted: for what only knits have, such as stitches.
+    /// The weft knit, with what only weft knits have, such as stitches. None of any other fabric.
     #[must_use]
     pub const fn knitted(&self) -> Option<&Knitted> {
         match self {
@@ -55,7 +55,7 @@ impl Structure {
         }
     }
 
-    /// The warp knit, where the fabric is one: for what only warp knits have, such as guide bars.
+    /// The warp knit, with what only warp knits have, such as guide bars. None of any other fabric.
     #[must_use]
     pub const fn warp_knitted(&self) -> Option<&WarpKnitted> {
         match self {
@@ -76,10 +76,10 @@ impl Structure {
         }
     }
 
-    /// What settles by contact, and how often it lies in the fabric: one repeat of a knit that has
-    /// any (see [`Knitted::repeat`] and [`WarpKnitted::repeat`]); else the whole fabric, once.
-    /// Woven cloth has its crossings, and does not need it: its piece is for
-    /// [`settle`](crate::settle), cut off at its edges and held there.
+    /// The piece that settles by contact, and the number of its copies in the fabric. A knit has
+    /// one repeat (see [`Knitted::repeat`] and [`WarpKnitted::repeat`]), or the whole fabric where
+    /// it has none. Woven cloth settles by its crossings instead: its piece is the whole cloth, cut
+    /// off at its edges and held there, for use with [`settle`](crate::settle).
     ///
     /// **Errors**: those of [`Structure::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
@@ -90,20 +90,20 @@ impl Structure {
         }
     }
 
-    /// The fabric's yarns from those of its `repeat`, settled or not: copies side by side, cut off
-    /// as [`Structure::settle`] has them.
+    /// The fabric's yarns, made of those of its `repeat`, settled or not. Copies lie side by side
+    /// and are cut off as [`Structure::settle`] cuts them.
     ///
-    /// **Errors**: those of [`Repeat::laid`].
-    pub fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    /// **Errors**: those of [`Repeat::placed`].
+    pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         match self {
-            Self::Woven(_) => repeat.laid(yarns),
-            Self::Weft(knit) => knit.laid(repeat, yarns),
-            Self::Warp(knit) => knit.laid(repeat, yarns),
+            Self::Woven(_) => repeat.placed(yarns),
+            Self::Weft(knit) => knit.placed(repeat, yarns),
+            Self::Warp(knit) => knit.placed(repeat, yarns),
         }
     }
 
-    /// `finish` with what becomes of the lengths of [`Structure::repeat`], where it does not say:
-    /// see [`Knitted::finish_of`] and [`WarpKnitted::finish_of`].
+    /// `finish` with the structure's own choice of lengths for [`Structure::repeat`], where
+    /// `finish` makes none: see [`Knitted::finish_of`] and [`WarpKnitted::finish_of`].
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         match self {
@@ -117,8 +117,8 @@ impl Structure {
     /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
     /// [`WarpKnitted::settle`]). `tension` is that of the splines of all yarns, from 0 to below 1.
     ///
-    /// **Errors**: those of these; [`FinishError::Woven`] where `finish` asks of woven cloth for a
-    /// length, a press or a course.
+    /// **Errors**: the errors of the method called for each kind; [`FinishError::Woven`] where
+    /// `finish` asks a length, a press or a course of woven cloth.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -153,8 +153,8 @@ impl Structure {
     }
 
     /// Stretches woven cloth along one set of its threads, all of which keep their length: see
-    /// [`Woven::stretched`](crate::Woven::stretched). Gives `finish` with the tensions that go with
-    /// it, for [`Structure::settle`]. A knit stays as it is.
+    /// [`Woven::stretched`](crate::Woven::stretched). Returns `finish` with the tensions that go
+    /// with the stretch, for [`Structure::settle`]. A knit stays as it is.
     ///
     /// **Errors**: those of [`Woven::stretched`](crate::Woven::stretched); the cloth is then as it
     /// was.
@@ -172,9 +172,9 @@ impl Structure {
         Ok(finish)
     }
 
-    /// A place on one of the structure's yarns as a designer finds it: by thread and crossing, or
-    /// by wale and course. `yarns` are the structure's own, settled or not. Takes time that grows
-    /// with the stitches of a knit's repeat.
+    /// A place on one of the structure's yarns in a designer's terms: by thread and crossing, or by
+    /// wale and course. `yarns` are the structure's own, settled or not. The time grows with the
+    /// stitches of a knit's repeat.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -218,8 +218,7 @@ impl Structure {
         }
     }
 
-    /// Gives every yarn the same section. Where the design says what to do about jammed threads,
-    /// that is done again.
+    /// Gives every yarn the same section. A woven design relieves its jammed threads again.
     ///
     /// **Errors**: [`FabricError`] where the section is not sound, or threads can't be thinned so
     /// far; the structure is then as it was.
@@ -231,8 +230,8 @@ impl Structure {
         }
     }
 
-    /// What a designer should know of the fabric as its structure puts it, before its yarns settle.
-    /// Of what has come to rest [`Finished::warnings`] says more.
+    /// What a designer should know of the fabric before its yarns settle. [`Finished::warnings`]
+    /// has what shows once they are at rest.
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
@@ -241,8 +240,8 @@ impl Structure {
         }
     }
 
-    /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops.
-    /// `yarns` are the structure's own.
+    /// Yarn consumption, weight and thickness, with crimp and cover of woven cloth and loops of a
+    /// knit. `yarns` are the structure's own.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
     /// the structure's yarns.
@@ -254,8 +253,8 @@ impl Structure {
         }
     }
 
-    /// How near yarns come to one another and how tightly they bend, at places that a designer can
-    /// find: see [`Woven::clearance`](crate::Woven::clearance).
+    /// How near yarns come to one another and how tightly they bend, at places in a designer's
+    /// terms: see [`Woven::clearance`](crate::Woven::clearance).
     ///
     /// **Errors**: those of [`clearance_with_progress`](texere_contact::clearance_with_progress).
     pub fn clearance(
@@ -270,7 +269,8 @@ impl Structure {
         }
     }
 
-    /// Threads of woven cloth that lie too close together as they are woven, if there are any.
+    /// Threads of woven cloth that lie too close together as they are woven. None where all have
+    /// room, and none of a knit.
     #[must_use]
     pub fn jams(&self) -> Option<Jams> {
         match self {
@@ -279,8 +279,8 @@ impl Structure {
         }
     }
 
-    /// Into how many pieces the fabric falls, which of its yarns nothing holds, and which needles
-    /// of a knit never have a loop. Woven cloth may fall into layers
+    /// The pieces that the fabric falls into, the yarns that nothing holds, and the needles of a
+    /// knit that never have a loop. Woven cloth may fall into layers
     /// ([`Drawdown::layers`](crate::Drawdown::layers)), knits into yarns whose loops are not drawn
     /// through one another.
     #[must_use]
@@ -292,8 +292,7 @@ impl Structure {
         }
     }
 
-    /// What is wrong with the fabric before it settles: see
-    /// [`Woven::diagnose`](crate::Woven::diagnose).
+    /// Faults of the fabric before it settles: see [`Woven::diagnose`](crate::Woven::diagnose).
     ///
     /// **Errors**: those of [`Structure::yarns`] and of [`Structure::clearance`].
     pub fn diagnose(
@@ -311,9 +310,9 @@ impl Structure {
         }
     }
 
-    /// What is wrong with the fabric once it has settled to `finished`: jams are not looked for,
-    /// since threads that have found room show it in their clearance. Contacts of a ratio below
-    /// `touching` pierce; [`CLEAR`](texere_contact::CLEAR) is what [`Finished::verdict`] goes by.
+    /// Faults of the fabric once it has settled to `finished`. Jams are not looked for: threads
+    /// that lack room show it in their clearance. Contacts of a ratio below `touching` pierce;
+    /// [`Finished::verdict`] takes [`CLEAR`](texere_contact::CLEAR).
     ///
     /// **Errors**: those of [`Structure::clearance`].
     pub fn diagnose_finished(
@@ -328,8 +327,8 @@ impl Structure {
         Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
     }
 
-    /// Single changes that were tried and help against the faults of `diagnosis`: see
-    /// [`WovenDesign::cures`]. There are none for knits.
+    /// Single changes that help against the faults of `diagnosis`, each of them tried: see
+    /// [`WovenDesign::cures`]. Knits have none.
     pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
         match self {
             Self::Woven(design) => design.cures(diagnosis, progress),

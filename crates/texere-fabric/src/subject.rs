@@ -1,4 +1,4 @@
-//! What of a cloth an error of its structure, or of its settling, is about.
+//! The part of a cloth that an error of its structure, or of its settling, is about.
 
 use texere_core::{Origin, Subject};
 
@@ -6,11 +6,11 @@ use crate::warp::WarpError;
 use crate::weft::WeftError;
 use crate::{FabricError, FinishError, ThreadError, WovenError};
 
-// As in the core, none has an arm for all others.
+// As in the core, no match has an arm for all other variants.
 
 impl FabricError {
-    /// What of the cloth it is about. None of memory, of somebody who asked to stop, of what no
-    /// design says, and of calls that don't fit the cloth.
+    /// The part of the cloth that the error is about. None where no design is at fault: memory, a
+    /// cancelled call, and calls that don't fit the cloth.
     ///
     /// ```
     /// use texere_core::{Origin, Subject};
@@ -35,7 +35,7 @@ impl FabricError {
 }
 
 impl WovenError {
-    /// What of the cloth it is about. None of calls that don't fit the cloth.
+    /// The part of the cloth that the error is about. None of calls that don't fit the cloth.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match *self {
@@ -64,7 +64,7 @@ impl WovenError {
 }
 
 impl WeftError {
-    /// What of the cloth it is about.
+    /// The part of the cloth that the error is about.
     #[must_use]
     pub fn subject(&self) -> Subject {
         match *self {
@@ -85,7 +85,7 @@ impl WeftError {
 }
 
 impl WarpError {
-    /// What of the cloth it is about.
+    /// The part of the cloth that the error is about.
     #[must_use]
     pub fn subject(&self) -> Subject {
         match *self {
@@ -102,7 +102,7 @@ impl WarpError {
 }
 
 impl ThreadError {
-    /// What of the cloth it is about.
+    /// The part of the cloth that the error is about.
     #[must_use]
     pub const fn subject(&self) -> Subject {
         match *self {
@@ -116,8 +116,8 @@ impl ThreadError {
 }
 
 impl FinishError {
-    /// What of the cloth it is about: that of what it holds. None of devices, and of what no design
-    /// says.
+    /// The part of the cloth that the error is about: the subject of the error that it holds. None
+    /// of devices, and of what no design asks for.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         match self {

@@ -1,18 +1,18 @@
-//! What a designer should know about a cloth that can be built all the same.
+//! Warnings about a cloth that can be made all the same.
 
 use std::fmt;
 
 use texere_core::Origin;
 
-/// Something that looks unintended. There is at most one of a kind for the ends and one for the
+/// Something that looks unintended. Each kind comes at most once for the ends and once for the
 /// picks.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FabricWarning {
-    /// Threads that lie closer to the thread before them than both are thick: side by side they
+    /// Threads that lie closer to the thread before them than both are thick. Side by side they
     /// pierce one another.
     Crowded {
-        /// How many do.
+        /// Number of such threads.
         count: usize,
         /// The first of them.
         first: Origin,
@@ -23,10 +23,10 @@ pub enum FabricWarning {
         /// The worst one's spacing, mm.
         spacing_mm: f64,
     },
-    /// Threads too close to the thread before them for those that cross to pass in between: warp
+    /// Threads too close to the thread before them for crossing threads to pass in between. Warp
     /// and weft pierce one another. [`Woven::relieve`](crate::Woven::relieve) can help.
     Jammed {
-        /// How many are.
+        /// Number of such threads.
         count: usize,
         /// The first of them.
         first: Origin,
@@ -37,11 +37,11 @@ pub enum FabricWarning {
         /// The worst one's distance to the thread before, mm.
         pitch_mm: f64,
     },
-    /// A knit that was pressed is thicker than the plates' distance.
+    /// A pressed knit that is thicker than the distance of the plates.
     PressMissed {
         /// The distance that was asked for, mm.
         asked_mm: f64,
-        /// How thick the cloth is, mm.
+        /// The cloth's thickness, mm.
         reached_mm: f64,
     },
 }

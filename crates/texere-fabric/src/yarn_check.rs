@@ -1,13 +1,13 @@
-//! What yarns are checked for, whatever structure they are in.
+//! Checks of yarns of any structure.
 
 use texere_core::{Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, SectionError, TWIST_LIMIT, Yarn};
 use thiserror::Error;
 
-/// A thread of any structure that can't be taken.
+/// A thread, of any structure, that is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ThreadError {
-    /// A radius that is not a number, not positive, or no yarn's.
+    /// A radius that is not a number, or outside its limits.
     #[error("radius of {thread} is {radius_mm} mm, outside {low} to {high} mm")]
     Radius {
         /// The thread.
@@ -59,7 +59,7 @@ pub enum ThreadError {
     },
 }
 
-/// Whether the numbers of all sections are sound.
+/// Checks the numbers of all sections.
 pub(crate) fn sections(sections: &[Section]) -> Result<(), ThreadError> {
     for (section, each) in sections.iter().enumerate() {
         each.validate().map_err(|source| ThreadError::Section { section, source })?;
@@ -67,8 +67,8 @@ pub(crate) fn sections(sections: &[Section]) -> Result<(), ThreadError> {
     Ok(())
 }
 
-/// Whether a yarn's radius (mm) and twist are taken, and whether there are a material and a section
-/// of its numbers. Errors name it by its origin.
+/// Checks a yarn's radius (mm) and twist, and that its material and section exist. Errors name the
+/// yarn by its origin.
 pub(crate) fn yarn(
     yarn: &Yarn,
     radius_mm: f32,

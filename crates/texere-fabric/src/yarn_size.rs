@@ -1,8 +1,7 @@
-//! How thick a yarn of known weight is, and the other way round; its twist by the metre.
+//! Diameters of yarns of known weight and back; twist by the metre.
 //!
 //! A yarn's *count* says how heavy a length of it is. Its diameter follows from how densely its
-//! fibres lie: the density meant here is that of the yarn with the air in it, not that of the
-//! fibre.
+//! fibres lie. Density here is that of the yarn with the air in it, not that of the fibre.
 
 use std::f64::consts::{PI, TAU};
 
@@ -74,8 +73,8 @@ pub fn tex_from_denier(denier: f64) -> f64 {
     denier / 9.0
 }
 
-/// The twist (rad per mm, as yarns and threads have it) of so many turns per metre, as mills and
-/// design files say it.
+/// Twist (rad per mm, the unit of yarns and threads) of a number of turns per metre, the unit of
+/// mills and design files.
 ///
 /// ```
 /// use texere_fabric::{Thread, twist_from_turns_per_m};

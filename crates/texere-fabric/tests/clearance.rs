@@ -1,4 +1,4 @@
-//! Threads must not pierce one another: how near they come, by brute force, in each shape.
+//! Threads must not pierce one another: their distances by brute force, in each shape.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -11,8 +11,8 @@ use texere_fabric::{Crimp, Drawdown, Shape, Thread, Woven};
 use cloths::{cloth, jam, random_bits, random_weave, weave, weaves};
 use oracle::{pierce, round_clearance};
 
-/// Samples of an interval. At the widest pitch tested they lie 1/8 of a diameter apart, which hides
-/// 2e-3 of a diameter of a nearest approach at most.
+/// Samples per interval. At the widest pitch of these tests they lie 1/8 of a diameter apart. A
+/// nearest approach may then be missed by 2e-3 of a diameter at most.
 const SAMPLES: usize = 32;
 
 #[test]
@@ -62,8 +62,8 @@ fn unequal_threads_stay_clear_at_every_crimp() {
 
 #[test]
 fn threads_of_all_sizes_and_spacings_stay_clear() {
-    // Thick and thin by turns, wide apart where the drawdown's bits say so, all with the room that
-    // the thickest need.
+    // Threads are thick and thin by turns, and wide apart where the drawdown's bits are set. All
+    // have the room that the thickest need.
     for seed in 1..=3 {
         let mut bits = random_bits(seed + 100);
         let mut threads = || -> Vec<Thread> {
@@ -135,7 +135,7 @@ fn flat_threads_stay_clear_by_their_surfaces() {
 
 #[test]
 fn flat_cloth_would_be_found_out() {
-    // The measure must see what it is there to see: halve every height, and threads pierce.
+    // The measure is able to fail: at half of every height threads pierce.
     let thread = Thread::new(0.6, 0.1);
     let mut yarns = cloth(Shape::Crossing, weave("3/1"), [thread; 2], Section::Circle).yarns().unwrap();
     for yarn in 0..yarns.layout().yarns().len() {

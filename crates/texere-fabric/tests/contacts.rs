@@ -2,17 +2,19 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
+#[path = "oracle/downhill.rs"]
+mod downhill;
 mod oracle;
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec4Swizzles};
 use proptest::prelude::*;
-use texere_contact::{CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Contact, ContactError, clearance};
+use texere_contact::{CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, ContactError, clearance};
 use texere_core::definitions::Segment;
 use texere_core::{ControlPoint, Material, PlanError, Section, Settings, Yarn, YarnPlace, Yarns};
 use texere_fabric::{NO_CROSSING, Shape, Thread, Weave, Woven};
 
+use downhill::{bend, downhill, four, place};
 use oracle::{ellipse, refined_clearance, round_clearance, surface_clearance};
 
 fn yarns(section: &Section, each: &[(bool, Vec<[f32; 4]>)]) -> Yarns {
@@ -34,8 +36,8 @@ fn cloth(section: Section) -> Yarns {
     cloth.yarns().unwrap()
 }
 
-/// Yarns of random points in a box of 4 mm, thick and thin by turns or each of its own thickness:
-/// they come near one another, pierce, and bend sharply.
+/// Yarns of random points in a box of 4 mm. They are even, or each point has its own thickness.
+/// They come near one another, pierce, and bend sharply.
 fn tangles() -> impl Strategy<Value = Yarns> {
     // The lower bound is a power of two: proptest 1.12 fails an assertion of its own, rarely, where
     // one has digits finer than the upper bound.
@@ -53,8 +55,8 @@ fn tangles() -> impl Strategy<Value = Yarns> {
     })
 }
 
-/// Even yarns of many points, each a step of a few radii from the one before: most intervals that
-/// meet pass by.
+/// Even yarns of many points, each a few radii from the one before. Most intervals that come near
+/// pass by one another.
 fn even_tangles() -> impl Strategy<Value = Yarns> {
     let step = [-0.4..0.4f32, -0.4..0.4f32, -0.4..0.4f32];
     let yarn = (any::<bool>(), [0.0..1.0f32, 0.0..1.0f32, 0.0..1.0f32], prop::collection::vec(step, 8..20));
@@ -70,82 +72,6 @@ fn even_tangles() -> impl Strategy<Value = Yarns> {
     })
 }
 
-/// The control points that steer an interval.
-fn four(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
-    let count = points.len() as isize;
-    let at = |k: isize| match k {
-        -1 if !closed => points[0].reflected(&points[1]),
-        _ if !closed && k == count => points[points.len() - 1].reflected(&points[points.len() - 2]),
-        _ => points[k.rem_euclid(count) as usize],
-    };
-    std::array::from_fn(|k| at(interval as isize + k as isize - 1))
-}
-
-/// A yarn's centreline and radius `at` so many intervals from its first point, by the Catmull-Rom
-/// spline's own polynomials.
-fn place(tangle: &Yarns, yarn: usize, at: f64) -> (DVec3, f64) {
-    let (points, closed) = (tangle.yarn_points(yarn).unwrap(), tangle.layout().yarns()[yarn].closed);
-    let count = points.len() - usize::from(!closed);
-    let at = if closed { at.rem_euclid(count as f64) } else { at.clamp(0.0, count as f64) };
-    let interval = (at as usize).min(count - 1);
-    let t = at - interval as f64;
-    let whole = |point: ControlPoint| point.position().as_dvec3().extend(f64::from(point.half_width()));
-    let [p, q, r, u] = four(points, closed, interval).map(whole);
-    let place = 0.5
-        * (2.0 * q + t * ((r - p) + t * ((2.0 * p - 5.0 * q + 4.0 * r - u) + t * (u - p + 3.0 * (q - r)))));
-    (place.xyz(), place.w)
-}
-
-/// Where the way downhill from a contact of a like tangle ends in this one: the ratio there. None
-/// where that is so near along one yarn that it is no contact, or nearly.
-fn downhill(tangle: &Yarns, from: &Contact) -> Option<f64> {
-    let [one, other] = from.places.each_ref().map(|place| place.yarn);
-    let ratio = |[s, t]: [f64; 2]| {
-        let (a, b) = (place(tangle, one, s), place(tangle, other, t));
-        a.0.distance(b.0) / (a.1 + b.1)
-    };
-    let mut at = from.places.each_ref().map(|place| place.interval as f64 + place.t);
-    let (mut least, mut step) = (ratio(at), 0.01);
-    while step > 1e-7 {
-        let tried = (0..16).map(|k| {
-            let (sin, cos) = (TAU * f64::from(k) / 16.0).sin_cos();
-            [at[0] + step * cos, at[1] + step * sin]
-        });
-        let best = tried.map(|at| (ratio(at), at)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-        if best.0 < least {
-            (least, at) = best;
-            step = f64::min(2.0 * step, 0.01);
-        } else {
-            step /= 2.0;
-        }
-    }
-    // The way along the yarn, by the chords between its points, and round the other way where it is
-    // closed.
-    let way = |[s, t]: [f64; 2]| -> f64 {
-        let knots = (s as usize + 1..t.ceil() as usize).map(|knot| knot as f64);
-        let places: Vec<_> =
-            [s].into_iter().chain(knots).chain([t]).map(|at| place(tangle, one, at).0).collect();
-        places.windows(2).map(|ends| ends[0].distance(ends[1])).sum()
-    };
-    let [s, t] = if at[0] < at[1] { at } else { [at[1], at[0]] };
-    let count = tangle.yarn_points(one).unwrap().len() as f64;
-    let window = 1.01 * FRAC_PI_2 * (place(tangle, one, s).1 + place(tangle, other, t).1);
-    let closed = tangle.layout().yarns()[one].closed;
-    let near = one == other && (way([s, t]) < window || (closed && way([t, s + count]) < window));
-    (!near).then_some(least)
-}
-
-/// The radius of curvature over the yarn's radius, by the Catmull-Rom spline's own derivatives.
-fn bend(points: &[ControlPoint], closed: bool, interval: usize, t: f64) -> f64 {
-    let four = four(points, closed, interval);
-    let [p, q, r, u] = four.map(|point| point.position().as_dvec3());
-    let velocity =
-        0.5 * ((r - p) + 2.0 * t * (2.0 * p - 5.0 * q + 4.0 * r - u) + 3.0 * t * t * (u - p + 3.0 * (q - r)));
-    let acceleration = (2.0 * p - 5.0 * q + 4.0 * r - u) + 3.0 * t * (u - p + 3.0 * (q - r));
-    let radius = f64::from(Segment::new(&four, 0.5).sample(t as f32).half_width);
-    velocity.length().powi(3) / velocity.cross(acceleration).length() / radius
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
@@ -156,8 +82,8 @@ proptest! {
         let brute = refined_clearance(&tangle, 60);
         match between {
             Some(contact) => {
-                // Nothing is nearer than what is reported, and that is there: brute force may see
-                // less.
+                // Nothing is nearer than the contact that is reported, and it is where the report
+                // says. Brute force may find less.
                 prop_assert!(contact.ratio < brute + CLEARANCE_ACCURACY, "{} but {brute}", contact.ratio);
                 let there = contact.places.map(|place| {
                     let points = tangle.yarn_points(place.yarn).unwrap();
@@ -174,8 +100,8 @@ proptest! {
 
     #[test]
     fn no_contact_is_lost_where_even_yarns_pass_by(tangle in even_tangles()) {
-        // The least step of a size, a thousandth, makes a yarn uneven, so that nothing is left out
-        // beforehand.
+        // A thousandth is the smallest step of a size. It makes a yarn uneven, so that no pair is
+        // left out beforehand.
         let mut uneven = tangle.clone();
         for yarn in 0..tangle.layout().yarns().len() {
             let mut points = tangle.yarn_points(yarn).unwrap().to_vec();
@@ -184,8 +110,8 @@ proptest! {
             uneven.set_points(yarn, &points).unwrap();
         }
         let [left_out, whole] = [&tangle, &uneven].map(|yarns| clearance(yarns, &Settings::default()).unwrap());
-        // Of each two yarns the worst contact is compared with where the other tangle's contacts
-        // lead.
+        // For each two yarns, the worst contact is compared with the ends of the ways downhill from
+        // the other tangle's contacts.
         for (tangle, own, others) in [(&tangle, &left_out, &whole), (&uneven, &whole, &left_out)] {
             if own.worst.len().max(others.worst.len()) == CONTACTS_LISTED {
                 continue;
@@ -227,8 +153,7 @@ fn every_crossing_of_a_cloth_is_a_contact() {
     let (warp, weft) = (vec![thread; 20], vec![thread; 16]);
     let mut cloth =
         Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
-    // Steep between its crossings, a round thread comes near those that it crosses there a second
-    // time.
+    // A thread that is steep between its crossings comes near the crossing threads a second time.
     cloth.set_shape(Shape::Crossing);
     let yarns = cloth.yarns().unwrap();
     let report = clearance(&yarns, &Settings::default()).unwrap();
@@ -290,13 +215,13 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert_eq!((report.contacts, report.below_one), (0, 0));
     assert!(report.min.is_infinite());
     assert!((report.curvature_min / 4.0 - 1.0).abs() < 0.02, "{}", report.curvature_min);
-    // As thick as the ring is wide it touches itself across, at the least folding.
+    // A yarn as thick as the ring is wide touches itself across the ring, and nearly folds.
     let thick = clearance(&yarns(&Section::Circle, &[(true, ring(1.9))]), &Settings::default()).unwrap();
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
-/// A section beside its axis folds where it reaches into the bend, and nowhere else. The side of a
-/// ring that is counter-clockwise points to its middle.
+/// A section beside its axis folds only where it reaches into the bend. In a counter-clockwise ring
+/// the section's side points to the middle.
 #[test]
 fn a_polygon_on_the_outer_side_of_a_bend_does_not_fold() {
     let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
@@ -354,7 +279,8 @@ fn flat_yarns_are_measured_by_their_surfaces() {
     assert!((report.min - 0.9).abs() < 1e-3, "{}", report.min);
 }
 
-/// The same with round sections that are flattened, and flatter from place to place.
+/// Round sections that are flattened, also by different amounts along the yarn, are measured as
+/// flat ones are.
 #[test]
 fn flattened_yarns_are_measured_by_their_surfaces() {
     let lay =
@@ -370,16 +296,15 @@ fn flattened_yarns_are_measured_by_their_surfaces() {
     assert!((crossing - 1.05).abs() < 1e-4, "{crossing}");
     let beside = measured(along, [[-3.0, 0.9, 0.0, 0.5, 0.125], [3.0, 0.9, 0.0, 0.5, 0.125]]);
     assert!((beside - 0.9).abs() < 1e-3, "{beside}");
-    // Half way between a flat end and a round one the other yarn, which stays as it is, meets their
-    // mean.
+    // A yarn becomes round from one end to the other. Half way along, the other yarn meets the mean
+    // of both sections.
     let changing = [[-3.0, 0.0, 0.0, 0.5, 0.125], [3.0, 0.0, 0.0, 0.25, 0.25]];
     let middle = measured(changing, [[0.0, -3.0, 0.25, 0.5, 0.125], [0.0, 3.0, 0.25, 0.5, 0.125]]);
     let slope = 0.125 / 6.0;
     assert!((middle - 0.25 / (0.1875 + 0.125)).abs() < slope, "{middle}");
 }
 
-/// Two ellipses that are alike touch where their centres lie twice as far apart as one of them
-/// reaches.
+/// Two equal ellipses touch where the distance of their centres is twice the reach of one.
 #[test]
 fn flattened_yarns_beside_and_above_one_another() {
     let [half_width, half_height] = [0.25f32, 0.125];
@@ -400,8 +325,8 @@ fn flattened_yarns_beside_and_above_one_another() {
     }
 }
 
-/// A plied yarn with a slub, in a coil that comes near itself: which end it is seen from makes no
-/// difference.
+/// A plied yarn that grows thicker, in a coil that comes near itself. The order of its points makes
+/// no difference.
 #[test]
 fn a_plied_yarn_meets_itself_from_either_end() {
     let coil = |reversed: bool| {
@@ -424,7 +349,7 @@ fn a_plied_yarn_meets_itself_from_either_end() {
     assert!((one.min - other.min).abs() < 3e-3, "{} and {}", one.min, other.min);
 }
 
-/// More rings than a mesh may have, where rolls would have to be worked out at each.
+/// More rings than a mesh may have, for a yarn whose roll has to be worked out at each ring.
 #[test]
 fn a_yarn_of_too_many_rings_is_refused() {
     let points: Vec<_> = (0..5_000_000).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect();
@@ -493,8 +418,8 @@ fn yarns_of_one_place_and_of_all_sizes_are_measured() {
     assert!(report.min < 1e-3 && !report.min.is_nan());
 }
 
-/// Two neighbouring ends that are drawn up and down round other picks: their tangent tubes have no
-/// one place to touch in, and the yarns are far apart.
+/// Two neighbouring ends that bend around different picks. Their tangent tubes have no single place
+/// to touch, and the yarns are far apart.
 #[test]
 fn neighbours_that_wave_otherwise_do_not_touch() {
     let ends: [&[[f32; 5]]; 2] = [
@@ -566,12 +491,12 @@ fn a_touch_beside_a_control_point_is_found() {
             .collect();
         yarns.yarn(Yarn::default(), &points);
     }
-    // Tried densely point by point the surfaces touch at 0.9846.
+    // By dense sampling, the surfaces touch at 0.9846.
     let found = clearance(&yarns.build().unwrap(), &Settings::default()).unwrap();
     assert!((found.min - 0.9846).abs() < 2e-3, "{:?}", found.worst);
 }
 
-/// In one valley between two yarns the nearest approach lies beside a less near one.
+/// The nearest approach of two yarns lies beside a less near one, in one valley of their distance.
 #[test]
 fn the_nearer_of_two_approaches_in_a_valley_is_found() {
     let one = vec![
@@ -592,8 +517,7 @@ fn the_nearer_of_two_approaches_in_a_valley_is_found() {
     assert!((found.min - 0.26994).abs() < CLEARANCE_ACCURACY, "{}", found.min);
 }
 
-/// A yarn that is a single point has no length to go along. The other yarn's nearest place to it is
-/// found.
+/// A yarn of equal points has no length. The nearest place of the other yarn to it is found.
 #[test]
 fn a_yarn_without_length_is_met_where_it_lies() {
     let point = vec![[0.0, 0.0, 0.0, 0.1]; 8];
@@ -630,8 +554,8 @@ fn a_contact_just_before_a_knot_is_found() {
     assert!(found.min < 0.162, "{}", found.min);
 }
 
-/// Two yarns cross just where each has a control point, and are symmetric about it: of the four
-/// pairs of intervals one has the contact, whatever rounding says.
+/// Two yarns cross where each has a control point, and are symmetric about it. One of the four
+/// pairs of intervals has the contact, however numbers are rounded.
 #[test]
 fn a_crossing_on_a_control_point_is_one_contact() {
     let mut state = 1_u64;
@@ -644,8 +568,8 @@ fn a_crossing_on_a_control_point_is_one_contact() {
         let out = |point: [f32; 3]| {
             [[-point[0], -point[1], point[2], 0.125], [point[0], point[1], point[2], 0.125]]
         };
-        // The first falls to both sides, the other rises or falls; they cross at any angle but a
-        // flat one.
+        // The first yarn falls to both sides, and the other rises or falls. They cross at any angle
+        // that is not flat.
         let turn = random(0.6, 2.5);
         let [near, far] = [random(0.3, 0.7), random(0.8, 1.5)];
         let height = random(0.1, 0.24);
@@ -660,7 +584,7 @@ fn a_crossing_on_a_control_point_is_one_contact() {
         let middle = f64::from(height) / 0.25;
         let is_there = |place: &YarnPlace| place.position[0].hypot(place.position[1]) < 1e-4;
         let at_knot = found.worst.iter().filter(|contact| contact.places.iter().all(is_there)).count();
-        // Nearer on all sides of the control points they meet elsewhere.
+        // If yarns are nearer beside the control points, they meet elsewhere.
         let round_about = (0..64).map(|k| {
             let (sin, cos) = (TAU * f64::from(k) / 64.0).sin_cos();
             place(&both, 0, 2.0 + 0.05 * cos).0.distance(place(&both, 1, 2.0 + 0.05 * sin).0) / 0.25

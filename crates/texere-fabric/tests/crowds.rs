@@ -1,5 +1,5 @@
-//! How much work clearance takes: it is counted, grows with the control points, and is bounded
-//! whatever the yarns. Yarns thicker than several pitches are told as such.
+//! The work of the clearance report: it is counted, grows with the number of control points, and is
+//! bounded for any yarns. Places with far too much yarn are reported as crowds.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -19,8 +19,8 @@ use texere_fabric::{Shape, Thread};
 use cloths::{cloth, weave, weaves};
 use oracle::round_clearance;
 
-/// Pairs a control point that cloth may take whose yarns are clear of one another; a small cloth in
-/// one cell takes most.
+/// The most pairs per control point in cloth whose yarns are clear of one another. A small cloth in
+/// one cell of the grid takes most.
 const SANE: u64 = 128;
 
 /// Plain cloth of `size` ends and picks, 0.75 mm apart.
@@ -40,7 +40,7 @@ fn yarns(each: impl IntoIterator<Item = (bool, Vec<[f32; 4]>)>) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The clearance of `yarns`, whose work is bounded and whose numbers are numbers.
+/// The clearance of `yarns`. Checks that its work is bounded and that its numbers are finite.
 fn bounded(yarns: &Yarns) -> Clearance {
     let found = clearance(yarns, &Settings::default()).unwrap();
     let limit = CLEARANCE_PAIRS * yarns.points().len() as u64;
@@ -54,7 +54,7 @@ fn bounded(yarns: &Yarns) -> Clearance {
 fn clear_cloth_takes_few_pairs_and_is_no_crowd() {
     for (name, drawdown) in weaves() {
         for shape in [Shape::Round, Shape::Crossing] {
-            // From a little over the least pitch on.
+            // Pitches from a little over the least one.
             for pitch in [1.8, 2.5, 4.0, 6.0] {
                 let threads = [Thread::new(pitch * 0.2, 0.1); 2];
                 let yarns = cloth(shape, drawdown.clone(), threads, Section::Circle).yarns().unwrap();
@@ -76,7 +76,7 @@ fn work_grows_with_the_cloth_however_thick_its_yarns() {
         });
         let each = large.0.pairs / large.1;
         assert!(each < 2 * SANE, "{diameter} mm: {each} pairs a control point");
-        // Four times the cloth, a little over four times the work: it has less edge.
+        // Four times the cloth takes a little over four times the work, because it has less edge.
         assert!(
             large.0.pairs < 6 * small.0.pairs.max(large.1),
             "{diameter} mm: {} and {}",
@@ -89,7 +89,7 @@ fn work_grows_with_the_cloth_however_thick_its_yarns() {
 #[test]
 fn yarns_thicker_than_several_pitches_are_told_with_place_and_thickness() {
     for shape in [Shape::Round, Shape::Crossing] {
-        // Twice the pitch, four times, far too thick.
+        // Threads of twice the pitch, of four times, and far too thick.
         for diameter in [1.5f32, 3.0, 1000.0] {
             let yarns = plain(shape, 24, diameter);
             let found = bounded(&yarns);
@@ -100,7 +100,7 @@ fn yarns_thicker_than_several_pitches_are_told_with_place_and_thickness() {
             let place = points[crowd.place.interval].position().as_dvec3().to_array();
             assert_eq!(crowd.place.position, place);
             assert!(crowd.place.source.is_some());
-            // The more yarn there is for the same room, the less of touching.
+            // More yarn in the same room gives a lower ratio.
             assert!(found.min <= crowd.fill.sqrt().recip());
         }
     }
@@ -123,7 +123,7 @@ fn one_crowd_does_not_hide_the_rest() {
         let at = |t: f32| [x + along[0] * t, y + along[1] * t, 0.0, 0.125];
         (false, (0..4).map(|k| at(k as f32)).collect::<Vec<_>>())
     };
-    // A hundred yarns in one another, and far off two that touch to three quarters.
+    // A hundred yarns in one place, and far away two whose ratio is three quarters.
     let crowded = (0..100).map(|k| yarn(0.0, 0.001 * k as f32, [0.1, 0.0]));
     let pair = [yarn(50.0, 50.0, [1.0, 0.0]), yarn(50.0, 50.1875, [1.0, 0.0])];
     let found = bounded(&yarns(crowded.chain(pair)));
@@ -142,7 +142,7 @@ fn a_fine_cloth_within_a_coarse_one_is_measured_like_each_of_them() {
         (0..yarns.layout().yarns().len()).map(points).collect()
     };
     let (fine, coarse) = (scaled(60, 1e-3), scaled(30, 1.0));
-    // Between the coarse one's threads.
+    // The fine cloth lies between the threads of the coarse one.
     let moved = |(closed, points): &(bool, Vec<[f32; 4]>)| {
         (*closed, points.iter().map(|[x, y, z, r]| [x + 0.75 - 0.02, y + 0.75 - 0.02, *z, *r]).collect())
     };
@@ -156,14 +156,15 @@ fn a_fine_cloth_within_a_coarse_one_is_measured_like_each_of_them() {
 
 #[test]
 fn straight_yarns_of_two_points_meet_as_often_as_they_cross() {
-    // A layer of 700 on one of 800, each crossing a contact; no thread is near the one beside it.
+    // A layer of 700 threads on one of 800. Each crossing is a contact, and no thread is near the
+    // one beside it.
     let wefts = (0..700).map(|k| (false, vec![[0.0, k as f32, 0.0, 0.125], [800.0, k as f32, 0.0, 0.125]]));
     let warps =
         (0..800).map(|k| (false, vec![[k as f32, 0.0, 0.2375, 0.125], [k as f32, 700.0, 0.2375, 0.125]]));
     let found = bounded(&yarns(wefts.chain(warps)));
     assert_eq!((found.crowd, found.contacts), (None, 700 * 800));
     assert!((found.min - 0.95).abs() < 1e-6);
-    // More side by side than one is compared with: that is told, too.
+    // More threads side by side than one thread is compared with. That is a crowd, too.
     let many = (0..2 * CLEARANCE_BESIDE).map(|k| {
         let at = k as f32 * 0.01;
         (false, vec![[at, at, at, 0.001], [at + 99.0, at + 100.0, at + 101.0, 0.001]])
@@ -174,7 +175,7 @@ fn straight_yarns_of_two_points_meet_as_often_as_they_cross() {
 
 #[test]
 fn a_yarn_coiled_on_itself_ends() {
-    // 100,000 turns in one another, as thick as they would be and as thin as can be.
+    // 100,000 turns in one place, as thick as they would be and as thin as possible.
     for radius in [0.1, 1e-4] {
         let turn = |k: usize| ((k as f32 * TAU / 8.0).cos(), (k as f32 * TAU / 8.0).sin());
         let coil = (0..800_000).map(|k| (turn(k % 8).0, turn(k % 8).1)).map(|(x, y)| [x, y, 0.0, radius]);
@@ -185,8 +186,8 @@ fn a_yarn_coiled_on_itself_ends() {
 
 #[test]
 fn points_in_one_place_end() {
-    // So many that the way along the yarn from one to another must not be gone point by point; a
-    // few beside them.
+    // Too many turns for a walk along the yarn, point by point, from one to another; and a few
+    // beside them.
     for count in [200, 300, 1000, 1500, 200_000] {
         let still = std::iter::repeat_n([1.0, 1.0, 1.0, 0.1], count);
         let beside = (0..250).map(|k| [1.0 + 1e-3 * k as f32, 1.0, 1.0, 0.1]);
@@ -208,7 +209,7 @@ fn progress_is_told_and_heard() {
     .unwrap();
     assert_eq!(found, clearance(&yarns, &Settings::default()).unwrap());
     assert!(told.is_sorted() && told.len() > 10 && told.last() == Some(&1.0), "{told:?}");
-    // Each time a little, or a user would think that it hangs.
+    // Progress comes in small steps, or a user would take the program for hanging.
     assert!(told.windows(2).all(|pair| pair[1] - pair[0] < 0.3), "{told:?}");
     let mut last = 0.0;
     let stopped = clearance_with_progress(&yarns, &Settings::default(), |done| {
@@ -236,7 +237,7 @@ proptest! {
         (any::<bool>(), prop::collection::vec(([extreme(), extreme(), extreme()], thick()), 3..6), 1..150usize),
         1..4,
     )) {
-        // Each yarn many times over, in the same place.
+        // Many copies of each yarn in the same place.
         let each = each.into_iter().flat_map(|(closed, points, times)| {
             let points: Vec<_> = points.into_iter().map(|([x, y, z], r)| [x, y, z, r]).collect();
             std::iter::repeat_n((closed, points), times)
@@ -270,8 +271,8 @@ proptest! {
     }
 }
 
-/// Two lines 1.10019 times 0.04 mm apart, and 1.09995 times what two radii of 0.02 mm come to as
-/// half floats.
+/// Two lines 1.10019 times 0.04 mm apart. That is 1.09995 times two radii of 0.02 mm, as half
+/// floats have them.
 #[test]
 fn a_radius_counts_as_the_points_hold_it() {
     let pair = [
@@ -285,7 +286,7 @@ fn a_radius_counts_as_the_points_hold_it() {
     assert!((found.min - apart / touching()).abs() < 1e-5, "{}", found.min);
 }
 
-/// Thin straight yarns: their contacts are those of their middle lines.
+/// Thin straight yarns, whose contacts are those of their middle lines.
 fn straight(ends: &[[[f32; 3]; 2]]) -> Yarns {
     yarns(ends.iter().map(|ends| (false, ends.iter().map(|[x, y, z]| [*x, *y, *z, THIN]).collect())))
 }
@@ -294,14 +295,14 @@ fn straight(ends: &[[[f32; 3]; 2]]) -> Yarns {
 /// 10,000.
 const THIN: f32 = 0.02;
 
-/// How far apart the middle lines of two [`straight`] yarns are that touch, mm: the points' own
-/// radii count.
+/// Distance between the middle lines of two touching [`straight`] yarns, mm, by the radii that
+/// points have after rounding.
 fn touching() -> f64 {
     2.0 * f64::from(ControlPoint::new(0.0, 0.0, 0.0, THIN).half_width())
 }
 
-/// Distance of two straight lines between their ends, by halving the way on the one: it is convex
-/// along it.
+/// Least distance between two straight lines of finite length. The distance is convex along the
+/// one, which a search by thirds uses.
 fn segments_apart(one: &[[f32; 3]; 2], other: &[[f32; 3]; 2]) -> f64 {
     let [a, b] = one.map(|point| glam::Vec3::from(point).as_dvec3());
     let [p, q] = other.map(|point| glam::Vec3::from(point).as_dvec3());

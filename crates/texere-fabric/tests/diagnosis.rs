@@ -1,11 +1,12 @@
-//! What is wrong with a cloth is named as a weaver names it, and cures are cures.
+//! Faults are named as a weaver names them, and cures do cure.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
 
 use texere_core::{Material, Origin, Section, Settings};
 use texere_fabric::{
-    ClothFault, Crossing, Diagnosis, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
+    BySet, ClothFault, Crossing, Diagnosis, Relief, Remedy, Shape, Structure, Thread, Weave, Woven,
+    WovenDesign,
 };
 
 /// Yarns of 0.3 mm at these spacings of ends and picks.
@@ -40,14 +41,14 @@ fn faults_are_named_by_thread_and_crossing() {
     );
     let jams = faults.jams.unwrap();
     assert_eq!((jams.ends, jams.picks, jams.threads[0].thread), (19, 0, Origin::End(2)));
-    // A contact of an end and a pick lies where the two cross, or next to it.
+    // A contact of an end and a pick lies at their crossing or at the one beside it.
     let contact = faults.pierces[0];
     let [Origin::End(end), Origin::Pick(pick)] = contact.places.map(|place| place.thread) else {
         panic!("{contact:?}")
     };
     let [on_end, on_pick] = contact.places.map(|place| place.crossing.unwrap());
     assert!(on_end.end == end && on_pick.pick == pick, "{contact:?}");
-    let [middles_x, middles_y] = jammed.middles_mm();
+    let BySet { warp: middles_x, weft: middles_y } = jammed.middles_mm();
     let Crossing { end, pick } = on_end;
     let [x, y, _] = contact.middle_mm();
     assert!((x - middles_x[end as usize - 1]).abs() < 0.4 && (y - middles_y[pick as usize - 1]).abs() < 0.66);
@@ -64,7 +65,7 @@ fn a_weft_that_turns_round_is_named_by_its_picks() {
         place if matches!(place.thread, Origin::Pick(_)) => Some(place),
         _ => None,
     });
-    let middles = &dense.middles_mm()[1];
+    let middles = &dense.middles_mm().weft;
     let mut others = 0;
     for place in picks {
         let Origin::Pick(pick) = place.thread else { continue };
@@ -84,7 +85,7 @@ fn each_cure_leaves_what_it_says() {
     for cure in cures {
         let mut changed = jammed.clone();
         match &cure.remedy {
-            Remedy::Spacing { spacing_mm, .. } => changed = cloth("3/1", *spacing_mm),
+            Remedy::Spacing { spacing_mm, .. } => changed = cloth("3/1", spacing_mm.into_array()),
             Remedy::Relief { relief, .. } => drop(changed.relieve(*relief).unwrap()),
             Remedy::Circle => changed.set_section(Section::Circle).unwrap(),
             Remedy::Flatness(flatness) => changed.set_flatness(*flatness).unwrap(),
@@ -92,7 +93,7 @@ fn each_cure_leaves_what_it_says() {
         }
         assert_eq!(diagnose(&changed).faults.kinds(), cure.leaves, "{:?}", cure.remedy);
     }
-    // Relief that the design has already is no cure.
+    // A design that is already relieved does not get relief as a cure.
     let relieved = design(&jammed, Relief::Flatten);
     let left = relieved.cures(&diagnose(relieved.cloth()), |_| ControlFlow::Continue(()));
     assert!(relieved.is_relieved() && !left.iter().any(|cure| matches!(cure.remedy, Remedy::Relief { .. })));

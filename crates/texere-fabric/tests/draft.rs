@@ -1,12 +1,12 @@
-//! Drafts against the definition, written out the slow way.
+//! Drafts against the definition, written out in the slow way.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use proptest::prelude::*;
 use texere_fabric::{Draft, FabricError, Shedding, WovenError};
 
-/// Whether the draft's definition puts the warp up: an end's shaft is among those lifted, or not,
-/// with a sinking shed.
+/// Whether the warp is up, by the draft's definition: the end's shaft is among the lifted ones, or
+/// with a sinking shed it is not.
 fn up(draft: &Draft, end: usize, pick: usize) -> bool {
     let lifted: Vec<u32> = match &draft.shedding {
         Shedding::LiftPlan(lifts) => lifts[pick].clone(),
@@ -20,7 +20,7 @@ fn up(draft: &Draft, end: usize, pick: usize) -> bool {
     meets == draft.rising_shed
 }
 
-/// Lists of numbers up to `most`, among them 0, which stands for none.
+/// Lists of numbers from 0 to `most`, where 0 stands for none.
 fn lists(most: u32, threads: std::ops::Range<usize>) -> impl Strategy<Value = Vec<Vec<u32>>> {
     prop::collection::vec(prop::collection::vec(0..=most, 0..4), threads)
 }

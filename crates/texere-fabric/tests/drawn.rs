@@ -1,5 +1,5 @@
-//! Which tubes of polygons a mesh draws inside out: those bent tighter than their section reaches
-//! inwards, whatever its shape.
+//! Meshes of polygonal tubes that turn inside out: where a tube bends more tightly than its section
+//! reaches inwards, for sections of any shape.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use texere_contact::{Drawn, drawn};
@@ -16,7 +16,7 @@ const ASIDE: &[[f32; 2]] = &[[2.0, -0.5], [3.0, -0.5], [2.5, 0.5]];
 const T: &[[f32; 2]] =
     &[[-0.2, -1.0], [0.2, -1.0], [0.2, 0.6], [1.0, 0.6], [1.0, 1.0], [-1.0, 1.0], [-1.0, 0.6], [-0.2, 0.6]];
 
-/// A star of five points, drawn in to so much of their reach.
+/// A star of five points, whose inner corners lie at this share of the outer ones.
 fn star(inner: f32) -> Vec<[f32; 2]> {
     let corner = |number: u8| {
         let (turn, reach) =
@@ -30,8 +30,7 @@ fn moved(outline: &[[f32; 2]], by: [f32; 2]) -> Vec<[f32; 2]> {
     outline.iter().map(|corner| [corner[0] + by[0], corner[1] + by[1]]).collect()
 }
 
-/// A yarn of this section along a third of a circle about the z axis, which it goes round to the
-/// left, or to the right.
+/// A yarn of this section along a third of a circle about the z axis, to the left or to the right.
 fn bent(outline: &[[f32; 2]], bend_mm: f32, left: bool, twist: f32) -> Drawn {
     let side = if left { 1.0 } else { -1.0 };
     let point = |number: u8| {
@@ -66,8 +65,8 @@ fn sound_polygons_of_a_gently_bent_yarn_face_outwards() {
     }
 }
 
-/// A section that reaches to one side of the axis alone: bent to that side it turns inside out
-/// where it reaches further than the bend's middle, bent to the other it never does.
+/// A section that reaches to one side of the axis only. Bent to that side, it turns inside out
+/// where it reaches beyond the centre of the bend. Bent to the other side, it never does.
 #[test]
 fn a_bend_tighter_than_the_section_reaches_is_inside_out() {
     // Triangles from 2 to 3 radii beside the axis.
@@ -76,7 +75,7 @@ fn a_bend_tighter_than_the_section_reaches_is_inside_out() {
         let told = found.iter().filter(|found| found.inwards > 0).count();
         assert_eq!(told, inside_out, "{bend_mm} mm: {found:?}");
     }
-    // What reaches a radius to every side.
+    // Sections that reach one radius to every side.
     for outline in [L.to_vec(), T.to_vec(), star(0.3), star(0.6)] {
         for left in [true, false] {
             let found = bent(&outline, 0.05, left, 0.0);

@@ -1,5 +1,5 @@
-//! Yarns of a structure come to rest: cloth that pierces itself, what must not be made worse,
-//! cancelling, refusals; and repeats that are laid side by side.
+//! Settling the yarns of a structure: cloth that pierces itself, results that must not be worse,
+//! cancelling and refusals, and repeats laid side by side.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
@@ -18,8 +18,8 @@ use texere_fabric::{
     WovenDesign, settle,
 };
 
-/// A plain weave of 8 ends and picks of 0.3 mm, of every three two `pitch` diameters apart. The
-/// third is 2.6 from both.
+/// A plain weave of 8 ends and 8 picks of 0.3 mm. Threads lie in pairs `pitch` diameters apart,
+/// with single threads 2.6 diameters from their neighbours between the pairs.
 fn plain(pitch: f64) -> Structure {
     let spacing = |number| 0.3 * if number % 3 == 2 { 2.0 * 2.6 - pitch } else { pitch };
     let threads: Vec<_> = (0..8).map(|number| Thread::new(spacing(number), 0.15)).collect();
@@ -56,7 +56,7 @@ fn threads_that_are_too_near_come_to_rest() {
     assert!(settled.course.is_empty());
 }
 
-/// Only places have changed, and those of the yarns' ends have not.
+/// Only positions have changed, and the yarns' ends have not moved.
 #[test]
 fn the_yarns_are_the_same_ones_and_held_at_their_ends() {
     let structure = plain(1.7);
@@ -71,13 +71,13 @@ fn the_yarns_are_the_same_ones_and_held_at_their_ends() {
     let pinned = structure.repeat().unwrap().piece.pinned;
     assert!(pinned.len() == 32 && pinned.iter().all(|point| moved(point) < 1e-4));
     assert!((0..from.len() as u64).any(|point| moved(&point) > 1e-2));
-    // The worst place has a name.
+    // The worst place is named.
     let worst = settled.clearance.worst[0].places[0];
     assert!(matches!(settled.origin(&worst), Origin::End(_)));
     assert_eq!(structure.place(after, &worst).thread, settled.origin(&worst));
 }
 
-/// A backend whose settler turns the first end over when its places are read.
+/// A backend whose settler turns the first end over when its positions are read.
 #[derive(Debug)]
 struct Flipping(ParallelBackend);
 
@@ -189,8 +189,8 @@ fn a_backend_without_a_settler_and_senseless_finishes_are_refused_by_name() {
     assert_eq!(refused(given, &cpu()), "the length is 3, not between 0.5 and 2");
 }
 
-/// A repeat of 2 by 1 mm: a thread that goes on along x, one that leads back down from the upper
-/// edge, a ring, and a piece.
+/// A repeat of 2 by 1 mm: a thread that goes on along x, a thread that runs down from the upper
+/// edge, a ring, and a piece of yarn.
 fn repeat(copies: [u32; 2]) -> Repeat {
     let mut yarns = Yarns::builder();
     let points =
@@ -212,7 +212,7 @@ fn repeat(copies: [u32; 2]) -> Repeat {
 #[test]
 fn copies_join_what_goes_on() {
     let repeat = repeat([3, 2]);
-    let laid = repeat.laid(&repeat.piece.yarns).unwrap();
+    let laid = repeat.placed(&repeat.piece.yarns).unwrap();
     let of = |origin| {
         let yarns = laid.layout().yarns().iter().enumerate().filter(move |(_, yarn)| yarn.origin == origin);
         yarns.map(|(yarn, _)| yarn).collect::<Vec<_>>()
@@ -235,22 +235,22 @@ fn copies_join_what_goes_on() {
 #[test]
 fn copies_that_can_not_be_are_refused() {
     let one = repeat([1, 1]);
-    assert_eq!(one.laid(&one.piece.yarns).unwrap().points(), one.piece.yarns.points());
+    assert_eq!(one.placed(&one.piece.yarns).unwrap().points(), one.piece.yarns.points());
     let none = repeat([0, 4]);
-    assert!(matches!(none.laid(&none.piece.yarns), Err(FabricError::Yarns(_))));
+    assert!(matches!(none.placed(&none.piece.yarns), Err(FabricError::Yarns(_))));
     let all = repeat([u32::MAX; 2]);
-    assert!(matches!(all.laid(&all.piece.yarns), Err(FabricError::OutOfMemory(_))));
+    assert!(matches!(all.placed(&all.piece.yarns), Err(FabricError::OutOfMemory(_))));
     let others = plain(2.0).yarns().unwrap();
-    assert!(matches!(one.laid(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
+    assert!(matches!(one.placed(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
 }
 
-/// What was settled as a repeat is settled as a cloth: a plain weave's repeat, copied, has the
-/// repeat's clearance at its seams.
+/// A settled repeat makes settled cloth: copies of a plain weave's repeat have its clearance at
+/// their seams.
 #[test]
 fn a_settled_repeat_fits_its_copies() {
     let mut yarns = Yarns::builder();
     let mut ends = Vec::new();
-    // Four ends and four picks 1.7 diameters apart, as straight steps: far from rest.
+    // Four ends and four picks 1.7 diameters apart, as straight steps. That is far from rest.
     for along in [true, false] {
         for number in 0..4 {
             let side = |crossing: u8| {
@@ -272,18 +272,18 @@ fn a_settled_repeat_fits_its_copies() {
     let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 3] };
     let finish = Finish { length: Some(FREE), ..Finish::default() };
     let settled = settle(&repeat.piece, &finish, &cpu(), |_| ControlFlow::Continue(())).unwrap();
-    let cloth = repeat.laid(&settled.yarns).unwrap();
+    let cloth = repeat.placed(&settled.yarns).unwrap();
     let found = clearance(&cloth, &Settings::default()).unwrap();
     assert!(settled.rest.start.clearance < 0.9 && settled.rest.at_rest, "{:?}", settled.rest);
-    // The first and the last interval of a yarn that is cut off lack a neighbour, and lie otherwise
-    // than in the repeat.
+    // The first and the last interval of a cut yarn lack a neighbour, and lie differently from
+    // those in the repeat.
     let is_cut = |place: &YarnPlace| {
         let intervals = cloth.yarn_points(place.yarn).unwrap().len() - 1;
         place.interval == 0 || place.interval + 1 == intervals
     };
     let inner: Vec<_> = found.worst.iter().filter(|contact| !contact.places.iter().any(is_cut)).collect();
     assert!(inner.len() > 20 && inner[0].ratio > 0.99, "{:?}", inner[0]);
-    // Many of them lie on either side of a seam.
+    // Many contacts have their places on both sides of a seam.
     let seam = |x: f64| (x / 6.8 - (x / 6.8).round()).abs() < 0.1 && x > 3.0 && x < 17.0;
     assert!(inner.iter().any(|contact| seam(contact.places[0].position[0])));
 }

@@ -1,4 +1,5 @@
-//! The herringbone in `designs/` is what its example draws, and is a herringbone.
+//! The file of the herringbone in `designs/` is the one that its example draws, and it is a
+//! herringbone.
 
 #[allow(dead_code, reason = "its main is not called here")]
 #[path = "../examples/herringbone_wif.rs"]

@@ -1,4 +1,4 @@
-//! Knitted cloth: counts, copies, sizes, whole pieces, measures, and what is refused.
+//! Weft-knitted cloth: counts, copies, sizes, whole pieces, measures and refusals.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
@@ -24,7 +24,7 @@ fn chart(text: &str) -> Stitches {
     Machine::default().knit(&Chart::parse(text, Beds::One).unwrap().program().unwrap()).unwrap().stitches
 }
 
-/// Plain jersey by one carrier, back and forth, on so many needles.
+/// Plain jersey by one carrier to and fro.
 fn flat(needles: i32, courses: u32) -> Stitches {
     let mut operations = Vec::new();
     let mut add = |instruction| {
@@ -51,7 +51,7 @@ fn positions(yarns: &Yarns) -> Vec<[f32; 3]> {
     yarns.points().iter().map(|point| point.position().to_array()).collect()
 }
 
-/// A small repeat that is laid side by side is the same cloth as a large one.
+/// Copies of a small repeat make the same cloth as a large repeat.
 #[test]
 fn repeats_are_laid_as_they_are_charted() {
     for (small, large) in [
@@ -63,7 +63,7 @@ fn repeats_are_laid_as_they_are_charted() {
         let copies = [8 / small_size[0], 4 / small_size[1]];
         let (small, large) = (knit(chart(small), copies).unwrap(), knit(chart(large), [1, 1]).unwrap());
         assert_eq!(small.size(), [8, 4]);
-        // Where a yarn is cut off depends on which way it goes.
+        // The place where a yarn is cut depends on its direction.
         let inside = |knit: Knitted| {
             let mut points = positions(&knit.yarns().unwrap());
             points.retain(|at| (-0.01..8.01).contains(&at[0]));
@@ -78,7 +78,7 @@ fn repeats_are_laid_as_they_are_charted() {
     }
 }
 
-/// Each needle that a yarn comes to has as many control points, whatever the yarn does there.
+/// Every needle that a yarn comes to has equally many control points, for a loop as for a float.
 #[test]
 fn even_cells_have_twelve_points_each() {
     let floats = chart("kmkk\nkkkm\nktkk\npkkk");
@@ -90,7 +90,7 @@ fn even_cells_have_twelve_points_each() {
     }
 }
 
-/// A whole piece turns at its edges. What holds it stays where it is: its ends, its first feet and
+/// A whole piece turns at its edges. Its pinned points stay in place: the ends, the first feet and
 /// the heads on needles.
 #[test]
 fn a_whole_piece_settles_with_its_edges_held() {
@@ -99,7 +99,7 @@ fn a_whole_piece_settles_with_its_edges_held() {
     let piece = knit.piece().unwrap();
     assert_eq!(piece.boundary.ends(), [Ends::Open]);
     assert_eq!(piece.yarns.layout().yarns()[0].origin, Origin::Carrier(1));
-    // Two at each end of the yarn, five arcs between the first loops, six heads.
+    // Two points at each end of the yarn, five arcs between the first loops, and six heads.
     assert_eq!(piece.pinned.len(), 4 + 5 + 6);
     let structure = Structure::Weft(knit);
     assert!(structure.knitted().is_some() && structure.woven().is_none());
@@ -115,11 +115,11 @@ fn a_whole_piece_settles_with_its_edges_held() {
     };
     assert!(piece.pinned.iter().all(|point| moved(*point as usize) < 1e-4));
     assert!((0..before.len()).any(|point| moved(point) > 0.02));
-    // Sources are operations: the first knit is the second one.
+    // Sources are operations. The first knit is the second operation.
     assert_eq!(piece.yarns.sources().unwrap()[0], 2);
 }
 
-/// One repeat settles, and its copies are as clear of one another as it is, up to the cut edges.
+/// One repeat settles, and its copies are as clear as the repeat, up to the cut edges.
 #[test]
 fn copies_of_a_repeat_that_settled_are_clear() {
     let gauge = Gauge { loop_length_mm: Some(3.9), ..Gauge::new(1.0, 0.75) };
@@ -190,7 +190,7 @@ fn what_is_no_cloth_is_refused_by_name() {
     }
 }
 
-/// Small programs that would take more memory than there is.
+/// Small programs whose cloths would take too much memory.
 #[test]
 fn small_programs_of_huge_cloths_are_refused_by_name() {
     let made = |operations: Vec<(Instruction, u32)>| {
@@ -209,9 +209,9 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     };
     let right = |needle| Instruction::Knit(Direction::Right, Needle::front(needle));
     let left = |needle| Instruction::Knit(Direction::Left, Needle::front(needle));
-    // Floats past all needles that there are.
+    // Floats past all needles.
     let floats = (0..400).map(|each| (if each % 2 == 0 { right(65536) } else { left(-65536) }, 1)).collect();
-    // A yarn that comes back thousands of courses later, again and again.
+    // A yarn that comes back thousands of courses later, many times.
     let mut rises = vec![(right(5), 1), (left(0), 1)];
     rises.extend((0..20_000).map(|_| (right(0), 2)));
     rises.extend((0..400).flat_map(|_| [(right(0), 1), (left(5), 1)]));
@@ -226,8 +226,8 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
 }
 
-/// Loops that ask for lengths of their own get them together, along splines of any tension; one
-/// that does not takes the gauge's.
+/// Loops with lengths of their own get the sum of these, along splines of any tension. A loop
+/// without one counts with the length of the gauge.
 #[test]
 fn loops_ask_for_their_lengths() {
     let given = |lengths: [Option<f32>; 2], gauge: Option<f64>, tension: f32| {

@@ -28,7 +28,7 @@ fn a_straight_yarn_is_as_long_as_its_ends_are_apart() {
 
 #[test]
 fn a_dense_circle_is_tau_radii_long() {
-    // The spline through n points of a circle is off by O(n⁻⁴); coordinates are rounded to 6e-8 of
+    // The spline through n points of a circle is off by O(n⁻⁴). Coordinates are rounded to 6e-8 of
     // the radius.
     let circle = |count: usize| -> Vec<_> {
         let angle = |k: usize| TAU * k as f64 / count as f64;
@@ -46,8 +46,8 @@ fn a_dense_circle_is_tau_radii_long() {
 
 #[test]
 fn a_square_yarn_has_the_length_of_its_chords() {
-    // Corners bend sharply within an interval, where a rule of few points is worst. Open and
-    // closed, two tensions.
+    // Corners bend sharply within an interval. A rule of few points is worst there. The yarns are
+    // open and closed, with two tensions.
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 1.0], [4.0, 4.0, 0.0], [0.0, 4.0, 1.0], [1.0, 1.0, 2.0]]
         .map(|[x, y, z]| ControlPoint::new(x, y, z, 0.1));
     for (closed, tension) in [(false, 0.0f32), (true, 0.0), (false, 0.4), (true, 0.4)] {
@@ -89,8 +89,8 @@ fn crimp_lengthens_the_yarns_of_a_cloth() {
     let lengths = lengths_mm(&yarns);
     assert_eq!(lengths.len(), 100);
     assert!((lengths.iter().sum::<f64>() / length_mm(&yarns) - 1.0).abs() < 1e-12);
-    // Peirce's approximation: crimp c from the height h of the crimp wave and the pitch p, h = 4/3
-    // p √c; h is the distance of the two sides' centrelines, here one diameter.
+    // Peirce's approximation h = 4/3 p √c gives the crimp c from the height h of the crimp wave and
+    // the pitch p. h is the distance between the centrelines on the two sides, here one diameter.
     let peirce = (0.75f64 * 0.2 / 0.5).powi(2);
     let (warp, weft) = lengths.split_at(60);
     let ends = warp.iter().map(|length| (length, 20.0));
@@ -102,8 +102,8 @@ fn crimp_lengthens_the_yarns_of_a_cloth() {
 
 #[test]
 fn a_yarn_of_many_intervals_adds_up_over_tasks() {
-    // A zigzag whose every interval is alike but the first and the last: doubling the yarn doubles
-    // what lies between.
+    // All intervals of a zigzag are alike, except the first and the last. Twice the yarn has twice
+    // the length between these.
     let zigzag = |count: usize| -> Vec<_> {
         (0..count).map(|k| ControlPoint::new(k as f32, (k % 2) as f32, 0.0, 0.1)).collect()
     };

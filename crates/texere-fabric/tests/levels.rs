@@ -1,4 +1,4 @@
-//! Levels of threads: which of them lie above others of their set.
+//! Levels of threads: threads that lie above others of their own set.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -23,14 +23,14 @@ const SINGLE: [&str; 14] = [
 ];
 
 fn highest(drawdown: &Drawdown) -> [u32; 2] {
-    drawdown.levels().map(|levels| levels.into_iter().max().unwrap())
+    drawdown.levels().map(|levels| levels.into_iter().max().unwrap()).into_array()
 }
 
 #[test]
 fn threads_of_most_weaves_lie_side_by_side() {
     for notation in SINGLE {
         let weave = Weave::parse(notation).unwrap();
-        // A whole number of repeats, and not.
+        // A whole number of repeats, and a number that is not whole.
         for [ends, picks] in [[64, 64], [61, 67]] {
             assert_eq!(highest(&weave.drawdown(ends, picks).unwrap()), [0; 2], "{notation}");
         }
@@ -61,7 +61,7 @@ fn threads_without_any_order_lie_side_by_side() {
     }
 }
 
-/// Threads that are given levels, each layer a weave of its own, come back with them.
+/// Threads of known levels, each level a weave of its own, are found at these levels.
 #[test]
 fn layers_are_found_in_any_order() {
     let weaves: [fn(usize, usize) -> bool; 3] = [
@@ -69,8 +69,8 @@ fn layers_are_found_in_any_order() {
         |end, pick| (end + 640 - pick) % 4 < 2,
         |end, pick| !(end + 640 - 3 * (pick % 8)).is_multiple_of(8),
     ];
-    // Levels of a repeat's threads: by turns, two of the face to one of the back, in pairs, three
-    // layers.
+    // Levels of a repeat's threads: by turns, two on the face for one on the back, in pairs, and
+    // three layers.
     for order in [&[1, 0][..], &[0, 1], &[1, 1, 0], &[1, 1, 1, 0], &[1, 1, 0, 0], &[2, 1, 0], &[0, 2, 1]] {
         for weave in weaves {
             let layer = |thread: usize| order[thread % order.len()];
@@ -82,12 +82,12 @@ fn layers_are_found_in_any_order() {
             })
             .unwrap();
             let expected: Vec<u32> = (0..96).map(layer).collect();
-            assert_eq!(cloth.levels(), [expected.clone(), expected], "{order:?}");
+            assert_eq!(cloth.levels().into_array(), [expected.clone(), expected], "{order:?}");
         }
     }
 }
 
-/// Stitches of the back over the face don't count, and one set may have levels without the other.
+/// Stitches of the back over the face do not count. One set may have levels without the other.
 #[test]
 fn stitched_and_backed_cloths_have_levels() {
     let double = |end: usize, pick: usize| match [end % 2, pick % 2] {

@@ -1,5 +1,5 @@
-//! Cloth whose lifts are edited: each yarn is that of the whole cloth woven anew, and no other yarn
-//! changes.
+//! Cloth whose lifts are edited. Every changed yarn equals that of the whole cloth woven anew, and
+//! no other yarn changes.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use proptest::prelude::*;
@@ -64,8 +64,8 @@ proptest! {
     }
 }
 
-/// A lift that is there already changes nothing, and one that is taken back leaves the cloth as it
-/// was.
+/// A lift that is already set changes nothing. A lift that is taken back leaves the cloth
+/// unchanged.
 #[test]
 fn a_lift_back_and_forth_changes_nothing() {
     let mut loom = Loom::new(cloth(&[true, false, false], [9, 7], false, Shape::Round));

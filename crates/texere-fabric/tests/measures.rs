@@ -5,8 +5,8 @@
 use texere_contact::lengths_mm;
 use texere_core::{ControlPoint, Material, Section, Yarn, Yarns};
 use texere_fabric::{
-    Crimp, Drawdown, FabricError, Measures, Shape, Thread, Weave, Woven, WovenError, lengths_by_material,
-    thickness_mm, weight_g,
+    BySet, Crimp, Drawdown, FabricError, Measures, Shape, Thread, Weave, Woven, WovenError,
+    lengths_by_material, thickness_mm, weight_g,
 };
 
 fn material(tex: Option<f32>) -> Material {
@@ -18,7 +18,7 @@ fn cloth(tex: [Option<f32>; 2]) -> Woven {
     open_cloth(tex, 0.4)
 }
 
-/// The same with ends further apart.
+/// The cloth with ends further apart.
 fn open_cloth(tex: [Option<f32>; 2], spacing_mm: f64) -> Woven {
     let (warp, weft) = (Thread::new(spacing_mm, 0.1), Thread { material: 1, ..Thread::new(0.5, 0.12) });
     let drawdown = Weave::parse("plain").unwrap().drawdown(100, 80).unwrap();
@@ -37,7 +37,7 @@ fn measures(cloth: &Woven) -> Measures {
 fn straight_ends_have_no_crimp_and_the_weft_has_it_all() {
     let mut cloth = open_cloth([Some(20.0), Some(30.0)], 1.0);
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
-    let [warp, weft] = measures(&cloth).crimp.unwrap();
+    let BySet { warp, weft } = measures(&cloth).crimp.unwrap();
     assert!(warp.abs() < 1e-6, "{warp}");
     // Peirce: h = 4/3 p √c. The wave is twice 0.22 mm high, its pitch 1 mm: c = (0.75 × 0.44)² =
     // 0.109.
@@ -49,7 +49,7 @@ fn weight_is_length_times_tex_over_area() {
     let cloth = cloth([Some(20.0), Some(30.0)]);
     let measures = measures(&cloth);
     // 0.1 × [25 × (1 + c₁) × 20 + 20 × (1 + c₂) × 30] g/m².
-    let [warp, weft] = measures.crimp.unwrap();
+    let BySet { warp, weft } = measures.crimp.unwrap();
     let by_hand = 0.1 * (25.0 * (1.0 + warp) * 20.0 + 20.0 * (1.0 + weft) * 30.0);
     assert!((measures.areal_weight.unwrap() / by_hand - 1.0).abs() < 1e-9);
     // 100 ends of 40 mm, 80 picks of 40 mm.
@@ -61,7 +61,7 @@ fn weight_is_length_times_tex_over_area() {
 fn weight_needs_the_tex_of_what_is_used() {
     assert_eq!(measures(&cloth([Some(20.0), None])).areal_weight, None);
     assert_eq!(measures(&cloth([Some(20.0), None])).cover.unwrap().factor, None);
-    // A kilometre of 30 tex weighs 30 g; what is not used needs no tex.
+    // A kilometre of 30 tex weighs 30 g. Materials that are not used need no tex.
     assert_eq!(weight_g(&[1e6, 0.0], &[material(Some(30.0)), material(None)]), Some(30.0));
     assert_eq!(weight_g(&[1e6, 1.0], &[material(Some(30.0)), material(None)]), None);
 }
@@ -73,11 +73,11 @@ fn cover_is_peirces() {
     // together 0.5 + 0.48 - 0.24.
     let cover = measures.cover.unwrap();
     assert!(
-        (cover.fraction[0] / 0.5 - 1.0).abs() < 2.5e-4 && (cover.fraction[1] / 0.48 - 1.0).abs() < 2.5e-4
+        (cover.fraction.warp / 0.5 - 1.0).abs() < 2.5e-4 && (cover.fraction.weft / 0.48 - 1.0).abs() < 2.5e-4
     );
     assert!((cover.cloth / 0.74 - 1.0).abs() < 2.5e-4);
     // 63.5 ends an inch of Ne 30: 63.5/√30 = 11.593; 50.8 picks of Ne 20: 50.8/√20 = 11.359.
-    let [warp, weft] = cover.factor.unwrap();
+    let BySet { warp, weft } = cover.factor.unwrap();
     assert!((warp - 11.593).abs() < 1e-3 && (weft - 11.359).abs() < 1e-3, "{warp}, {weft}");
     // 11.593 + 11.359 - 11.593 × 11.359 / 28 = 18.249.
     assert!((cover.cloth_factor.unwrap() - 18.249).abs() < 2e-3);
@@ -90,7 +90,7 @@ fn threads_wider_than_their_spacing_cover_everything() {
     let sections = vec![Section::Ellipse { aspect: 4.0 }];
     let cloth = Woven::new(drawdown, vec![thread; 4], vec![thread; 4], vec![material(None)], sections);
     let cover = measures(&cloth.unwrap()).cover.unwrap();
-    assert_eq!((cover.fraction, cover.cloth), ([1.0, 1.0], 1.0));
+    assert_eq!((cover.fraction, cover.cloth), (BySet { warp: 1.0, weft: 1.0 }, 1.0));
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn thickness_is_from_surface_to_surface() {
     let mut cloth = cloth([None; 2]);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
     assert!((measures(&cloth).thickness_mm - 2.0 * (0.11 + 0.12)).abs() < 2e-3);
-    // Straight ends in the middle: the picks alone, 0.22 to each side.
+    // Ends are straight in the middle of the cloth. The picks alone reach out, 0.22 to each side.
     let mut cloth = open_cloth([None; 2], 1.0);
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
     let thickness = measures(&cloth).thickness_mm;
@@ -116,10 +116,11 @@ fn flat_and_leaning_sections_count_with_their_own_height() {
         yarns.yarn(Yarn::default(), &points);
         yarns.build().unwrap()
     };
-    // Half as high as the circle, twice as wide.
+    // Sections half as high as the circle, and twice as wide.
     let flat = thickness_mm(&yarn(Section::Ellipse { aspect: 4.0 }, [1.0, 0.0, 0.0]));
     assert!((flat - 0.5).abs() < 1e-5, "{flat}");
-    // Upright, its length alone; at 45 degrees 1/√2 of the section's height more.
+    // An upright yarn is as high as its length. At 45 degrees 1/√2 of the section's height is
+    // added.
     assert!((thickness_mm(&yarn(Section::Circle, [0.0, 0.0, 1.0])) - 2.0).abs() < 1e-5);
     let leaning = thickness_mm(&yarn(Section::Circle, [1.0, 0.0, 1.0]));
     assert!((leaning - (2.0 + 0.5f64.sqrt())).abs() < 1e-5, "{leaning}");
@@ -131,7 +132,7 @@ fn a_selvedge_costs_yarn() {
     let cut = measures(&cloth);
     cloth.set_selvedge(true);
     let turning = measures(&cloth);
-    assert_eq!(turning.crimp.unwrap()[0], cut.crimp.unwrap()[0]);
+    assert_eq!(turning.crimp.unwrap().warp, cut.crimp.unwrap().warp);
     // 79 turns round half circles of 0.25 mm radius.
     let more = turning.length_mm[1] - cut.length_mm[1];
     assert!((more / (79.0 * 0.25 * std::f64::consts::PI) - 1.0).abs() < 0.2, "{more}");

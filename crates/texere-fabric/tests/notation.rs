@@ -4,8 +4,8 @@
 
 use texere_fabric::{Weave, WovenError};
 
-/// Checks a weave against a drawing: `#` warp up, first pick at the bottom, over as many repeats as
-/// it shows.
+/// Checks a weave against a drawing. `#` is warp up, and the first pick is at the bottom. A drawing
+/// may show several repeats.
 #[track_caller]
 fn draws(text: &str, repeat: (usize, usize), drawing: &[&str]) {
     let weave: Weave = text.parse().unwrap();
@@ -45,7 +45,7 @@ fn twills() {
 
 #[test]
 fn right_hand_twills_climb_to_the_right() {
-    // Z and S: each pick is the one below, one end further to the right (left).
+    // Z twill: each pick is the one below, one end further to the right. S twill: to the left.
     let (z, s) = (Weave::parse("3/1").unwrap(), Weave::parse("3/1(-1)").unwrap());
     for pick in 0..8 {
         for end in 0..8 {
@@ -111,14 +111,15 @@ fn matts_by_name() {
 
 #[test]
 fn herringbones() {
-    // Drawn from their threading, by what each pick lifts: 12, 23, 34, 41. Here it is 123412
-    // 432143.
+    // Drawn from the threadings in the comments, by the shafts that each pick lifts: 12, 23, 34,
+    // 41. This threading is 123412 432143.
     draws("herringbone 2/2(6)", (12, 4), &["#..##.#..##.", "..##..##..##", ".##..#.##..#", "##..##..##.."]);
     // 1234 2143.
     draws("herringbone 2/2(4)", (8, 4), &["#..#.##.", "..##..##", ".##.#..#", "##..##.."]);
     // 12 43, the broken twill of denim, lifted by 123, 234, 341, 412.
     draws("herringbone 3/1(2)", (4, 4), &["###.", "#.##", ".###", "##.#"]);
-    // 123 132: three ends have no half, so the cuts are one and two ends on. Lifted by 12, 23, 31.
+    // 123 132: three ends have no half, so that cuts come one and two ends on. Lifted by 12, 23,
+    // 31.
     draws("herringbone 2/1(3)", (6, 3), &["#.###.", ".##.##", "##.#.#"]);
 }
 
@@ -136,8 +137,8 @@ fn honeycomb() {
         (8, 8),
         &[".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."],
     );
-    // Its longest floats, of which the Britannica tells: five of warp, seven of weft, round a plain
-    // hollow.
+    // Its longest floats, as the Britannica describes them: five of warp and seven of weft, around
+    // a plain hollow.
     let weave = Weave::parse("honeycomb").unwrap();
     let longest = |up: bool, along_pick: bool| {
         let float = |thread: usize| {
@@ -221,7 +222,7 @@ fn what_is_no_notation_is_refused_where_it_goes_wrong() {
     refuses("2/ü", 3, number);
 }
 
-/// What follows a weave's name is told in words, with a weave that has it.
+/// Errors say in words what may follow a weave's name, with an example.
 #[test]
 fn a_name_without_what_follows_it_is_told_what_is_missing() {
     for (text, position, words, example) in [

@@ -1,5 +1,5 @@
-//! Into how many pieces knits fall, which yarns are loose, which needles stay empty: by hand, and
-//! against loops painted one by one.
+//! Pieces, loose yarns and empty needles of knits: worked by hand, and against loops painted one by
+//! one.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use texere_core::{Material, Section};
-use texere_fabric::warp::{Bar, Chain, Laid, LapKind, Threading, WarpKnitted};
+use texere_fabric::warp::{Bar, Chain, LapKind, PlacedLap, Threading, WarpKnitted};
 use texere_fabric::weft::{
     CarrierSet, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle, Operation, Program,
 };
@@ -38,11 +38,11 @@ fn pillars_are_joined_by_what_crosses_them_alone() {
     assert_eq!(found(vec![pillar()], 2, 2, [3, 5]), (6, 0, vec![]));
     assert_eq!(found(vec![bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![pillar(), bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
-    // Laid in behind the pillars' loops and in front of their own way up: behind a front bar it is
-    // held, in front of all it is not.
+    // The inlay passes behind the loops of pillars and in front of the yarn between them. Behind a
+    // front bar it is held; in front of all bars it is not.
     assert_eq!(found(vec![pillar(), bar("0-0/3-3//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![bar("0-0/3-3//", FULL), pillar()], 4, 6, [1, 1]), (8, 4, vec![]));
-    // One that stays in its space is held by underlaps that pass it, and joins nothing more.
+    // An inlay that stays in its space is held by underlaps that pass it, and joins nothing else.
     assert_eq!(found(vec![bar("1-0/1-2//", FULL), bar("0-0//", FULL)], 4, 2, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![pillar(), bar("0-0//", FULL)], 4, 2, [1, 1]), (8, 4, vec![]));
 }
@@ -127,29 +127,31 @@ fn knit(carriers: &[&[Needle]], repeat: Option<u32>, copies: [u32; 2]) -> Pieces
 fn weft_knits_fall_into_what_no_loop_joins() {
     let [front, back] = [Needle::front, Needle::back];
     let said = |pieces: Pieces| (pieces.count, pieces.loose, pieces.empty_listed);
-    // Side by side, with a needle between that nobody knits; then one carrier takes it in.
+    // Two carriers side by side, with a needle between them that neither knits. Then one carrier
+    // knits it, too.
     assert_eq!(said(knit(&[&[front(0), front(1)], &[front(3), front(4)]], None, [1, 1])), (2, 0, vec![2]));
     assert_eq!(said(knit(&[&[front(0), front(1)], &[front(1), front(2)]], None, [1, 1])), (1, 0, vec![]));
-    // Two sides of a tube by two carriers, apart; a rib by the same two is one cloth.
+    // Two carriers that each knit one side of a tube make two pieces. A rib by both is one cloth.
     let sides: [&[Needle]; 2] = [&[front(0), front(1)], &[back(0), back(1)]];
     assert_eq!(said(knit(&sides, None, [1, 1])), (2, 0, vec![]));
     assert_eq!(said(knit(&sides, Some(2), [3, 3])), (2, 0, vec![]));
     let both: [&[Needle]; 2] = [&[front(0), back(0)], &[front(0), back(0)]];
     assert_eq!(said(knit(&both, Some(1), [4, 4])), (1, 0, vec![]));
-    // Interlock: two ribs whose yarns pass one another between the beds. Ribs side by side are two.
+    // Interlock is two ribs whose yarns pass one another between the beds, and one piece. Ribs side
+    // by side are two pieces.
     let ribs: [&[Needle]; 2] = [&[front(0), back(1)], &[back(0), front(1)]];
     assert_eq!(said(knit(&ribs, Some(2), [3, 3])), (1, 0, vec![]));
     assert_eq!(said(knit(&ribs, None, [1, 1])), (1, 0, vec![]));
     let beside: [&[Needle]; 2] = [&[front(0), back(1)], &[front(2), back(3)]];
     assert_eq!(said(knit(&beside, None, [1, 1])), (2, 0, vec![]));
-    // One repeat and many of them; every other needle of a repeat.
+    // One repeat and many of them, which knit every other needle.
     assert_eq!(said(knit(&[&[front(0), front(2)]], Some(4), [2, 2])), (1, 0, vec![1, 3, 5, 7]));
 }
 
-/// Pieces and loose yarns of a whole warp knit that goes on to both sides, every loop painted with
-/// its yarn's colour.
-fn painted(cloth: &WarpKnitted, laid: &[Laid]) -> (u64, u64) {
-    let [wales, courses] = cloth.laid_size();
+/// Pieces and loose yarns of a whole warp knit that goes on to both sides. Every loop is painted
+/// with the colour of its yarn.
+fn painted(cloth: &WarpKnitted, laid: &[PlacedLap]) -> (u64, u64) {
+    let [wales, courses] = cloth.lapped_size();
     let copies = i64::from(cloth.copies()[0]) + 40;
     let mut yarns = Vec::new();
     for copy in -20..copies {
@@ -157,7 +159,7 @@ fn painted(cloth: &WarpKnitted, laid: &[Laid]) -> (u64, u64) {
             yarns.push((copy, laps.iter().map(move |lap| lap.lap).collect::<Vec<_>>(), laps[0]));
         }
     }
-    let needles = |yarn: &(i64, Vec<texere_fabric::warp::Lap>, Laid), course: usize| -> Vec<i64> {
+    let needles = |yarn: &(i64, Vec<texere_fabric::warp::Lap>, PlacedLap), course: usize| -> Vec<i64> {
         let lap = yarn.1[course % courses as usize];
         if lap.kind() == LapKind::Inlay {
             return Vec::new();
@@ -172,7 +174,8 @@ fn painted(cloth: &WarpKnitted, laid: &[Laid]) -> (u64, u64) {
             }
         }
     }
-    // What crosses the wales of a bar further forward lies between its loops and its way up.
+    // A yarn that crosses wales of a bar further forward lies between that bar's loops and its yarn
+    // from course to course.
     let mut caught: Vec<[usize; 2]> = Vec::new();
     for (number, yarn) in yarns.iter().enumerate() {
         for course in 0..courses as usize {
@@ -237,7 +240,7 @@ proptest! {
         }
         let cloth = warp(bars, wales, courses, [copies, 1]);
         let pieces = cloth.pieces();
-        let laid: Vec<Laid> = cloth.laps().collect();
+        let laid: Vec<PlacedLap> = cloth.laps().collect();
         prop_assert_eq!((pieces.count, pieces.loose), painted(&cloth, &laid));
     }
 }

@@ -1,7 +1,7 @@
-//! Threads that bend round one another stay clear at every pitch, by the clearance report.
+//! Threads that bend around one another stay clear at every pitch, by the clearance report.
 //!
-//! The report itself is held against brute force in `contacts.rs`; some of these cloths are in
-//! `clearance.rs`.
+//! `contacts.rs` holds the report against brute force, and `clearance.rs` does so with some of these
+//! cloths.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -32,8 +32,8 @@ const FLAT: Pair = Pair {
 };
 
 impl Pair {
-    /// Spacings of ends and picks, `ratio` of the least pitch, which each set has by the other's
-    /// share of the crimp; but no set lies closer than side by side.
+    /// Spacings of ends and picks: `ratio` times the least pitch, which follows from the other
+    /// set's share of the crimp. No set lies closer than side by side.
     fn threads(&self, share: f32, ratio: f64) -> [Thread; 2] {
         let [wide, high] = self.half;
         let radius = self.radius.map(f64::from);
@@ -43,7 +43,7 @@ impl Pair {
         })
     }
 
-    /// The least clearance of `drawdown` at this share and ratio, or none where a pitch is beyond
+    /// The least clearance of `drawdown` at this share and ratio. None where a pitch is beyond
     /// [`FURTHEST`].
     fn clearance(&self, drawdown: &Drawdown, share: f32, ratio: f64) -> Option<f64> {
         let threads = self.threads(share, ratio);
@@ -58,7 +58,7 @@ impl Pair {
     }
 }
 
-/// From `least` times the least pitch on, in steps that grow.
+/// Pitches from `least` times the least pitch, in growing steps.
 fn stays_clear(pair: &Pair, share: f32, least: f64) {
     for (name, drawdown) in weaves() {
         for growth in [1.0, 1.03, 1.06, 1.1, 1.15, 1.2, 1.3, 1.45, 1.6, 1.8, 2.1, 2.5, 3.0, 3.5] {
@@ -73,7 +73,7 @@ fn stays_clear(pair: &Pair, share: f32, least: f64) {
 #[test]
 fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
     for (name, drawdown) in weaves() {
-        // From 1.74 diameters, the least pitch and a little over.
+        // Pitches from 1.74 diameters: the least pitch and a little more.
         for step in (174..=600).step_by(6) {
             let pitch = f64::from(step) / 100.0;
             let thread = Thread::new(pitch * 0.2, 0.1);
@@ -130,7 +130,7 @@ fn below_the_least_pitch_threads_pierce_and_are_told_of() {
             let jammed = |warning: &FabricWarning| matches!(warning, FabricWarning::Jammed { pitch_mm, .. } if *pitch_mm == pitch * 0.2);
             assert!(cloth.warnings().iter().any(jammed), "{name} at {pitch} diameters");
             let report = cloth.relieve(Relief::Report).unwrap();
-            assert!(report.before[0].jammed > 0 && report.before[1].jammed == 0, "{name}: {report:?}");
+            assert!(report.before.warp.jammed > 0 && report.before.weft.jammed == 0, "{name}: {report:?}");
             let found = clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap();
             assert!(pitch > 1.5 || found.min < 0.99, "{name} at {pitch} diameters: {}", found.min);
         }
@@ -145,7 +145,7 @@ fn flattening_cures_what_it_can() {
             let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, Section::Circle);
             let report = cloth.relieve(Relief::Flatten).unwrap();
             let after = clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap().min;
-            let jammed = report.after.map(|set| set.jammed);
+            let jammed = report.after.map(|set| set.jammed).into_array();
             if jammed == [0, 0] {
                 assert!(after >= 0.99, "{name}, ends {ends}, picks {picks}: {after}");
             } else {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};
 
-/// A yarn through `points`, after another one.
+/// Two yarns, of which the second goes through `points`.
 fn yarns(points: &[[f32; 3]], closed: bool) -> Yarns {
     let control = |points: &[[f32; 3]]| -> Vec<_> {
         points.iter().map(|[x, y, z]| ControlPoint::new(*x, *y, *z, 0.1)).collect()
@@ -18,7 +18,8 @@ fn yarns(points: &[[f32; 3]], closed: bool) -> Yarns {
 }
 
 proptest! {
-    /// No point of the straight lines between control points is nearer than the one that is found.
+    /// No point of the straight lines between control points is nearer than the place that is
+    /// found.
     #[test]
     fn no_place_is_nearer(
         points in prop::collection::vec(prop::array::uniform3(-9.0f32..9.0), 3..9),

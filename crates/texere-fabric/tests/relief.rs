@@ -1,4 +1,4 @@
-//! Jammed cloth, before and after something is done about it.
+//! Jammed cloth before and after relief.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -6,8 +6,10 @@ mod oracle;
 
 use texere_core::{Material, Origin, Section};
 use texere_fabric::{
-    Crimp, FabricError, Relief, Shape, Thread, ThreadError, Weave, Woven, WovenDesign, WovenError,
+    BySet, Crimp, FabricError, Relief, Shape, Thread, ThreadError, Weave, Woven, WovenDesign, WovenError,
 };
+
+const UNCHANGED: BySet<f32> = BySet { warp: 1.0, weft: 1.0 };
 
 fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
     let drawdown = Weave::parse(weave).unwrap().drawdown(8, 8).unwrap();
@@ -27,23 +29,23 @@ fn the_least_pitch_is_peirces() {
     // Two sets of round threads alike: √3 diameters, whatever the weave. A pick of 0.6 ends: 1.386
     // ends both ways.
     let report = dense("3/1", 3.0, 1.5).relieve(Relief::Report).unwrap();
-    for set in report.before {
+    for set in report.before.into_array() {
         assert!((set.pitch_min_mm / 0.2 - 3f64.sqrt()).abs() < 1e-6, "{set:?}");
     }
-    assert_eq!(report.before.map(|set| set.jammed), [0, 7]);
-    assert_eq!(report.before[1].tightest, Some(Origin::Pick(2)));
-    assert_eq!((report.before, report.scaled, report.widened), (report.after, 1.0, [1.0; 2]));
+    assert_eq!(report.before.map(|set| set.jammed).into_array(), [0, 7]);
+    assert_eq!(report.before.weft.tightest, Some(Origin::Pick(2)));
+    assert_eq!((report.before, report.scaled, report.widened), (report.after, 1.0, UNCHANGED));
 
     let mut unequal = cloth("plain", [Thread::new(0.6, 0.1), Thread::new(0.6, 0.06)], Section::Circle);
     unequal.set_crimp(Crimp::WarpShare(0.5)).unwrap();
-    for set in unequal.relieve(Relief::Report).unwrap().before {
+    for set in unequal.relieve(Relief::Report).unwrap().before.into_array() {
         assert!((set.pitch_min_mm / 0.2 - 1.3856).abs() < 1e-4, "{set:?}");
     }
 
     // An ellipse twice as wide as high: 1.3 widths.
     let ellipse = Section::Ellipse { aspect: 2.0 };
     let report = cloth("plain", [Thread::new(1.0, 0.1); 2], ellipse).relieve(Relief::Report).unwrap();
-    assert!((report.before[0].pitch_min_mm / (0.2 * 2f64.sqrt()) - 1.299).abs() < 1e-3);
+    assert!((report.before.warp.pitch_min_mm / (0.2 * 2f64.sqrt()) - 1.299).abs() < 1e-3);
 }
 
 #[test]
@@ -53,33 +55,34 @@ fn nothing_between_two_threads_jams_nothing() {
     let set: Vec<_> = [0.05, 0.35, 0.35, 0.05].map(|spacing| Thread::new(spacing, 0.1)).into();
     let mut cloth =
         Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![Section::Circle]).unwrap();
-    assert_eq!(cloth.relieve(Relief::Report).unwrap().before.map(|set| set.jammed), [0, 0]);
+    assert_eq!(cloth.relieve(Relief::Report).unwrap().before.map(|set| set.jammed).into_array(), [0, 0]);
 }
 
 #[test]
 fn crimp_goes_where_the_cloth_is_dense() {
-    // Warp-dense: the ends bend, the picks straighten, and no thread is changed.
+    // Cloth with dense warp: the ends bend, the picks straighten, and no thread changes.
     let mut cloth = dense("plain", 1.5, 2.4);
     let (threads, report) = (cloth.clone(), cloth.relieve(Relief::Flatten).unwrap());
-    assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
-    assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
-    assert!(report.warp_share[1] > 0.6 && report.widened == [1.0; 2] && report.scaled == 1.0, "{report:?}");
+    assert_eq!(report.before.map(|set| set.jammed).into_array(), [7, 0]);
+    assert_eq!(report.after.map(|set| set.jammed).into_array(), [0, 0]);
+    assert!(report.warp_share[1] > 0.6 && report.widened == UNCHANGED && report.scaled == 1.0, "{report:?}");
     assert_eq!((cloth.warp(), cloth.weft(), cloth.warnings().len()), (threads.warp(), threads.weft(), 0));
     assert!(oracle::round_clearance(&cloth.yarns().unwrap(), 32) > 0.99);
 }
 
 #[test]
 fn flattening_keeps_the_area_and_clears_the_surfaces() {
-    // A share that is given stays: what passes between the ends has to grow flatter.
+    // A share of the crimp that is given stays. Picks have to grow flatter to pass between the
+    // ends.
     let mut cloth = dense("plain", 1.6, 3.0);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
     let report = cloth.relieve(Relief::Flatten).unwrap();
-    assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
-    assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
-    assert_eq!((report.warp_share, report.widened[0], report.scaled), ([0.5; 2], 1.0, 1.0));
+    assert_eq!(report.before.map(|set| set.jammed).into_array(), [7, 0]);
+    assert_eq!(report.after.map(|set| set.jammed).into_array(), [0, 0]);
+    assert_eq!((report.warp_share, report.widened.warp, report.scaled), ([0.5; 2], 1.0, 1.0));
     let [half_width, half_height] = cloth.weft()[0].halves_mm();
-    assert!(report.widened[1] > 1.1, "{report:?}");
-    assert!((half_width / (0.1 * report.widened[1]) - 1.0).abs() < 1e-3, "{half_width}, {report:?}");
+    assert!(report.widened.weft > 1.1, "{report:?}");
+    assert!((half_width / (0.1 * report.widened.weft) - 1.0).abs() < 1e-3, "{half_width}, {report:?}");
     assert!((half_width * half_height - 0.01).abs() < 1e-6);
     assert_eq!(cloth.sections(), [Section::Circle]);
     assert_eq!((cloth.warnings().len(), cloth.weft()[0].radius_mm), (0, 0.1));
@@ -90,16 +93,16 @@ fn flattening_keeps_the_area_and_clears_the_surfaces() {
 fn what_can_not_be_flattened_is_told() {
     let mut cloth = dense("plain", 1.2, 1.2);
     let report = cloth.relieve(Relief::Flatten).unwrap();
-    assert_eq!(report.after.map(|set| set.jammed).into_iter().max(), Some(7));
+    assert_eq!(report.after.map(|set| set.jammed).into_array().into_iter().max(), Some(7));
 }
 
-/// Plies, and what else turns with the twist, stay as they are inside the flattened outline.
+/// Plies, and all that turns with the twist, stay unchanged inside the flattened outline.
 #[test]
 fn plies_are_flattened_as_they_are() {
     let plies = Section::Lobed { plies: 2 };
     let mut lobed = cloth_of(plies.clone());
     let report = lobed.relieve(Relief::Flatten).unwrap();
-    assert!(report.widened != [1.0; 2], "{report:?}");
+    assert!(report.widened != UNCHANGED, "{report:?}");
     assert_eq!(lobed.sections(), [plies]);
 }
 
@@ -112,7 +115,7 @@ fn shrinking_makes_everything_fit() {
     for (ends, picks) in [(1.2, 1.2), (0.5, 3.0), (1.6, 1.6)] {
         let mut cloth = dense("3/1", ends, picks);
         let report = cloth.relieve(Relief::Shrink).unwrap();
-        assert_eq!(report.after.map(|set| set.jammed), [0, 0], "{ends}, {picks}");
+        assert_eq!(report.after.map(|set| set.jammed).into_array(), [0, 0], "{ends}, {picks}");
         assert!(report.scaled < 1.0 && cloth.warnings().is_empty(), "{report:?}");
         assert!((cloth.warp()[3].radius_mm / 0.1 - report.scaled).abs() < 1e-6);
         let clearance = oracle::round_clearance(&cloth.yarns().unwrap(), 32);
@@ -134,7 +137,7 @@ fn threads_too_thin_to_shrink_are_left_alone() {
     assert_eq!(cloth, before);
 }
 
-/// Other lifts jam other threads, so relief begins again from the cloth that was given.
+/// Other lifts jam other threads. Relief then begins again from the cloth that was given.
 #[test]
 fn a_design_with_another_lift_is_one_that_was_given_so() {
     let given = dense("plain", 1.2, 1.2);

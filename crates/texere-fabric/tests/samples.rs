@@ -1,10 +1,11 @@
-//! One repeat of a cloth has the numbers that many have.
+//! One repeat of a cloth has the same measures as many repeats.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
 
 use proptest::prelude::*;
+use texere_core::crossings::Set;
 use texere_core::{Material, Section};
 use texere_cpu::ParallelBackend;
 use texere_fabric::warp::{Bar, Chain, WarpKnitted};
@@ -12,13 +13,13 @@ use texere_fabric::weft::{
     Beds, CarrierSet, Chart, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle, Operation,
     Program,
 };
-use texere_fabric::{Drawdown, Finish, Measures, Structure, Thread, Weave, Woven};
+use texere_fabric::{BySet, Drawdown, Finish, Measures, Structure, Thread, Weave, Woven};
 
 fn materials() -> Vec<Material> {
     [20.0, 30.0].map(|tex| Material { tex: Some(tex), ..Material::default() }).to_vec()
 }
 
-/// Cloth of a weave, ends and picks with these spacings and materials over and over again.
+/// Cloth of a weave, whose ends and picks take these spacings and materials in turn.
 fn woven(notation: &str, size: [usize; 2], spacing: &[f64], materials_of: &[u32]) -> Woven {
     let thread = |number: usize| Thread {
         material: materials_of[number % materials_of.len()],
@@ -34,10 +35,10 @@ fn close(one: f64, other: f64, within: f64) -> bool {
     (one / other - 1.0).abs() < within
 }
 
-/// Weight, cover and crimp, and threads to the cm.
+/// Weight, cover, crimp, and threads per cm.
 fn numbers(cloth: &Woven, measures: &Measures) -> [f64; 6] {
-    let [warp, weft] = measures.crimp.unwrap();
-    let [ends, picks] = cloth.setts().map(|sett| sett.per_cm);
+    let BySet { warp, weft } = measures.crimp.unwrap();
+    let BySet { warp: ends, weft: picks } = cloth.setts().map(|sett| sett.per_cm);
     [measures.areal_weight.unwrap(), 1.0 + warp, 1.0 + weft, 1.0 + measures.cover.unwrap().cloth, ends, picks]
 }
 
@@ -53,7 +54,7 @@ fn two_ends_of_an_uneven_sett_have_the_numbers_of_two_hundred() {
     assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-4)), "{one:?} {many:?}");
 }
 
-/// A small cloth is measured among others of its kind, which are drawn with the tension of its
+/// A small cloth is measured between copies of itself. The copies are drawn with the tension of its
 /// yarns.
 #[test]
 fn a_small_cloth_has_the_crimp_of_a_large_one_at_any_tension() {
@@ -64,15 +65,14 @@ fn a_small_cloth_has_the_crimp_of_a_large_one_at_any_tension() {
     };
     for tension in [0.0, 0.3, 0.9] {
         let (small, large) = (crimp(4, tension), crimp(200, tension));
-        assert!([0, 1].into_iter().all(|set| close(small[set], large[set], 1e-2)), "{small:?} {large:?}");
+        assert!(Set::BOTH.into_iter().all(|set| close(small[set], large[set], 1e-2)), "{small:?} {large:?}");
     }
-    assert!(!close(crimp(4, 0.0)[0], crimp(4, 0.9)[0], 1e-1));
+    assert!(!close(crimp(4, 0.0).warp, crimp(4, 0.9).warp, 1e-1));
 }
 
 #[test]
 fn straight_threads_weigh_what_they_are() {
-    // All ends on the face: 20 ends of 30 tex and 10 picks of 20 tex to the cm, none of them
-    // crimped.
+    // All ends lie on the face: 20 ends of 30 tex and 10 picks of 20 tex per cm, without crimp.
     for size in [1, 2, 3, 7] {
         let mut cloth = woven("plain", [size; 2], &[0.5], &[1]);
         let drawdown = Drawdown::from_fn(size, size, |_, _| true).unwrap();
@@ -86,7 +86,7 @@ fn straight_threads_weigh_what_they_are() {
 
 #[test]
 fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
-    // Ends of 20 and 30 tex by turns: three of them are one repeat and a thread.
+    // Ends of 20 and 30 tex by turns. Three ends are one repeat and a thread.
     let [one, more] = [2, 3].map(|ends| {
         let cloth = woven("plain", [ends, 4], &[0.8], &[0, 1]);
         Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
@@ -96,8 +96,7 @@ fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
     assert!(close(one, more, 1e-5), "{one} {more}");
 }
 
-/// Straight ends of yarns in this order over and over again, 2 to the mm, below straight picks of
-/// 20 tex, 1 to the mm.
+/// Straight ends that take these yarns in turn, 2 per mm, below straight picks of 20 tex, 1 per mm.
 fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
     let materials = [20.0].iter().chain(tex).map(|tex| Material { tex: Some(*tex), ..Material::default() });
     let warp =
@@ -128,7 +127,7 @@ fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat(
             let measures = straight(&[10.0, 30.0, 80.0], order, ends);
             let weight = measures.areal_weight.unwrap();
             assert!(close(weight, 2.0 * tex + 20.0, 1e-6), "{order:?} on {ends} ends: {weight}");
-            let found = measures.cover.unwrap().factor.unwrap()[0];
+            let found = measures.cover.unwrap().factor.unwrap().warp;
             assert!(close(found, factor, 1e-3), "{order:?} on {ends} ends: {found} for {factor}");
         }
     }
@@ -136,8 +135,8 @@ fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat(
 
 #[test]
 fn flat_threads_among_round_ones_are_part_of_the_repeat() {
-    // Threads of one radius, every third of them three times as wide as high: it rises less than
-    // the others and passes them lower.
+    // Threads of one radius. Every third one is three times as wide as high: it rises less than the
+    // others, and passes lower.
     let cloth = |size: usize| {
         let thread = |number: usize| Thread {
             flatness: if number.is_multiple_of(3) { 3.0 } else { 1.0 },
@@ -169,7 +168,7 @@ proptest! {
             let [warp, weft] = size.map(|size| (0..size).map(thread).collect());
             Woven::new(drawdown, warp, weft, tex.clone(), vec![Section::Circle]).unwrap()
         };
-        // A few threads more than whole repeats, but for the first.
+        // All cloths but the first have a few threads more than whole repeats.
         let [one, many] = [[repeat; 2], times.map(|times| times * repeat + times - 1)].map(cloth).map(|cloth| {
             Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
         });
@@ -249,7 +248,8 @@ fn knits_have_the_same_numbers_small_and_large() {
 
 #[test]
 fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
-    // An inlay has two points a course: fewer in its repeat than it goes on by beyond the cloth.
+    // An inlay has two points a course. Its repeat has fewer points than it goes on by beyond the
+    // cloth.
     let net = |copies: [u32; 2]| {
         let bars = ["1-0/0-1//", "0-0/1-1//", "0-0//"]
             .map(|chain| Bar::new(Chain::parse(chain, 1).unwrap()))
@@ -269,8 +269,8 @@ fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
 
 #[test]
 fn stripes_of_a_knit_count_by_their_own_courses() {
-    // Two courses of 20 tex, one of 30: loops are alike, so that they weigh as if all were of the
-    // mean, 70/3 tex.
+    // Two courses of 20 tex and one of 30. The loops are alike, so that all together weigh as loops
+    // of the mean, 70/3 tex.
     let knit = |yarns: Vec<u32>, copies: [u32; 2]| {
         let chart = Chart::parse("k", Beds::One).unwrap().with_yarns(&yarns).unwrap();
         let program = chart.program().unwrap();

@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 use texere_core::{Material, Section};
-use texere_fabric::{Drawdown, Thread, Woven};
+use texere_fabric::{BySet, Drawdown, Thread, Woven};
 
-/// A twill of so many up, so many down and so on, each pick one end further.
+/// A twill from its numbers up, down and so on. Each pick is moved by one end.
 fn cloth(floats: &[usize], per_inch: f64, diameters_per_inch: f64) -> Woven {
     let thread = Thread::new(25.4 / per_inch, (0.5 * 25.4 / diameters_per_inch) as f32);
     let repeat: Vec<bool> =
@@ -17,7 +17,7 @@ fn cloth(floats: &[usize], per_inch: f64, diameters_per_inch: f64) -> Woven {
 }
 
 fn greatest_per_inch(cloth: &Woven) -> f64 {
-    2.54 * cloth.setts()[0].greatest_per_cm
+    2.54 * cloth.setts().warp.greatest_per_cm
 }
 
 /// "Ashenhurst's formula", <http://www.faena.medievaltextiles.org/ash.html>: 8/2 cotton has 52
@@ -45,7 +45,7 @@ fn square(weave: fn(usize, usize) -> bool, warp: Thread, weft: Thread) -> [Optio
     let drawdown = Drawdown::from_fn(8, 8, weave).unwrap();
     let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
     let cloth = Woven::new(drawdown, vec![warp; 8], vec![weft; 8], materials, sections).unwrap();
-    cloth.setts().map(|sett| sett.jammed_per_cm)
+    cloth.setts().map(|sett| sett.jammed_per_cm).into_array()
 }
 
 fn plain(end: usize, pick: usize) -> bool {
@@ -61,7 +61,7 @@ fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     for jammed in square(plain, thread, thread) {
         assert!((10.0 / jammed.unwrap() / 0.4 - 0.866).abs() < 1e-4, "{jammed:?}");
     }
-    // Twills do not jam so.
+    // Twills do not jam at this angle.
     assert_eq!(square(|end, pick| (end + 8 - pick) % 4 < 2, thread, thread), [None; 2]);
 }
 
@@ -98,7 +98,7 @@ fn threads_of_other_sets_take_their_own_room() {
     let cloth =
         Woven::new(plain, vec![thin; 6], vec![thick; 6], vec![Material::default()], vec![Section::Circle])
             .unwrap();
-    let [ends, picks] = cloth.setts();
+    let BySet { warp: ends, weft: picks } = cloth.setts();
     // A pick of 0.2 mm passes between any two ends of 0.1 mm.
     assert!(
         (ends.greatest_per_cm - 10.0 / 0.3).abs() < 1e-4 && (picks.greatest_per_cm - 10.0 / 0.3).abs() < 1e-4
@@ -109,7 +109,8 @@ fn threads_of_other_sets_take_their_own_room() {
     let doubled = vec![thin; 6];
     let cloth =
         Woven::new(ribs, doubled, vec![thick; 6], vec![Material::default()], vec![Section::Circle]).unwrap();
-    // Of six ends the third pair is as the first: over the repeat's seam nothing changes.
-    let [ends, picks] = cloth.setts();
+    // With six ends the third pair equals the first, so that nothing changes over the repeat's
+    // seam.
+    let BySet { warp: ends, weft: picks } = cloth.setts();
     assert!((ends.interlacings - 0.5).abs() < 1e-9 && (picks.interlacings - 1.0).abs() < 1e-9, "{ends:?}");
 }

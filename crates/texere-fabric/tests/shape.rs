@@ -1,4 +1,5 @@
-//! What a shape, a share of the crimp and a selvedge make of control points, crossing by crossing.
+//! Control points of woven cloth, crossing by crossing, for each shape, share of the crimp and
+//! selvedge.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -31,8 +32,7 @@ fn cloths() -> impl Strategy<Value = Woven> {
     })
 }
 
-/// Where the threads lie, by the definition: in the middle of their columns, which lie side by
-/// side.
+/// Positions of threads by the definition: in the middle of their columns, which lie side by side.
 fn places(threads: &[Thread]) -> Vec<f64> {
     (0..threads.len())
         .map(|own| {
@@ -41,7 +41,7 @@ fn places(threads: &[Thread]) -> Vec<f64> {
         .collect()
 }
 
-/// Whether a yarn passes `along` of the axis `of` with the height `z` at a control point.
+/// Whether a yarn has a control point of height `z` at `along` on the axis `of`.
 fn passes(yarns: &Yarns, yarn: usize, at: [f64; 2], z: f64) -> bool {
     yarns.yarn_points(yarn).unwrap().iter().any(|point| {
         (f64::from(point.x) - at[0]).abs() < 1e-5
@@ -121,9 +121,9 @@ proptest! {
 
 #[test]
 fn a_long_float_beside_a_close_pitch_is_stepped_through() {
-    // Room left empty beside an end: 5.2 mm to both its neighbours, after ends 0.4 mm apart. The
-    // spline's time is uniform: each of its intervals is at most five times as long as the one
-    // before or after it, or the thread would turn back on itself.
+    // An end with empty room beside it: 5.2 mm to both neighbours, after ends 0.4 mm apart. The
+    // spline's time is uniform. No interval may be more than five times as long as its neighbours,
+    // or the thread would turn back on itself.
     let (close, far) = (Thread::new(0.4, 0.1), Thread::new(10.0, 0.1));
     let warp = vec![close, close, far, close, close];
     let up = [true, false, false, true, true];
@@ -158,8 +158,8 @@ fn the_weft_turns_outside_the_edge_ends() {
     let origins: Vec<_> =
         yarns.layout().yarns()[4..].iter().map(|yarn| (yarn.origin, yarn.material)).collect();
     assert_eq!(origins, [(Origin::Pick(1), 0), (Origin::Pick(4), 1), (Origin::Pick(6), 0)]);
-    // Pick 1 starts at the left; the turn to pick 2 is at the right, beyond the edge end (1.75) and
-    // both radii; its radius is half a pitch.
+    // Pick 1 starts at the left. The turn to pick 2 is at the right, beyond the edge end (1.75) and
+    // both radii. Its radius is half a pitch.
     let points = yarns.yarn_points(4).unwrap();
     assert_eq!((points[0].x, points[0].y), (0.0, 0.25));
     let rightmost = points.iter().fold(0.0f32, |most, point| most.max(point.x));

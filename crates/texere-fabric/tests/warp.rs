@@ -1,5 +1,4 @@
-//! Warp knits: notation, lappings by name, which laps guides make, Jacquards, copies, run-ins, and
-//! what is refused.
+//! Warp knits: notation, named lappings, laps of guides, Jacquards, copies, run-ins and refusals.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
@@ -25,8 +24,8 @@ fn knit(bars: Vec<Bar>, size: [u32; 2], copies: [u32; 2]) -> Result<WarpKnitted,
     WarpKnitted::new(bars, Gauge::new(1.0, 0.75), size[0], size[1], yarns, materials, sections, copies)
 }
 
-/// Of guide 0, course by course: the needle of its loop, whether it is open, and the underlap after
-/// it.
+/// For guide 0, course by course: the needle of its loop, whether the lap is open, and the underlap
+/// after it.
 fn laps(name: &str) -> Vec<(i32, bool, i32)> {
     let chain = Chain::named(name).unwrap();
     let lap = |course: usize| (chain.lap(course).needle(), chain.is_open(course), chain.underlap(course));
@@ -38,8 +37,8 @@ fn lappings_are_what_their_names_say() {
     assert_eq!(laps("pillar"), [(0, true, 0), (0, true, 0)]);
     assert_eq!(laps("closed pillar"), [(0, false, -1), (0, false, -1)]);
     for (name, needles) in [("tricot", 1), ("cord", 2), ("satin", 3), ("velvet", 4)] {
-        // The loop lies on needle 0 and then so many further; a closed lap's underlap goes back
-        // beyond its own needle.
+        // The loop lies on needle 0, and then further on by the lapping's number. The underlap of a
+        // closed lap goes back beyond its own needle.
         assert_eq!(laps(name), [(0, false, needles), (needles, false, -needles)], "{name}");
         let open = format!("open {name}");
         assert_eq!(laps(&open), [(0, true, needles), (needles, true, -needles)], "{open}");
@@ -129,7 +128,7 @@ fn wrong_notation_is_refused_with_its_column() {
     assert_eq!(chain("(1-0/1-2)x2048//").courses(), CHAIN_COURSES);
 }
 
-/// A displaced lap of a Jacquard bar, as GB 1-0/1-2 is displaced: thick, thin, mesh and both.
+/// Displaced laps of a Jacquard bar with the chain 1-0/1-2: thick, thin, mesh and both.
 #[test]
 fn jacquards_displace_single_guides() {
     let palette =
@@ -154,7 +153,8 @@ fn jacquards_displace_single_guides() {
     assert!(Displacements::new([4, 1], vec![vec![[0, 1]], vec![]], |_, _| 0).is_none());
 }
 
-/// Guides and courses are named in the whole cloth, and every copy is the repeat moved.
+/// Origins and sources count guides and courses of the whole cloth. Every copy is the repeat,
+/// moved.
 #[test]
 fn copies_have_names_of_their_own() {
     let threaded = Threading::of(vec![Some(0), None]);
@@ -189,7 +189,7 @@ fn copies_have_names_of_their_own() {
     assert!(moved && points(2).len() == points(12).len());
 }
 
-/// With [`Cells::Even`] a yarn has 9 control points a course: the facets of the paper's figure 7c.
+/// With [`Cells::Even`] a yarn has 9 control points a course, as figure 7c of the paper has facets.
 #[test]
 fn even_cells_are_nine_points_a_course() {
     let bars = vec![Bar::new(chain("1-0/1-2")), Bar::new(chain("1-2/1-0"))];
@@ -216,18 +216,18 @@ fn run_ins_are_asked_for_and_measured() {
         let [front, back] = [0, 1].map(|bar: usize| Some(shares[bar] * found[bar].reached_mm));
         knit(vec![bar("1-0/2-3", front), bar("1-2/1-0", back)], [4, 4], [1, 3]).unwrap()
     };
-    // Loops become higher or lower, so that each bar has its own run-in.
+    // Loops become higher or lower, so that each bar has the run-in that it asks for.
     let higher = asked([1.02, 0.98]);
     let made = higher.run_ins(&higher.yarns().unwrap());
     assert!(made.iter().all(|run_in| run_in.miss().unwrap().abs() < 1e-3), "{made:?}");
     let repeat = higher.repeat().unwrap();
     assert_eq!(higher.finish_of(&repeat, &Finish::default()).length, Some(Length::Held));
-    // At rest they still have it.
+    // The bars still have it at rest.
     let settled =
         higher.settle(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()));
     let rested = higher.run_ins(&settled.unwrap().yarns);
     assert!(rested.iter().all(|run_in| run_in.miss().unwrap().abs() < 0.02), "{rested:?}");
-    // What they can't take is given to all yarns.
+    // Length beyond that is given to all yarns.
     let longer = asked([1.2, 1.2]);
     let repeat = longer.repeat().unwrap();
     let Some(Length::Given(factor)) = longer.finish_of(&repeat, &Finish::default()).length else {
@@ -275,7 +275,7 @@ fn what_is_no_cloth_is_refused() {
     let other = Bar { jacquard, ..bar() };
     let courses = FabricError::Warp(WarpError::JacquardCourses { bar: 1, courses: 1, chain: 2 });
     assert_eq!(refused(vec![other], four, one), courses);
-    // What is displaced goes round three needles: 2-0 by 1-0 is 3-0.
+    // A displaced lap may go round three needles: 2-0 displaced by 1-0 is 3-0.
     let wide = Displacements::new([1, 1], vec![vec![[1, 0], [0, 0]]], |_, _| 0);
     let wide = Bar { jacquard: wide, ..Bar::new(chain("2-0/1-2//")) };
     let lap = FabricError::Warp(WarpError::JacquardLap {
@@ -285,7 +285,7 @@ fn what_is_no_cloth_is_refused() {
         limit: 2,
     });
     assert_eq!(refused(vec![bar(), wide], four, one), lap);
-    // To the other side it goes round one.
+    // Displaced to the other side it goes round one needle.
     let narrow = Displacements::new([1, 1], vec![vec![[0, 1], [0, 0]]], |_, _| 0);
     let narrow = Bar { jacquard: narrow, ..Bar::new(chain("2-0/1-2//")) };
     knit(vec![narrow], four, one).unwrap().yarns().unwrap();
@@ -301,7 +301,7 @@ fn what_is_no_cloth_is_refused() {
     let parts = (vec![KnitYarn::new(0.05)], vec![Material::default()], vec![Section::Circle]);
     let made = WarpKnitted::new(vec![bar()], gauge, 4, 2, parts.0, parts.1, parts.2, one);
     assert!(matches!(made.unwrap_err(), FabricError::Weft(WeftError::Gauge { .. })));
-    // Yarn 2, which is as thin as nothing, hangs from guide 2 of the back bar first.
+    // Yarn 2, which has no thickness, is held by guide 2 of the back bar first.
     let threading = Threading::of(vec![Some(0), Some(1)]);
     let parts =
         (vec![KnitYarn::new(0.05), KnitYarn::new(0.0)], vec![Material::default()], vec![Section::Circle]);
@@ -364,7 +364,7 @@ fn pillar() -> Chain {
     Chain::named("pillar").unwrap()
 }
 
-/// A guide far beyond the cloth laps where its number says, as far as a lap can tell.
+/// A guide far beyond the cloth laps at its number, up to the limits of a lap's spaces.
 #[test]
 fn a_guide_of_any_number_laps_to_the_high_numbers() {
     let bar = |offset| Bar { offset, ..Bar::new(Chain::parse("1-0/1-2//", 1).unwrap()) };

@@ -1,4 +1,4 @@
-//! What every cloth must satisfy, whatever its weave and its threads, and what is refused.
+//! Properties of every cloth, for any weave and any threads, and refusals.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -38,8 +38,7 @@ fn cloths() -> impl Strategy<Value = Woven> {
     })
 }
 
-/// Where the threads lie, by the definition: in the middle of their columns, which lie side by
-/// side.
+/// Positions of threads by the definition: in the middle of their columns, which lie side by side.
 fn places(threads: &[Thread]) -> Vec<f64> {
     (0..threads.len())
         .map(|own| {
@@ -141,7 +140,7 @@ proptest! {
                 prop_assert!((a.x + b.x - width).abs() < 1e-5 && a.y == b.y, "end {}: {:?} {:?}", end, a, b);
             }
         }
-        let [gaps, mut back] = [&cloth, &mirrored].map(|cloth| cloth.pitches()[0].clone());
+        let [gaps, mut back] = [&cloth, &mirrored].map(|cloth| cloth.pitches().warp);
         back.reverse();
         for (gap, back) in gaps.iter().zip(&back) {
             prop_assert!((gap.pitch_mm - back.pitch_mm).abs() < 1e-12 && gap.beside_mm == back.beside_mm);
@@ -156,8 +155,8 @@ fn thick_and_thin_ends_lie_in_the_middle_of_their_columns() {
     let cloth = woven(plain(12, 2), warp, vec![Thread::new(3.0, 0.15); 2]).unwrap();
     assert_eq!(cloth.size_mm(), [18.0, 6.0]);
     let middles: Vec<_> = (0..12).map(|end| 0.5 + 1.5 * f64::from(end)).collect();
-    assert_eq!(cloth.middles_mm()[0], middles);
-    assert!(cloth.pitches()[0].iter().all(|gap| gap.pitch_mm == 1.5));
+    assert_eq!(cloth.middles_mm().warp, middles);
+    assert!(cloth.pitches().warp.iter().all(|gap| gap.pitch_mm == 1.5));
     // Side by side the two need half their diameters together, 0.85 mm, and room for the weft
     // between them.
     assert_eq!(cloth.warnings(), []);
@@ -259,8 +258,8 @@ fn cloth_at_the_edge_of_what_is_taken_gives_sound_yarns() {
 
 #[test]
 fn threads_in_one_place_give_sound_yarns() {
-    // A kilometre from the edge a nanometre is nothing in single precision: ends 2 to 5 lie where
-    // end 1 does.
+    // A nanometre vanishes in single precision a kilometre from the edge: ends 2 to 5 lie where end
+    // 1 does.
     let mut warp = vec![Thread::new(1e-6, 0.1); 6];
     (warp[0].spacing_mm, warp[5].spacing_mm) = (1e6, 1e6);
     let weft = vec![Thread::new(1.0, 0.1); 3];
@@ -287,7 +286,7 @@ fn a_section_that_is_not_sound_changes_nothing() {
 
 #[test]
 fn threads_that_just_fit_are_not_warned_of() {
-    // As thick as they are spaced by twice: the closest that crossing threads pass one another.
+    // Threads spaced by twice their thickness: the closest at which crossing threads pass.
     let thread = Thread::new(0.3, 0.075);
     assert_eq!(woven(plain(6, 6), vec![thread; 6], vec![thread; 6]).unwrap().warnings(), []);
 }
@@ -309,7 +308,7 @@ fn one_warning_stands_for_all_threads_alike() {
         "threads pierce their neighbours: end 100 and 3 more; worst is end 501, which needs 1.6000 mm and has 1.0000 mm"
     );
 
-    // Wide sections lie flat: they crowd their neighbours where round ones don't.
+    // Wide sections lie flat, and crowd their neighbours where round ones do not.
     let flat = Thread { section: 1, ..Thread::new(1.0, 0.4) };
     let warnings = woven(plain(4, 4), vec![flat; 4], vec![Thread::new(10.0, 0.1); 4]).unwrap().warnings();
     assert!(

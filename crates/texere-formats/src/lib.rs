@@ -16,8 +16,8 @@ pub mod write;
 mod yarns_file;
 
 pub use read::{
-    Design, FilePlace, MachineFault, NamedPlace, ReadError, Refusal, SavedYarns, Structure, Told, read,
-    read_from,
+    Design, FilePlace, MachineFault, NamedPlace, ProgramPlace, ReadError, Refusal, SavedYarns, Structure,
+    read, read_from,
 };
 pub use rest::{Cloth, RestReport, Resting};
 pub use write::WriteError;

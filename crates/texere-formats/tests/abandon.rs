@@ -1,5 +1,5 @@
-//! What a program that is about to end leaves behind: in a process of its own, since nothing is
-//! written after it.
+//! Abandoned output of a program that is about to end. The test has a process of its own, because
+//! nothing is written after it.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs;

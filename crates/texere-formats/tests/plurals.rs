@@ -1,4 +1,4 @@
-//! One thing is one thing in every message that counts.
+//! Messages use the singular for one thing.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use texere_contact::ContactError;
@@ -11,12 +11,12 @@ use texere_fabric::warp::WarpError;
 use texere_fabric::weft::{ChartError, WeftError};
 use texere_formats::{ReadError, WriteError};
 
-/// The first words of a message that say `1` of several.
+/// The first words of a message that use the plural after `1`.
 fn several(said: &str) -> Option<String> {
     let words: Vec<_> = said.split(|letter: char| !letter.is_alphanumeric() && letter != '\'').collect();
     let ones = words.iter().enumerate().filter(|(_, word)| **word == "1");
     let wrong = |(at, _): (usize, &&str)| {
-        // `1 control points` as well as `1 ends`; a verb ends in s, too.
+        // Both `1 control points` and `1 ends` are found. Verbs may end in s, too.
         let next = words[at + 1..]
             .iter()
             .take(2)
@@ -67,7 +67,7 @@ fn errors_say_one_of_one() {
         WovenError::Size { ends: 1, picks: 1, limit: 9 }.to_string(),
         WovenError::Crossings { ends: 1, picks: 1, crossings: 2, limit: 1 }.to_string(),
         WovenError::Points { ends: 1, picks: 1, points: 1, limit: 0 }.to_string(),
-        WeftError::KnitRuns { passed: 9, loops: 1, limit: 2, told: None }.to_string(),
+        WeftError::KnitRuns { passed: 9, loops: 1, limit: 2, operation: None }.to_string(),
         Fabric::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }).to_string(),
         WovenError::NoCrossing { end: 2, pick: 2, ends: 1, picks: 1 }.to_string(),
         WovenError::TieUp { treadles: 1, ends: 1, limit: 0 }.to_string(),

@@ -1,10 +1,10 @@
-//! Our own design files: what is taken, and that each fault is named with its line.
+//! Design files of texere: what is taken, and faults that are named with their lines.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use texere_core::Section;
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{Crimp, Finish, JamReport, Shape, Stretch, Woven};
+use texere_fabric::{BySet, Crimp, Finish, JamReport, Shape, Stretch, Woven};
 use texere_formats::{Design, ReadError, read};
 
 const DENIM: &str = r##"name = "Denim"
@@ -38,7 +38,7 @@ fn cloth(text: &str) -> Woven {
     read_text(text).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
-/// The refusal of `DENIM` with `from` replaced by `to` has to hold all of `parts`.
+/// `DENIM` with `from` replaced by `to` has to be refused, with a message that has all of `parts`.
 fn refused(from: &str, to: &str, parts: &[&str]) {
     assert!(DENIM.contains(from), "the fixture lacks {from}");
     let error = read_text(&DENIM.replacen(from, to, 1)).expect_err(to);
@@ -58,7 +58,7 @@ fn every_key_arrives() {
     assert_eq!((end.spacing_mm, pick.spacing_mm), (0.8, 1.25));
     assert_eq!(woven.materials()[end.material as usize].srgb, [0x2b, 0x3f, 0x6b]);
     assert_eq!(woven.materials()[end.material as usize].tex, Some(84.0));
-    // 500 turns S a metre is half a turn, -π, a millimetre.
+    // 500 turns S per metre are half a turn, -π, per millimetre.
     assert!((end.twist + std::f32::consts::PI).abs() < 1e-6);
     assert_eq!(woven.sections()[pick.section as usize], Section::Lobed { plies: 2 });
     assert_eq!(pick.radius_mm, 0.125);
@@ -66,7 +66,8 @@ fn every_key_arrives() {
     assert!((end.radius_mm * 2.0 - 25.4 / (28.0 * (590.5f32 / 84.0).sqrt())).abs() < 2e-3);
 }
 
-/// Fibres stand off spun staple, which has twist, and not off filament; a design may say how many.
+/// Fibres stand off spun staple, which has twist, and not off filament. A design may give their
+/// number.
 #[test]
 fn yarns_of_every_structure_have_their_hairiness() {
     let jersey = "[knit]\nchart = \"k\"\nrepeat = [4, 4]\nloop_length_mm = 3.2\n";
@@ -119,9 +120,9 @@ fn threads_lie_as_the_cloth_table_says() {
         (woven.shape(), woven.crimp(), woven.selvedge()),
         (Shape::Crossing, Crimp::WarpShare(0.25), true)
     );
-    // A whole number is a number.
+    // A whole number is taken as a number, too.
     assert_eq!(cloth(&format!("{DENIM}[cloth]\nwarp_crimp = 1\n")).crimp(), Crimp::WarpShare(1.0));
-    // One weft yarn instead of five, all of them alike.
+    // One weft yarn instead of five equal ones.
     let yarns = |text: &str| read_text(text).unwrap().yarns().unwrap().layout().yarns().len();
     assert_eq!((yarns(DENIM), yarns(&format!("{DENIM}{table}"))), (7 + 5, 7 + 1));
 }
@@ -139,7 +140,7 @@ fn yarns_settle_as_the_finish_table_says() {
         let design = read_text(&format!("{text}[finish]\n{table}")).unwrap();
         (design.settle, design.finish)
     };
-    // How they settle says nothing of whether they do.
+    // Keys for the way of settling do not decide whether yarns settle.
     let pressed = Finish { press_mm: Some(0.4), ..Finish::default() };
     assert_eq!(finished(JERSEY, "settle = false\npress = 0.4\n"), (false, pressed));
     let of = |length| Finish { length: Some(length), ..Finish::default() };
@@ -150,7 +151,7 @@ fn yarns_settle_as_the_finish_table_says() {
     assert_eq!(finished(JERSEY, &format!("{free}tension = 0.05\n")).1, tension);
     assert_eq!(finished(JERSEY, "length = 1.25\n").1, of(Length::Given(1.25)));
     assert_eq!(finished(JERSEY, "length = 2\n").1, of(Length::Given(2.0)));
-    let woven = Finish { taut: [3.0, 0.5], calender: 2.0, ..Finish::default() };
+    let woven = Finish { taut: BySet { warp: 3.0, weft: 0.5 }, calender: 2.0, ..Finish::default() };
     assert_eq!(finished(DENIM, "warp_tension = 3\nweft_tension = 0.5\ncalender = 2\n"), (true, woven));
     assert!(!finished(DENIM, "settle = false\n").0);
     let stretch = |table: &str| read_text(&format!("{DENIM}[finish]\n{table}")).unwrap().stretch;
@@ -190,7 +191,7 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
         &["line 21", "finish.stretch_weft", "not both"],
     );
     refused(JERSEY, "stretch_warp = 1.1\n", &["line 7", "finish.stretch_warp", "only in woven cloth"]);
-    // What only the other kind of cloth has.
+    // Keys that only the other kind of cloth has.
     for table in ["length = 1.2\n", "tension = 0.01\n", "press = 1.0\n"] {
         refused(DENIM, table, &["line 20", "finish.", "only in a knit", "calender"]);
     }
@@ -199,8 +200,8 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
     }
 }
 
-/// What makes room in cloth as it is woven is refused in cloth at rest, and what counts for nothing
-/// there is said.
+/// Keys that make room in cloth as woven are refused in cloth at rest. Keys without effect there
+/// are reported.
 #[test]
 fn cloth_at_rest_gives_way_by_itself() {
     for jam in ["flatten", "shrink"] {
@@ -217,7 +218,7 @@ fn cloth_at_rest_gives_way_by_itself() {
     assert!(read_text(&format!("{table}[finish]\nsettle = false\n")).unwrap().remarks().is_empty());
 }
 
-/// Mills give counts and threads to the inch.
+/// Mills give counts and threads per inch.
 #[test]
 fn yarns_and_setts_are_told_as_mills_do() {
     let text = |yarn: &str, sett: &str| {
@@ -253,24 +254,29 @@ fn jams(design: &Design) -> JamReport {
 
 #[test]
 fn jammed_threads_are_relieved_as_the_design_says() {
-    // Ends of 0.3 mm at 0.4 mm: those of 0.25 mm that cross them need more.
+    // Ends of 0.3 mm, 0.4 mm apart. Picks of 0.25 mm need more room to cross them.
     let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
     let read = |jam: &str| read_text(&format!("{dense}[finish]\nsettle = false\n[cloth]\n{jam}")).unwrap();
     let report = read("");
-    assert!(jams(&report).before[0].jammed > 0 && jams(&report).after == jams(&report).before);
+    assert!(jams(&report).before.warp.jammed > 0 && jams(&report).after == jams(&report).before);
     let told = report.warnings().join("\n");
     assert!(
         told.contains("threads that cross pierce one another") && told.contains("has 0.4000 mm"),
         "{told}"
     );
-    // Plies can't be flattened: crimp goes to the ends, which are dense, and is enough.
+    // Plies can't be flattened. The dense ends take more of the crimp, which suffices.
     for jam in ["jam = \"flatten\"\n", "jam = \"shrink\"\n"] {
         let relieved = read(jam);
         assert_eq!(jams(&relieved).before, jams(&report).before);
-        assert_eq!(jams(&relieved).after.map(|set| set.jammed), [0, 0], "{:?}", jams(&relieved));
+        assert_eq!(
+            jams(&relieved).after.map(|set| set.jammed),
+            BySet { warp: 0, weft: 0 },
+            "{:?}",
+            jams(&relieved)
+        );
         assert!(relieved.warnings().is_empty());
     }
-    // A share that is given stays, so that threads have to give way.
+    // A share of the crimp that is given stays, so that threads have to flatten.
     let shrunk = read("jam = \"shrink\"\nwarp_crimp = 0.5\n");
     assert!(jams(&shrunk).scaled < 1.0 && jams(&shrunk).warp_share == [0.5; 2], "{:?}", jams(&shrunk));
     let woven = shrunk.structure.woven().unwrap().cloth();
@@ -290,7 +296,7 @@ fn another_section_is_relieved_anew() {
         let woven = design.structure.woven().unwrap().cloth().clone();
         (jams(&design), woven.weft()[0].radius_mm)
     };
-    // From the threads as they were designed, as if nothing had been in between.
+    // Relief begins from the threads as designed, not from an earlier relief.
     let wide = Section::Ellipse { aspect: 3.0 };
     assert_eq!(round(&[wide, Section::Circle]), round(&[Section::Circle]));
 }
@@ -471,7 +477,7 @@ fn a_number_that_is_far_too_small_is_not_written_in_zeros() {
     refused("tex = 84.0", "tex = -1e300", &["yarns.indigo.tex is -1e300"]);
 }
 
-/// What the mesh stage would make no surface of is refused where it is written.
+/// A section without a surface is refused at its line in the file.
 #[test]
 fn a_polygon_without_a_direction_is_refused() {
     let corners = |corners: &str, parts: &[&str]| {
@@ -480,7 +486,7 @@ fn a_polygon_without_a_direction_is_refused() {
     };
     corners("[[1e-30, 0.0], [0.0, 1e-30], [-1e-30, 0.0]]", &["corner 1", "too small or too sharp"]);
     corners("[[1.0, 0.0], [1.0, 1e-30], [-1.0, 0.0]]", &["corner", "too small or too sharp"]);
-    // A needle: both edges at its point are the same, rounded, and point opposite ways.
+    // A needle-shaped section: after rounding, both edges at its point are equal and opposite.
     corners("[[-1.0, 0.0], [1.0, 1e-45], [-1.0, 3e-45]]", &["corner", "too small or too sharp"]);
     corners("[[1.0, 0.0], [0.0, 1.0, 5.0], [-1.0, 0.0]]", &[]);
     corners("[[1.0, 0.0], [0.0, 1.0]]", &[]);
@@ -523,7 +529,7 @@ fn bytes_that_are_not_text_are_refused() {
     assert!(error.contains("line 2"), "{error}");
 }
 
-/// What a refusal names as a limit is within it.
+/// The limit that a refusal names is itself taken.
 #[test]
 fn limits_themselves_are_taken() {
     let limits = ["stiffness", "flatness", "hairiness"].map(|key| {

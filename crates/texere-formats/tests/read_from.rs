@@ -1,4 +1,4 @@
-//! Designs from memory: the same as from files, whatever names what.
+//! Designs from memory equal designs from files, with all the files that they name.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 use std::cell::RefCell;
@@ -25,7 +25,7 @@ fn picture(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The same in one channel, which TIFF readers take another way.
+/// The picture in one channel, which TIFF readers take in another way.
 fn grey() -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     DynamicImage::from(DynamicImage::from(RgbImage::new(2, 3)).to_luma8())
@@ -34,7 +34,7 @@ fn grey() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The files that designs name, all in a folder of their own.
+/// The files that designs name, in one folder.
 fn named() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("more/a.png", picture(ImageFormat::Png)),
@@ -92,13 +92,13 @@ fn designs() -> Vec<(&'static str, String, Option<&'static str>)> {
     ]
 }
 
-/// All that is known of a design but its files.
+/// Everything in a design, except its files.
 fn known(design: &Design) -> String {
     let Design { name, structure, settle, finish, stretch, .. } = design;
-    let told: Vec<_> = (0..20).map(|source| design.told(source)).collect();
+    let places: Vec<_> = (0..20).map(|source| design.program_place(source)).collect();
     let (yarns, faults) = (design.yarns().unwrap(), design.faults());
     format!(
-        "{name} {structure:?} {settle} {finish:?} {stretch:?} {yarns:?} {told:?} {faults:?} {:?}",
+        "{name} {structure:?} {settle} {finish:?} {stretch:?} {yarns:?} {places:?} {faults:?} {:?}",
         design.warnings()
     )
 }
@@ -125,7 +125,7 @@ fn each_kind_of_design_is_the_same_from_memory_as_from_its_file() {
         let files = names.into_iter().fold(vec![name], |files, named| [files, vec![named]].concat());
         assert_eq!(from_file.files(), files.iter().map(|file| folder.path().join(file)).collect::<Vec<_>>());
 
-        // No such folder is there.
+        // There is no such folder.
         let looms = Path::new("looms/2026");
         let asked = RefCell::new(Vec::<PathBuf>::new());
         let from_memory = read_from(looms.join(name), text, |path| {
@@ -182,7 +182,7 @@ fn errors_and_limits_are_those_of_files() {
         let there = format!("{}{}", folder.path().display(), std::path::MAIN_SEPARATOR);
         assert_eq!(from_memory, from_file.replace(&there, ""));
     }
-    // A WIF draft may be longer than a design file, and a named one as long as one alone.
+    // A WIF draft may be longer than a design file, both by itself and when a design names it.
     let comment = [WIF.as_bytes(), &long].concat();
     assert!(read_from("a.wif", comment.clone(), not_found).is_ok());
     let design = format!("weave.wif = \"b.wif\"\n{YARN}");

@@ -1,5 +1,5 @@
-//! Files that ask for more than they hold: each is read, or refused, in time and memory that grow
-//! with the file alone.
+//! Files that claim more than they hold. Each is read or refused, in time and memory that grow only
+//! with the file.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -20,7 +20,7 @@ static HEAP: PeakAlloc = PeakAlloc;
 const THREADS: &str = "[yarns.a]\ndiameter_mm = 0.2\n[warp]\nyarns = [\"a\"]\nspacing_mm = 0.6\n\
     [weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n";
 
-/// What `work` gives, which has to come before anyone would think that it hangs.
+/// The result of `work`, which has to come before a user would take it for hanging.
 fn soon<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
     let (done, wait) = mpsc::channel();
     std::thread::spawn(move || done.send(work()));
@@ -48,7 +48,7 @@ fn woven(design: Design) -> Woven {
     design.structure.woven().unwrap().cloth().clone()
 }
 
-/// The whole chain of an error, none of whose messages may be longer than two lines of a terminal.
+/// The whole chain of an error. No message may be longer than two lines of a terminal.
 fn message(error: &dyn Error) -> String {
     let mut chain = vec![error.to_string()];
     let mut cause = error.source();
@@ -62,7 +62,7 @@ fn message(error: &dyn Error) -> String {
     chain.join(" because ")
 }
 
-/// Tests here count the whole program's memory, so that only one of them may run at a time.
+/// Tests of this file count the memory of the whole program, so that only one may run at a time.
 fn peak_mib(work: impl FnOnce()) -> f32 {
     static ALONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -74,7 +74,7 @@ fn peak_mib(work: impl FnOnce()) -> f32 {
 
 #[test]
 fn work_grows_with_the_file_and_memory_with_the_picture() {
-    // One test, so that nothing beside it takes memory.
+    // A single test, so that no other one takes memory at the same time.
     thousands_of_weaves();
     profile_that_inflates();
     short_file_of_many_pixels();
@@ -95,7 +95,7 @@ fn thousands_of_weaves() {
     std::fs::write(&path, text).unwrap();
     let peak = peak_mib(move || {
         let design = soon(move || read(path)).unwrap();
-        // So few threads of weaves so large do not hang together, either.
+        // Few threads of such large weaves do not hang together, either.
         let [warning, layers] = &design.warnings()[..] else { panic!("{:?}", design.warnings()) };
         assert!(layers.contains("layers (") && layers.chars().count() < 300, "{layers}");
         assert!(warning.contains("4984 colours") && warning.chars().count() < 300, "{warning}");
@@ -128,7 +128,7 @@ fn profile_that_inflates() {
     }
 }
 
-/// A PNG that says it has 268 million pixels, and has none.
+/// A PNG that claims 268 million pixels and has none.
 fn short_file_of_many_pixels() {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 4096, 65_535);
@@ -162,7 +162,7 @@ fn long_names() {
     let text = format!("[{}]\n{keys}", "x".repeat(1 << 18));
     let peak = peak_mib(move || assert!(wif(&text).is_err()));
     assert!(peak < 64.0, "{peak} MiB");
-    // A key that is nothing like any other, and the comparison that finds it out.
+    // A key that is not similar to any other, which takes the full comparison.
     let text = format!("{} = 1\n{THREADS}", "x".repeat(1 << 21));
     let peak = peak_mib(move || {
         assert!(message(&toml(&text).unwrap_err()).contains("line 1"));
@@ -212,7 +212,7 @@ fn a_picture_that_repeats_is_worked_out_once() {
     }
 }
 
-/// Values of a megabyte, in every kind of place that an error quotes.
+/// Values of a megabyte, in every kind of place that errors quote.
 #[test]
 fn an_error_is_never_longer_than_a_line_or_two() {
     let long = "ä\\u001b\\n".repeat(200_000);
@@ -268,7 +268,7 @@ mod unix {
 
     use super::*;
 
-    /// A pipe that nobody writes to, in a folder, under each name that a design may have or name.
+    /// A pipe without a writer, under each name that a design may have or refer to.
     fn pipes() -> TempDir {
         let folder = tempfile::tempdir().unwrap();
         for name in ["pipe.toml", "pipe.wif", "pipe.png"] {
@@ -308,7 +308,7 @@ mod unix {
         }
     }
 
-    /// What a child process does whose memory is short; run by itself it finds nothing to do.
+    /// The work of a child process with little memory. Run by itself it does nothing.
     #[test]
     fn child_that_is_short_of_memory() {
         let Ok(path) = std::env::var("TEXERE_SHORT_OF_MEMORY") else { return };
@@ -329,7 +329,7 @@ mod unix {
             "[weave]\nnotation = \"plain\"\nends = 65536\npicks = 65536\n".to_owned(),
             300_000,
         )];
-        // Too little for the pixels; enough for them, but not for what is made of them.
+        // Too little memory for the pixels; and enough for the pixels, but not for the cloth.
         for (image, kilobytes) in [("motif.png", 200_000), ("motif.png", 450_000), ("motif.tif", 500_000)] {
             designs.push((
                 format!("{image}-{kilobytes}.toml"),

@@ -1,5 +1,5 @@
-//! What an image shows is what is woven: transparency, palettes, orientation; what can't be shown
-//! is refused by name. The bytes of TIFF files are put together here, by TIFF 6.0.
+//! Cloth is woven as an image looks, with transparency, palettes and orientation. Images that can't
+//! be shown are refused by name. The bytes of TIFF files are made here, by TIFF 6.0.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -10,7 +10,7 @@ use texere_formats::{Design, ReadError, read};
 use tiff::encoder::TiffEncoder;
 use tiff::encoder::colortype::{Gray8, RGB8};
 
-/// Five ends by six picks as a viewer shows them, `#` dark.
+/// Five ends by six picks as an image viewer shows them, with `#` dark.
 const SHOWN: [&str; 6] = ["#....", "##..#", "###..", ".###.", "..#.#", "#..#."];
 
 fn design(name: &str, bytes: &[u8], weave: &str) -> Result<Design, ReadError> {
@@ -25,7 +25,7 @@ fn design(name: &str, bytes: &[u8], weave: &str) -> Result<Design, ReadError> {
     read(&path)
 }
 
-/// As a weaver draws it, `#` warp up.
+/// The drawdown as a weaver draws it, with `#` for warp up.
 #[track_caller]
 fn woven(name: &str, bytes: &[u8]) -> Vec<String> {
     let design =
@@ -53,8 +53,8 @@ fn is_dark(column: usize, row: usize) -> bool {
 /// The tags of a page and their values.
 type Tags = Vec<(u16, Vec<u32>)>;
 
-/// A TIFF file: its order of bytes, the tags of its pages with all values as SHORT or LONG, and the
-/// pixels of each page, in one strip or tile.
+/// A TIFF file: the byte order, the tags of its pages with all values as SHORT or LONG, and the
+/// pixels of each page in one strip or tile.
 struct Tiff {
     big_endian: bool,
     pages: Vec<(Tags, Vec<u8>)>,
@@ -85,8 +85,8 @@ impl Tiff {
         let mut file = if self.big_endian { b"MM".to_vec() } else { b"II".to_vec() };
         file.extend(self.short(42));
         for (tags, data) in &self.pages {
-            // The place of this directory goes where the one before ends, which is the end of the
-            // file so far.
+            // The offset of this directory is written at the end of the previous one, which is the
+            // end of the file so far.
             let next = file.len() as u32 + 4 + data.len() as u32 + (data.len() % 2) as u32;
             file.extend(self.long(next));
             let strip = file.len() as u32;
@@ -97,7 +97,7 @@ impl Tiff {
             tags.push((if tiled { 324 } else { 273 }, vec![strip]));
             tags.push((if tiled { 325 } else { 279 }, vec![data.len() as u32]));
             if tags.iter().any(|(tag, values)| *tag == 284 && values == &[2]) {
-                // Planes of equal length, one after another.
+                // Planes of equal length follow one another.
                 let samples = tags.iter().find(|(tag, _)| *tag == 277).unwrap().1[0];
                 let each = data.len() as u32 / samples;
                 for (tag, values) in &mut tags {
@@ -130,7 +130,7 @@ impl Tiff {
                     entries.extend(bytes);
                 }
             }
-            // What does not fit into an entry stands behind the directory.
+            // Values that do not fit into an entry follow the directory.
             file.extend(entries);
             let next_place = file.len();
             file.extend(self.long(0));
@@ -140,7 +140,7 @@ impl Tiff {
                 let here = file.len() as u32;
                 let is_last = std::ptr::eq(data, &self.pages[self.pages.len() - 1].1);
                 if !is_last {
-                    // Its pixels come first, behind four bytes.
+                    // The pixels come first, after four bytes.
                     let (_, following) = &self.pages[1];
                     let directory = here + 4 + following.len() as u32 + (following.len() % 2) as u32;
                     file[next_place..next_place + 4].copy_from_slice(&self.long(directory));
@@ -151,7 +151,7 @@ impl Tiff {
     }
 }
 
-/// Rows of samples of so many bits, each row in whole bytes.
+/// Rows of samples with this number of bits. Each row has whole bytes.
 fn packed(bits: usize, big_endian: bool, rows: &[Vec<u32>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for row in rows {
@@ -175,7 +175,8 @@ fn rows(sample: impl Fn(usize, usize) -> Vec<u32>) -> Vec<Vec<u32>> {
     (0..6).map(|row| (0..5).flat_map(|column| sample(column, row)).collect()).collect()
 }
 
-/// A palette of dark blue and yellow at these two numbers, of green where nothing should look.
+/// A palette with dark blue and yellow at these two numbers, and green at numbers that are not
+/// used.
 fn palette(bits: usize, [dark, light]: [usize; 2]) -> Vec<u32> {
     let color = |number: usize| match number {
         _ if number == dark => [10, 20, 90],
@@ -226,7 +227,7 @@ fn an_indexed_tiff_shows_the_colours_of_its_palette() {
     // A palette of 255, as some programs write it.
     let map: Vec<_> = palette(8, [200, 7]).iter().map(|value| value / 257).collect();
     assert_eq!(woven("a.tif", &indexed(8, [200, 7]).with(320, &map).bytes()), SHOWN);
-    // What the palette lacks, and no palette.
+    // A number that the palette lacks, and a missing palette.
     refused(
         "a.tif",
         &indexed(8, [200, 7]).with(320, &[0; 30]).bytes(),
@@ -243,12 +244,12 @@ fn an_indexed_tiff_shows_the_colours_of_its_palette() {
 
 #[test]
 fn an_indexed_tiff_may_be_compressed_tiled_and_in_planes() {
-    // PackBits: each row a run of literal bytes.
+    // PackBits, where each row is a run of literal bytes.
     let mut compressed = indexed(8, [200, 7]).with(259, &[32_773]);
     compressed.pages[0].1 =
         compressed.pages[0].1.chunks(5).flat_map(|row| [&[4u8][..], row].concat()).collect();
     assert_eq!(woven("a.tif", &compressed.bytes()), SHOWN);
-    // One tile of 16 by 16, of which the picture fills a corner.
+    // One tile of 16 by 16. The picture fills a corner of it.
     for (bits, numbers) in [(8, [200, 7]), (4, [9, 14]), (1, [1, 0])] {
         let within =
             |column, row| if column < 5 && row < 6 { numbers[usize::from(!is_dark(column, row))] } else { 0 };
@@ -259,8 +260,8 @@ fn an_indexed_tiff_may_be_compressed_tiled_and_in_planes() {
         tiled.pages[0].1 = packed(bits, false, &tile);
         assert_eq!(woven("a.tif", &tiled.bytes()), SHOWN, "{bits}");
     }
-    // With opacity: beside each number, and in a plane of its own. What is dark is seen, what is
-    // light is not there.
+    // Opacity beside each number, and in a plane of its own. Dark pixels are opaque, and light ones
+    // transparent.
     let number = |column, row| if (column + row) % 2 == 0 { 200 } else { 7 };
     let alpha = |column, row| if is_dark(column, row) { 255 } else { 0 };
     let both = indexed(8, [200, 7])
@@ -275,7 +276,7 @@ fn an_indexed_tiff_may_be_compressed_tiled_and_in_planes() {
     let [first, second] = [rows(|_, _| vec![200]), rows(|column, row| vec![alpha(column, row)])];
     planes.pages[0].1 = packed(8, false, &[first, second].concat());
     assert_eq!(woven("a.tif", &planes.bytes()), SHOWN);
-    // A sample that says nothing of opacity is left out.
+    // A sample that is not opacity is left out.
     let mut aside = planes.with(284, &[1]).with(338, &[0]).with(320, &palette(8, [200, 7]));
     aside.pages[0].1 = packed(
         8,
@@ -315,7 +316,7 @@ fn a_grey_tiff_is_dark_where_it_says_so() {
     let mut alpha = grey(8, true).with(277, &[2]).with(258, &[8, 8]).with(338, &[2]);
     alpha.pages[0].1 =
         packed(8, false, &rows(|column, row| vec![0, if is_dark(column, row) { 255 } else { 0 }]));
-    // White on nothing.
+    // White pixels on a transparent ground.
     assert_eq!(woven("a.tif", &alpha.bytes()), SHOWN);
 }
 
@@ -331,7 +332,7 @@ fn a_tiff_that_can_not_be_shown_is_refused_by_name() {
     let mut pages = grey(8, false);
     pages.pages.extend(grey(8, true).pages);
     refused("a.tif", &pages.bytes(), "", &["several pages"]);
-    // A small copy of the page, as cameras and scanners write it, is none.
+    // A small copy of the page, as cameras and scanners write one, does not count as a page.
     let mut small = grey(8, false);
     small.pages.extend(grey(8, true).with(254, &[1]).pages);
     assert_eq!(woven("a.tif", &small.bytes()), SHOWN);
@@ -339,8 +340,7 @@ fn a_tiff_that_can_not_be_shown_is_refused_by_name() {
 
 #[test]
 fn planes_of_tiles_are_refused_by_name() {
-    // Grey and opacity, red and green and blue, numbers of a palette and opacity, in a tile of 16
-    // by 16 each.
+    // Grey with opacity, RGB, and palette numbers with opacity, each in a tile of 16 by 16.
     for (photometric, samples) in [(1, 2), (2, 3), (3, 2)] {
         let planes = Tiff::one(
             &[
@@ -358,7 +358,7 @@ fn planes_of_tiles_are_refused_by_name() {
         );
         refused("a.tif", &planes.bytes(), "", &["PlanarConfiguration"]);
     }
-    // Of one sample there is one plane, whatever the file says.
+    // One sample has one plane, whatever the file states.
     let tile = (0..16 * 16).map(|place| match [place % 16, place / 16] {
         [column, row] if column < 5 && row < 6 && is_dark(column, row) => 0,
         _ => 255,
@@ -381,13 +381,13 @@ fn a_bigtiff_is_a_tiff() {
     assert_eq!(woven("a.tif", file.get_ref()), SHOWN);
 }
 
-/// What is shown where a file holds `held` and names this orientation, by the words of TIFF 6.0:
-/// where row 0 and column 0 are.
+/// The picture of a file that holds `held` with this orientation, by TIFF 6.0: it states the sides
+/// of row 0 and of column 0.
 fn turned(held: &[&str], orientation: u32) -> Vec<String> {
     let rows = || held.iter().map(|row| row.chars().collect::<Vec<_>>());
     let columns = || (0..held[0].len()).map(|column| rows().map(|row| row[column]).collect::<Vec<_>>());
     let mut shown: Vec<Vec<char>> = if orientation < 5 { rows().collect() } else { columns().collect() };
-    // Row 0 at the right, and column 0 there.
+    // Row 0 is at the right side.
     if [2, 3, 6, 7].contains(&orientation) {
         shown.iter_mut().for_each(|row| row.reverse());
     }
@@ -399,7 +399,7 @@ fn turned(held: &[&str], orientation: u32) -> Vec<String> {
 
 #[test]
 fn an_image_is_turned_as_it_says() {
-    // A quarter clockwise: what was at the bottom is at the left.
+    // A quarter turn clockwise: the bottom comes to the left.
     assert_eq!(turned(&["ab", "cd"], 6), ["ca", "db"]);
     assert_eq!(turned(&["ab", "cd"], 8), ["bd", "ac"]);
     let color = Tiff::one(
@@ -416,7 +416,7 @@ fn an_image_is_turned_as_it_says() {
             *tiff = Tiff { big_endian: false, pages: tiff.pages.clone() }.with(274, &[orientation]);
             assert_eq!(woven("a.tif", &tiff.bytes()), turned(&SHOWN, orientation), "{orientation}");
         }
-        // Exif in a PNG: a TIFF of one tag.
+        // Exif in a PNG is a TIFF with one tag.
         let mut png = Vec::new();
         let mut encoder = png::Encoder::new(&mut png, 5, 6);
         encoder.set_color(png::ColorType::Grayscale);
@@ -455,7 +455,7 @@ fn what_is_transparent_is_ground_whatever_colour_hides_there() {
                 "{motif:?} {hidden:?}"
             );
         }
-        // Another hidden colour in every pixel.
+        // Every pixel has another hidden colour.
         let ground = |place: usize| [place as u8, 7 * place as u8, 3, 0];
         assert_eq!(woven("a.png", &png(|dark, place| if dark { motif } else { ground(place) })), SHOWN);
     }

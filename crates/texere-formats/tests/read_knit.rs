@@ -25,7 +25,7 @@ fn knitted(design: &Design) -> &Knitted {
     design.structure.knitted().unwrap()
 }
 
-/// The message of a refusal and of its causes.
+/// The message of a refusal, with its causes.
 fn refusal(text: &str) -> String {
     chain(&knit(text).unwrap_err())
 }
@@ -55,10 +55,10 @@ fn a_chart_in_symbols() {
     let names: Vec<_> = yarns.materials().iter().map(|material| material.name.as_str()).collect();
     assert_eq!(names, ["red", "white"]);
     assert!(design.settle && design.warnings().is_empty());
-    // Cell of row 1 from the top, column 2: the first row that is read is the first course.
-    let told = design.told(3).unwrap();
-    assert!(told.place.ends_with("a.toml, row 1 from the top, column 2"), "{}", told.place);
-    assert!(told.instructions.contains(&"knit - b1 red".into()), "{:?}", told.instructions);
+    // The cell in row 1 from the top, column 2. The first row that is read is the first course.
+    let place = design.program_place(3).unwrap();
+    assert!(place.place.ends_with("a.toml, row 1 from the top, column 2"), "{}", place.place);
+    assert!(place.instructions.contains(&"knit - b1 red".into()), "{:?}", place.instructions);
 }
 
 #[test]
@@ -86,17 +86,17 @@ fn a_picture_is_jacquard_or_a_chart() {
     let read = |more: &str, colors: &str| {
         read_in(folder.path(), &format!("image = \"motif.png\"\n{CLOSE}{more}\n{colors}"))
     };
-    // A course of each yarn in the lower row, one in the upper.
+    // The lower row takes a course of each yarn, and the upper row takes one.
     let single = read("", &colors("red", "white")).unwrap();
     assert_eq!(knitted(&single).size(), [3, 2]);
     assert_eq!(single.yarns().unwrap().layout().yarns().len(), 3);
     assert_eq!(knitted(&single).stitches().loops.len(), 6);
     assert_eq!(single.files().len(), 2);
-    let told = single.told(1).unwrap();
-    assert!(told.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", told.place);
+    let place = single.program_place(1).unwrap();
+    assert!(place.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", place.place);
     let upside_down = read("rows = \"first-pick-first\"", &colors("red", "white")).unwrap();
-    let told = upside_down.told(4).unwrap();
-    assert!(told.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", told.place);
+    let place = upside_down.program_place(4).unwrap();
+    assert!(place.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", place.place);
     for (backing, loops) in [("birdseye", 10), ("ladder", 12)] {
         let double = read(&format!("backing = \"{backing}\""), &colors("red", "white")).unwrap();
         assert_eq!(knitted(&double).stitches().loops.len(), loops, "{backing}");
@@ -140,7 +140,7 @@ fn a_knitout_file_alone_or_named_by_a_design() {
         let yarns = design.yarns().unwrap();
         assert_eq!((yarns.layout().yarns().len(), yarns.materials()[2].name.as_str()), (1, "3: 2-30 red"));
         assert_eq!(design.files().len(), 1);
-        // A risky cast-on and loops that are dropped at the end are warned of, with their lines.
+        // Warnings for a risky cast-on and for loops that are dropped at the end, with their lines.
         let warnings = design.warnings();
         assert!(
             warnings.len() == 3 && warnings[1].contains("line 13: a loop falls off needle f1"),
@@ -148,8 +148,8 @@ fn a_knitout_file_alone_or_named_by_a_design() {
         );
         assert!(warnings[0].contains("line 7: needles f2 and f1 hold nothing"), "{warnings:?}");
         assert!(design.faults().iter().all(|fault| !fault.is_error));
-        let told = design.told(10).unwrap();
-        assert!(told.place.ends_with(", line 10") && told.instructions == ["knit + f1 3"], "{told:?}");
+        let place = design.program_place(10).unwrap();
+        assert!(place.place.ends_with(", line 10") && place.instructions == ["knit + f1 3"], "{place:?}");
     }
     let design = read_in(
         folder.path(),
@@ -161,7 +161,7 @@ fn a_knitout_file_alone_or_named_by_a_design() {
     assert_eq!(cloth.stitches().loops[3].length_mm, Some(5.5));
     assert_eq!(design.yarns().unwrap().materials()[0].name, "white");
     assert_eq!(design.files().len(), 2);
-    // Without a gauge of its own the design has the file's.
+    // A design without a gauge has the gauge of the file.
     let plain = read_in(folder.path(), "knitout = \"a.k\"\nyarns = [\"red\"]\n").unwrap();
     assert_eq!(knitted(&plain).gauge().wale_mm, 2.0);
     let repeated =
@@ -183,11 +183,11 @@ fn faults_of_a_machine_are_told_by_place() {
     for (line, said) in [(4, "the hook takes carrier 2"), (7, "rack 9"), (8, "does not lie opposite")] {
         let place = format!("a.k, line {line}: ");
         assert!(
-            errors.iter().any(|fault| fault.said.contains(&place) && fault.said.contains(said)),
+            errors.iter().any(|fault| fault.message.contains(&place) && fault.message.contains(said)),
             "{errors:?}"
         );
     }
-    // A float of eight needles, in a picture's or a chart's own terms.
+    // A float of eight needles, in the terms of a picture or of a chart.
     let float = format!("chart = \"\"\"\nkkkkkkkkkk\nkmmmmmmmmk\n\"\"\"\nyarns = [\"red\"]\n{CLOSE}");
     let warnings = knit(&float).unwrap().warnings();
     assert!(warnings.len() == 1 && warnings[0].contains("row 2 from the top"), "{warnings:?}");
@@ -254,8 +254,8 @@ fn what_is_wrong_is_named_with_its_line() {
     }
 }
 
-/// What can't be knitted is named by its line or its place in the picture, not by a number that
-/// nobody sees.
+/// Stitches that can't be knitted are named by their line or by their place in the picture, not by
+/// internal numbers.
 #[test]
 fn what_no_machine_takes_is_named_by_its_place() {
     let folder = TempDir::new().unwrap();
@@ -264,7 +264,7 @@ fn what_no_machine_takes_is_named_by_its_place() {
     let said = chain(&read(folder.path().join("a.k")).unwrap_err());
     assert!(said.ends_with("a.k, line 260 can't be knitted: 257 loops on a needle in a knitting program; 256 are taken at most"), "{said}");
 
-    // A stitch of the back bed in the picture's top row, which may be the first course.
+    // A stitch of the back bed in the top row, which may be the first course.
     let colors = [[255, 0, 0], [0, 0, 255]].map(Rgb);
     RgbImage::from_fn(2, 3, |x, y| colors[usize::from(x == 1 && y == 0)])
         .save(folder.path().join("a.png"))

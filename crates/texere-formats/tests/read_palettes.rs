@@ -1,5 +1,5 @@
-//! Images of palette numbers: each pixel has the colour of its number, and a number that the
-//! palette has no colour for is refused by name. The bytes of the pixels are put together here.
+//! Images of palette numbers. Each pixel has the colour of its number, and a number without a
+//! colour is refused by name. The bytes of the pixels are made here.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 use std::error::Error;
@@ -7,7 +7,7 @@ use std::io::Write;
 
 use texere_formats::{Design, ReadError, read};
 
-/// Columns and rows: more than a byte has pixels, and no whole bytes.
+/// Number of columns and of rows: more pixels than a byte holds, and not a whole number of bytes.
 const SIZE: [usize; 2] = [11, 9];
 
 fn design(name: &str, bytes: &[u8]) -> Result<Design, ReadError> {
@@ -45,8 +45,7 @@ fn refuses(name: &str, bytes: &[u8], number: usize, colors: &str) {
     assert!(told.contains(name) && told.contains(&why), "\"{told}\" lacks \"{name}\" or \"{why}\"");
 }
 
-/// A row of numbers of so many bits. What is left of its last byte is all ones, which are no
-/// pixels.
+/// A row of numbers with this number of bits. Unused bits of the last byte are ones, and no pixels.
 fn packed(bits: usize, row: &[usize]) -> Vec<u8> {
     let mut line = vec![0u8; (row.len() * bits).div_ceil(8)];
     for place in 0..line.len() * 8 / bits {
@@ -61,7 +60,8 @@ fn palette(colors: usize) -> Vec<u8> {
     (0..colors).flat_map(|number| if number == 1 { [20, 10, 60] } else { [250, 240, 60] }).collect()
 }
 
-/// First columns and rows of the seven passes of Adam7, and how far apart they are: PNG 1.2, 2.6.
+/// The seven passes of Adam7: first column and row, and steps between columns and between rows (PNG
+/// 1.2, 2.6).
 const ADAM7: [[usize; 4]; 7] =
     [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
 
@@ -86,8 +86,8 @@ fn png(bits: usize, colors: usize, interlaced: bool, number: impl Fn(usize, usiz
     bytes
 }
 
-/// How the pixels of a BMP are written: rows of numbers from the bottom or the top, or runs and
-/// lists of numbers (RLE).
+/// The coding of a BMP's pixels: rows of numbers from the bottom or from the top, or runs and lists
+/// of numbers (RLE).
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Bmp {
     Upward,
@@ -96,7 +96,7 @@ enum Bmp {
     Lists,
 }
 
-/// A BMP with an info header, which says `told` colours; 0 is as many as its bits number.
+/// A BMP with an info header that states `told` colours. 0 means as many as its bits can number.
 fn bmp(
     bits: usize,
     [colors, told]: [usize; 2],
@@ -110,7 +110,7 @@ fn bmp(
         let numbers = row(if kind == Bmp::Downward { line } else { height - 1 - line });
         match kind {
             Bmp::Upward | Bmp::Downward => data.extend(packed(bits, &numbers)),
-            // A number stands in both halves of a byte; the second is no pixel.
+            // The number is in both halves of a byte. The second half is no pixel.
             Bmp::Runs => data.extend(numbers.iter().flat_map(|&number| [1, packed(bits, &[number])[0]])),
             Bmp::Lists => {
                 data.extend([0, width as u8]);
@@ -146,7 +146,7 @@ fn bmp(
     bytes
 }
 
-/// Bits, colours, and a number beyond them: the next one and the last.
+/// Bits, number of colours, and a palette number beyond them: the next one and the last one.
 const BEYOND: [(usize, usize, usize); 8] =
     [(1, 1, 1), (2, 2, 2), (2, 3, 3), (4, 2, 2), (4, 9, 15), (8, 2, 2), (8, 2, 255), (8, 255, 255)];
 
@@ -180,7 +180,7 @@ fn a_png_shows_the_colours_of_a_palette_that_is_shorter_than_it_may_be() {
     }
 }
 
-/// The ways in which a BMP of so many bits is written.
+/// The codings of a BMP with this number of bits.
 fn kinds(bits: usize) -> &'static [Bmp] {
     if bits < 4 {
         &[Bmp::Upward, Bmp::Downward]

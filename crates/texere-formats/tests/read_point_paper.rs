@@ -1,5 +1,5 @@
-//! Design files whose weave is an image: what each pixel becomes, and that each fault is named with
-//! its place.
+//! Design files with an image as weave: the lift of each pixel, and faults that are named with
+//! their places.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -14,7 +14,7 @@ const BLACK: [u8; 3] = [0, 0, 0];
 const WHITE: [u8; 3] = [255, 255, 255];
 const RED: [u8; 3] = [200, 16, 32];
 
-/// What every design here has besides its `[weave]`.
+/// The text of every design in this file, except `[weave]`.
 const THREADS: &str = "[yarns.a]\ndiameter_mm = 0.2\n[yarns.red]\ndiameter_mm = 0.2\ncolor = \"#c81020\"\n\
     [warp]\nyarns = [\"a\"]\nspacing_mm = 0.6\n[weft]\nyarns = [\"2 red\", \"a\"]\nspacing_mm = 0.6\n";
 
@@ -25,7 +25,7 @@ fn drawn(rows: &[&str]) -> TempDir {
     folder
 }
 
-/// `#` black, `.` white, `r` red.
+/// A picture with `#` black, `.` white and `r` red.
 fn picture(rows: &[&str]) -> RgbImage {
     RgbImage::from_fn(rows[0].len() as u32, rows.len() as u32, |column, row| {
         Rgb(match rows[row as usize].as_bytes()[column as usize] {
@@ -46,7 +46,7 @@ fn cloth(folder: &Path, weave: &str) -> Woven {
     design(folder, weave).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
-/// As a weaver draws it, `#` warp up.
+/// The drawdown as a weaver draws it, with `#` for warp up.
 fn rows(woven: &Woven) -> Vec<String> {
     let drawdown = woven.drawdown();
     let sign = |end, pick| if drawdown.up(end, pick) { '#' } else { '.' };
@@ -54,7 +54,7 @@ fn rows(woven: &Woven) -> Vec<String> {
     (0..drawdown.picks()).rev().map(row).collect()
 }
 
-/// The refusal has to hold all of `parts`, itself or in its cause.
+/// The message of the refusal, or of its cause, has to have all of `parts`.
 #[track_caller]
 fn refused(folder: &Path, weave: &str, parts: &[&str]) {
     let error = design(folder, weave).expect_err(weave);
@@ -74,7 +74,7 @@ fn a_picture_of_two_colours_is_a_drawdown() {
     let turned = cloth(folder.path(), "rows = \"first-pick-first\"\n");
     assert_eq!(rows(&turned), ["..###", "##...", "#..#."]);
     assert_eq!(rows(&cloth(folder.path(), "rows = \"last-pick-first\"\n")), DRAWING);
-    // The darker colour is warp up, whichever comes first and whatever the two are.
+    // The darker colour is warp up, for any two colours in either order.
     let folder = drawn(&["r..r.", "rr...", "..rrr"]);
     assert_eq!(rows(&cloth(folder.path(), "")), DRAWING);
     let folder = drawn(&["#rr#r", "##rrr", "rr###"]);
@@ -93,7 +93,7 @@ fn kinds_of_image_read_alike() {
         gray.save_with_format(&path, format).unwrap();
         assert_eq!(rows(&cloth(folder.path(), "")), DRAWING, "{format:?}, grey");
     }
-    // A palette, one bit a pixel: white is 0.
+    // A palette with one bit a pixel. White is 0.
     let mut encoder = png::Encoder::new(std::fs::File::create(&path).unwrap(), 5, 3);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::One);
@@ -101,7 +101,7 @@ fn kinds_of_image_read_alike() {
     let bits = [0b1001_0000, 0b1100_0000, 0b0011_1000];
     encoder.write_header().unwrap().write_image_data(&bits).unwrap();
     assert_eq!(rows(&cloth(folder.path(), "")), DRAWING);
-    // The same as an indexed BMP, written out by hand: rows from the bottom, padded to four bytes.
+    // The picture as an indexed BMP, written by hand: rows from the bottom, padded to four bytes.
     let mut bmp = b"BM".to_vec();
     for word in [74u32, 0, 62, 40, 5, 3, 1 | 1 << 16, 0, 12, 2835, 2835, 2, 2, 0x00ff_ffff, 0] {
         bmp.extend(word.to_le_bytes());
@@ -220,7 +220,7 @@ fn faults_are_named_with_their_place() {
 #[test]
 fn one_colour_alone_is_no_weave() {
     refused(drawn(&["##", "##"]).path(), "", &["column 1, row 1", "#000000", "two colours"]);
-    // Neither is darker.
+    // Two colours of equal brightness.
     let folder = tempfile::tempdir().unwrap();
     let alike = RgbImage::from_fn(2, 1, |column, _| Rgb(if column == 0 { [26, 0, 0] } else { [0, 8, 27] }));
     alike.save(folder.path().join("motif.png")).unwrap();
@@ -258,7 +258,7 @@ fn what_is_no_image_is_refused() {
             && missing.innermost().to_string().contains("motif.png"),
         "{missing}"
     );
-    // The design's own place, and what the decoder says at the end of the chain.
+    // The place in the design, and the decoder's message at the end of the chain.
     std::fs::write(&path, b"\x89PNG\r\n\x1a\n").unwrap();
     let broken = design(folder.path(), "rows = \"last-pick-first\"\n").unwrap_err();
     assert!(broken.to_string().contains("design.toml, line 2: weave.image can't be taken"), "{broken}");
@@ -269,7 +269,7 @@ fn what_is_no_image_is_refused() {
         std::fs::write(&path, bytes).unwrap();
         refused(folder.path(), "", &["motif.png can't be read as a PNG, BMP or TIFF image"]);
     }
-    // Cut short anywhere, an image is refused and never taken for a smaller one.
+    // An image that is cut short anywhere is refused, and never taken for a smaller one.
     for format in [ImageFormat::Png, ImageFormat::Tiff] {
         picture(&DRAWING).save_with_format(&path, format).unwrap();
         let whole = std::fs::read(&path).unwrap();

@@ -1,4 +1,4 @@
-//! WIF drafts: what is taken, what is refused, and that both ways of telling a lift give one cloth.
+//! WIF drafts: what is taken, what is refused, and equal cloth from both ways of giving lifts.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -15,10 +15,10 @@ const TWILL: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=4\nTreadles=4\nRising
     [THREADING]\n1=1\n2=2\n3=3\n4=4\n5=1\n\
     [TIEUP]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n[TREADLING]\n1=1\n2=2\n3=3\n4=4\n";
 
-/// The lift plan that says the same as `TWILL`'s tie-up and treadling.
+/// The lift plan that equals the tie-up and the treadling of `TWILL`.
 const LIFT_PLAN: &str = "[LIFTPLAN]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n";
 
-/// What a weaver draws for `TWILL`: the last pick on top, end 1 on the left.
+/// The drawdown of `TWILL` as a weaver draws it: the last pick on top, and end 1 on the left.
 const TWILL_DRAWDOWN: &str = "10011\n00110\n01100\n11001\n";
 
 fn read_text(text: impl AsRef<[u8]>) -> Result<Design, ReadError> {
@@ -39,7 +39,7 @@ fn drawdown(text: &str) -> String {
     (0..drawdown.picks()).rev().flat_map(|pick| row(pick).chain(['\n'])).collect()
 }
 
-/// The refusal's own line, which has to hold all of `parts`.
+/// The line of the refusal. Its message has to have all of `parts`.
 fn refused(text: &str, parts: &[&str]) {
     let error = read_text(text).expect_err(text);
     for part in parts {
@@ -52,9 +52,9 @@ fn tie_up_with_treadling_and_lift_plan_give_one_drawdown() {
     assert_eq!(drawdown(TWILL), TWILL_DRAWDOWN);
     let lifted = TWILL.split("[TIEUP]").next().unwrap().to_owned() + LIFT_PLAN;
     assert_eq!(drawdown(&lifted), TWILL_DRAWDOWN);
-    // Both, and in agreement: nothing to warn of.
+    // A lift plan and a treadling that agree, without a warning.
     assert!(read_text(TWILL.to_owned() + LIFT_PLAN).unwrap().warnings().is_empty());
-    // Both, and at odds: the treadling stands.
+    // A lift plan and a treadling that differ. The treadling counts.
     let odds = TWILL.to_owned() + &LIFT_PLAN.replace("1=1,2", "1=1,3");
     assert_eq!(drawdown(&odds), TWILL_DRAWDOWN);
     assert!(read_text(&odds).unwrap().warnings()[0].contains("lift plan and treadling"));
@@ -63,7 +63,7 @@ fn tie_up_with_treadling_and_lift_plan_give_one_drawdown() {
 #[test]
 fn cloth_that_falls_apart_is_told() {
     assert!(read_text(TWILL).unwrap().remarks().is_empty());
-    // Shafts 1 and 3 have the face's ends; each back pick lifts them all.
+    // Shafts 1 and 3 hold the ends of the face. Each back pick lifts all of them.
     let lifted = TWILL.split("[TIEUP]").next().unwrap().to_owned();
     let double = read_text(lifted + "[LIFTPLAN]\n1=1\n2=1,3,2\n3=3\n4=1,3,4\n").unwrap();
     let told = "there are 2 layers (3 ends with 2 picks, 2 ends with 2 picks)";
@@ -95,7 +95,7 @@ fn an_end_on_several_shafts_and_a_pick_on_several_treadles() {
     let text = TWILL
         .replace("5=1\n[TIEUP]", "5=1,3\n[TIEUP]")
         .replace("[TREADLING]\n1=1\n", "[TREADLING]\n1=1,0,3\n");
-    // Pick 1 now lifts shafts 1 to 4; end 5 is up wherever shaft 1 or 3 is.
+    // Pick 1 now lifts shafts 1 to 4. End 5 is up wherever shaft 1 or 3 is.
     assert_eq!(drawdown(&text), "10011\n00111\n01101\n11111\n");
 }
 
@@ -133,7 +133,7 @@ fn spacing_thickness_and_colour_of_single_threads() {
     let colours: Vec<_> =
         woven.weft().iter().map(|pick| woven.materials()[pick.material as usize].srgb).collect();
     assert_eq!(colours, [[40, 50, 60], [10, 20, 30], [40, 50, 60], [40, 50, 60]]);
-    // Columns of 2, 5, 2, 2 and 2 mm side by side, an end in the middle of each.
+    // Columns of 2, 5, 2, 2 and 2 mm side by side, with an end in the middle of each.
     let yarns = woven.yarns().unwrap();
     let x: Vec<_> = (0..5).map(|end| yarns.yarn_points(end).unwrap()[0].x).collect();
     assert_eq!(x, [1.0, 4.5, 8.0, 10.0, 12.0]);
@@ -210,7 +210,7 @@ fn a_colour_below_one_is_refused_like_one_too_large() {
             refused(&text, &["line 42", &format!("[{section}] {key} is {first}, outside 1 to 2")]);
         }
     }
-    // Nothing is still no colour.
+    // An empty value is no colour.
     assert!(read_text(format!("{TWILL}[WARP COLORS]\n2=\n")).is_ok());
 }
 
@@ -224,7 +224,7 @@ fn utf_16_is_read() {
         let design = read_text(&bytes).unwrap();
         let woven = design.structure.woven().unwrap().cloth().clone();
         assert_eq!((design.name.as_str(), woven.warp().len()), ("Köper 𝄞", 5));
-        // Cut anywhere, it is still text.
+        // The file is still text wherever it is cut.
         let _ = read_text(&bytes[..bytes.len() - 1]);
     }
 }
@@ -236,24 +236,23 @@ fn a_loom_has_what_is_set_up_on_it() {
         let [warning] = &warnings[..] else { panic!("{warnings:?}") };
         parts.iter().for_each(|part| assert!(warning.contains(part), "{warning}"));
     };
-    // Ends hang on shafts, and the tie-up has rows, that nobody has counted.
+    // Ends are on shafts, and the tie-up has rows, beyond the stated counts.
     warned(&TWILL.replace("Shafts=4", "Shafts=2"), &["[WEAVING] Shafts is 2", "[THREADING] goes up to 4"]);
     warned(&TWILL.replace("Treadles=4", "Treadles=2"), &["[WEAVING] Treadles is 2", "[TIEUP] goes up to 4"]);
     assert_eq!(drawdown(&TWILL.replace("Shafts=4", "Shafts=2")), TWILL_DRAWDOWN);
-    // A shaft that is lifted, and a treadle that is pressed, but that is neither counted nor set
-    // up.
+    // A lifted shaft and a pressed treadle that are neither counted nor set up.
     let [lifted, pressed] = [("[TIEUP]\n1=1,2", "[TIEUP]\n1=1,5"), ("[TREADLING]\n1=1", "[TREADLING]\n1=5")]
         .map(|(from, to)| TWILL.replace(from, to));
     refused(&lifted, &["[TIEUP] 1 is 5, outside 0 to 4"]);
     refused(&pressed, &["[TREADLING] 1 is 5, outside 0 to 4"]);
-    // Without a count there is none to go beyond.
+    // Without a count nothing lies beyond it.
     for (text, count) in [(lifted, "Shafts=4\n"), (pressed, "Treadles=4\n")] {
         let warnings = read_text(text.replace(count, "")).unwrap().warnings();
         assert!(warnings.iter().all(|warning| warning.contains("nothing binds")), "{warnings:?}");
     }
 }
 
-/// As programs write it: threads as thick as they are spaced.
+/// Threads as thick as they are spaced, as programs write drafts.
 #[test]
 fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     let stated = |warp: &str, weft: &str, more: &str| {
@@ -274,7 +273,7 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     };
     let both = ("Spacing=.212\nThickness=.212", "Spacing=.212\nThickness=.2115");
     let design = stated(both.0, both.1, "");
-    // Alike, all of them: half the spacing, but for the rounding of the file's own thickness.
+    // All threads get half the spacing, up to the rounding of the file's thickness.
     let [warp, weft] = diameters(&design);
     assert!(
         warp.iter().chain(&weft).all(|diameter| (diameter / 1.06 - 1.0).abs() < 5e-3),
@@ -285,24 +284,24 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
         assert!(warning.starts_with(set) && warning.contains("as thick as they are spaced"), "{warning}");
     }
     assert_eq!(warnings.len(), 2);
-    // Thin ones stay thin beside the others, and all of them are thinner where some are close.
+    // Thin threads stay thin beside the others. All threads are thinner where some lie close.
     let design = stated(both.0, both.1, "[WARP THICKNESS]\n2=.106\n[WARP SPACING]\n2=.106\n");
     let [warp, weft] = diameters(&design);
     near(&warp, &[warp[0], warp[0] / 2.0, warp[0], warp[0], warp[0]]);
     assert!(warp[0] < 1.06 && weft.iter().all(|diameter| *diameter == weft[0]), "{warp:?} {weft:?}");
     assert!(design.warnings().concat().contains("lie closer than most"));
-    // A set of its own accord: the other's thickness stays as it is stated.
+    // One set is scaled by itself. The other keeps its stated thickness.
     let design = stated("Spacing=.2\nThickness=.2", "Spacing=.4\nThickness=.08", "");
     assert!(design.warnings()[0].starts_with("[WARP] has") && design.warnings().len() == 1);
     let [warp, weft] = diameters(&design);
     near(&[warp[0], weft[0]], &[1.0, 0.8]);
-    // What can be woven is not touched, and what the writer chose to jam is told, not changed.
+    // A draft that can be woven is not changed. Threads that the draft makes jam are reported, not
+    // changed.
     near(&diameters(&stated("Spacing=.2\nThickness=.1", "Spacing=.3\nThickness=.1", ""))[0], &[1.0]);
     near(&diameters(&stated("Spacing=.2\nThickness=.19", "Spacing=.3\nThickness=.19", ""))[0], &[1.9]);
 }
 
-/// Spacings that weavers use beside one another, in drafts of every kind: whatever is scaled comes
-/// out clear.
+/// Common spacings beside one another, in drafts of every kind. Scaled cloths are clear.
 #[test]
 fn what_is_given_room_does_not_pierce() {
     let tie_ups = [
@@ -320,7 +319,7 @@ fn what_is_given_room_does_not_pierce() {
     ];
     let straight: String = (1..=12).map(|thread| format!("{thread}={}\n", (thread - 1) % 4 + 1)).collect();
     let straight = &straight;
-    // What a set says of itself, and what it says of its threads one by one.
+    // Values for a whole set, and values for single threads.
     let set = |name: &str, spacing: &str, own: &str, stated: bool| {
         let thickness =
             if stated { format!("Thickness={spacing}\n[{name} THICKNESS]\n{own}") } else { String::new() };
@@ -340,20 +339,20 @@ fn what_is_given_room_does_not_pierce() {
                 let design = read_text(format!("{warp}{weft}{draft}")).unwrap();
                 let clearance =
                     texere_contact::clearance(&design.yarns().unwrap(), &Settings::default()).unwrap().min;
-                // Of threads that touch by construction the spline between control points comes to
-                // 0.99.
+                // Splines through threads that touch by construction come to 0.99.
                 assert!(clearance > 0.985, "{clearance}: {warp}{weft}{draft}");
             }
         }
     }
 }
 
-/// Thick and thin ends by turns, in columns as wide as they are drawn: those that are three times
-/// as thick stay so.
+/// Thick and thin ends by turns, in columns as wide as they are drawn. Ends that are three times as
+/// thick stay so.
 #[test]
 fn thick_and_thin_drafts_keep_their_thick_threads() {
     let own = |what: &str, thick: &str| format!("[WARP {what}]\n2={thick}\n4={thick}\n");
-    // All of them as thick as their columns; and thick threads in a set whose other ones are.
+    // All threads as thick as their columns; and thick threads in a set whose other threads are as
+    // thick as their columns.
     for more in [own("SPACING", "0.6") + &own("THICKNESS", "0.6"), own("THICKNESS", "0.6")] {
         let text = TWILL.replace("Spacing=0.2\nThickness=0.1", "Spacing=0.2\nThickness=0.2") + &more;
         let design = read_text(&text).unwrap();
@@ -367,7 +366,7 @@ fn thick_and_thin_drafts_keep_their_thick_threads() {
     }
 }
 
-/// Ends 1 mm and 2 mm wide by turns, as thick-and-thin drafts have them: 1.5 mm from each to both
+/// Ends 1 mm and 2 mm wide by turns, as in thick-and-thin drafts. Each is 1.5 mm from both
 /// neighbours.
 #[test]
 fn threads_lie_in_the_middle_of_their_columns() {
@@ -376,14 +375,13 @@ fn threads_lie_in_the_middle_of_their_columns() {
     let text = text.replace("Spacing=0.3\nThickness=0.1", "Spacing=0.3\nThickness=0.03") + own;
     let woven = cloth(&text);
     assert!((woven.size_mm()[0] - 7.0).abs() < 1e-12);
-    for (end, at) in woven.middles_mm()[0].iter().enumerate() {
+    for (end, at) in woven.middles_mm().warp.iter().enumerate() {
         assert!((at - (0.5 + 1.5 * end as f64)).abs() < 1e-12, "{at}");
     }
     assert!(woven.warnings().is_empty());
 }
 
-/// The same file with a comment behind every value of every section, but that the title keeps its
-/// semicolon.
+/// The file with a comment after every value of every section. The title keeps its semicolon.
 #[test]
 fn a_semicolon_behind_any_value_begins_a_comment() {
     let full = TWILL.to_owned()
@@ -402,7 +400,7 @@ fn a_semicolon_behind_any_value_begins_a_comment() {
         (design.name.as_str(), design.warnings().len()),
         ("Black; white", read_text(&full).unwrap().warnings().len())
     );
-    // What stands before the comment is still looked at.
+    // The value before the comment is still checked.
     refused(&TWILL.replace("Threads=5", "Threads=five ; 5"), &["[WARP] threads is \"five\""]);
     refused(&TWILL.replace("Shed=true", "Shed=maybe;true"), &["[WEAVING] rising shed is \"maybe\""]);
 }
@@ -422,15 +420,15 @@ fn a_range_of_one_number_begins_at_0() {
 #[test]
 fn a_loom_without_treadles_is_woven_by_its_lift_plan() {
     let none = TWILL.replace("Treadles=4", "Treadles=0");
-    // The tie-up, whatever it says, is not looked at.
+    // The tie-up is not checked, whatever its value.
     let odd = none.replace("4=4,1\n[TREADLING]", "4=99,1\n[TREADLING]") + LIFT_PLAN;
     assert_eq!(drawdown(&odd), TWILL_DRAWDOWN);
     assert!(read_text(&odd).unwrap().warnings()[0].contains("Treadles is 0; the lift plan is taken"));
-    // Nothing else says what is lifted: the treadles that the tie-up has are taken, as where fewer
-    // are declared.
+    // No other section gives lifts. The treadles of the tie-up are taken, as if too few were
+    // declared.
     assert_eq!(drawdown(&none), TWILL_DRAWDOWN);
     assert!(read_text(&none).unwrap().warnings()[0].contains("Treadles is 0, but [TIEUP] goes up to 4"));
-    // So are shafts; and no more than none where no end is on one.
+    // Shafts are taken in the same way; none if no end is on one.
     let shafts = TWILL.replace("Shafts=4", "Shafts=0");
     assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
     assert!(read_text(&shafts).unwrap().warnings()[0].contains("Shafts is 0, but [THREADING] goes up to 4"));
@@ -451,25 +449,24 @@ fn a_file_that_counts_from_0_is_told_so() {
     let shafts =
         shafts.replace("[TIEUP]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n", "[TIEUP]\n1=0,1\n2=1,2\n3=2,3\n4=3,0\n");
     refused(&shafts, &["[THREADING] 1 is \"0\"", "shafts are counted from 1", "from 0"]);
-    // A loom of more shafts, or of nobody knows how many: an end may well be on no shaft, and a
-    // treadle tied to none.
+    // A loom with more shafts, or with an unknown number. An end may be on no shaft, and a treadle
+    // tied to none.
     for weaving in ["Shafts=8\n", ""] {
         let design = read_text(shafts.replace("Shafts=4\n", weaving)).unwrap();
         let told =
             |warning: &String| warning.contains("[THREADING] 1 is shaft 0") && warning.contains("from 1");
         assert!(design.warnings().iter().any(told), "{weaving:?}: {:?}", design.warnings());
     }
-    // Treadles in both lists; and in the treadling alone, where the tie-up has no row 0 to be
-    // pressed.
+    // Treadles in both lists; and in the treadling alone, where the tie-up has no row 0.
     let pressed = treadles.replace("[TREADLING]\n1=1\n2=2\n3=3\n4=4\n", "[TREADLING]\n1=0\n2=1\n3=2\n4=3\n");
     refused(&pressed, &["counts from 0"]);
-    // A line too many that says nothing is left out.
+    // A surplus line without a value is left out.
     assert_eq!(drawdown(&TWILL.replace("[THREADING]\n", "[THREADING]\n0=\n")), TWILL_DRAWDOWN);
 }
 
 #[test]
 fn a_number_with_zeros_or_a_sign_before_it_is_the_same_key() {
-    // Alone, and after the same key as most files write it, whose value it takes the place of.
+    // The key alone, and after the key in its usual spelling, whose value it replaces.
     for key in ["01", "0001", "+1"] {
         let alone = TWILL.replace("[THREADING]\n1=1\n", &format!("[THREADING]\n{key}=1\n"));
         assert_eq!(drawdown(&alone), TWILL_DRAWDOWN, "{key}");
@@ -478,13 +475,13 @@ fn a_number_with_zeros_or_a_sign_before_it_is_the_same_key() {
     }
     let shafts = TWILL.replace("[TIEUP]\n1=1,2\n2=2,3\n", "[TIEUP]\n01=4\n1=1,2\n2=2,3\n");
     assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
-    // Of colours, too, where several such keys stand.
+    // Colours with several such keys, too.
     let colors = TWILL.to_owned() + "[COLOR TABLE]\n9=9,9,9\n09=1,1,1\n[WARP COLORS]\n1=9\n+1=9\n";
     for _ in 0..10 {
         let cloth = cloth(&colors);
         assert_eq!(cloth.materials()[cloth.warp()[0].material as usize].srgb, [1, 1, 1]);
     }
-    // Of two faults the first is told, every time.
+    // The first of two faults is reported, every time.
     for _ in 0..10 {
         refused(&(TWILL.to_owned() + "[COLOR TABLE]\n9=9,9\n8=x\n"), &["[COLOR TABLE] 9"]);
     }

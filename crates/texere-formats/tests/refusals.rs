@@ -1,5 +1,5 @@
-//! Cloth that can't be made or can't come to rest is refused with file, line and key, whatever
-//! found that out.
+//! Cloth that can't be made, or that can't come to rest, is refused with file, line and key, by
+//! whichever part finds the fault.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -10,12 +10,12 @@ use texere_formats::{Cloth, RestReport, read};
 
 const YARN: &str = "[yarns.a]\ndiameter_mm = 0.1\n";
 
-/// What is said of a design file that is read, stretched and settled.
+/// The message for a design file that is read, stretched and settled.
 fn said(design: &str) -> String {
     said_of("design.toml", design, "")
 }
 
-/// The same of a design of any name, beside which lies `draft.wif`.
+/// The message for a design of any name in a folder with `draft.wif`.
 fn said_of(name: &str, design: &str, draft: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -146,7 +146,7 @@ fn refused_drafts_name_line_section_and_key() {
     ] {
         let said = said_of("draft.wif", &draft, &draft);
         assert!(said.contains(&format!("draft.wif, {key}")) && said.contains(why), "{key}: {said}");
-        // A design that names the draft says where in the draft that is, too.
+        // The message for a design that names the draft also has the place in the draft.
         let named = said_of("design.toml", &format!("weave.wif = \"draft.wif\"\n{YARN}"), &draft);
         assert!(named.contains(&format!("draft.wif, {key}")) && named.contains(why), "{key}: {named}");
     }
@@ -158,12 +158,12 @@ fn a_yarn_that_goes_too_far_names_its_line() {
     let knitout =
         format!(";!knitout-2\n;;Carriers: 1 3\ninhook 3\nknit + f1 3\nknit + f2 3\n{far}outhook 3\n");
     let said = said_of("design.k", &knitout, "");
-    // The first of the longest ways is from needle 60000 back to needle 1.
+    // The first of the longest ways of a yarn is from needle 60000 back to needle 1.
     assert!(said.contains("design.k, line 7") && said.contains("yarns pass"), "{said}");
 }
 
-/// A cable of 40 loops over 40: the lines that knit its crossing are named, whether the file is a
-/// design or a design names it.
+/// A cable of 40 loops over 40. The lines that knit its crossing are named, for a file that is the
+/// design and for a file that a design names.
 #[test]
 fn a_knitout_file_that_is_too_crowded_to_settle_names_its_line() {
     let row = |way: char| {

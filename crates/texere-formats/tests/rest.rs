@@ -1,4 +1,4 @@
-//! A design comes to its cloth with splines of the tension that is asked for.
+//! A design comes to rest with splines of the given tension.
 #![cfg(feature = "toml")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -34,8 +34,8 @@ fn cloth_has_the_tension_that_is_asked_for() {
         assert!(found.min > 0.97, "{text}: {}", found.min);
         let slack = asked.clone().rest(&device).run().unwrap();
         assert_eq!(slack.yarns().tension(), 0.0, "{text}");
-        // Yarns that settle by contact go elsewhere; how threads lie at crossings does not depend
-        // on their splines.
+        // Yarns that settle by contact end in other places with another tension. Threads that
+        // settle by crossings do not depend on their splines.
         assert!(text == CLOTH || slack.yarns().points() != rested.yarns().points(), "{text}");
         asked.settle = false;
         let placed = asked.clone().rest(&device).tension(0.3).run().unwrap();

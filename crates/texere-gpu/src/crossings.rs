@@ -1,5 +1,5 @@
-//! Tables of crossings. They go to a device as they are, and what passes have seen comes back in
-//! them.
+//! Tables of crossings. They are sent to a device byte for byte, and what passes have seen comes
+//! back in them.
 
 use std::ops::ControlFlow;
 
@@ -7,16 +7,16 @@ use bytemuck::{Pod, Zeroable};
 use texere_core::BackendError;
 use texere_core::crossings::{CrossingsPass, CrossingsPlan, CrossingsSeen, Row, Set};
 
-/// The most passes that a device makes between two waits.
+/// The most passes that a device makes between two waits of the host.
 pub const CROSSINGS_PASSES: u32 = 16;
 
-/// A thread, in units.
+/// A thread. Lengths are in units of the plan.
 ///
 /// **Shape**: five `f32` and three `i32`, 32 bytes. A table has all ends, then all picks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ThreadRow {
-    /// To the next thread.
+    /// The way to the next thread.
     pub gap: f32,
     /// Its radius.
     pub radius: f32,
@@ -28,21 +28,21 @@ pub struct ThreadRow {
     pub height: f32,
     /// Its level.
     pub level: i32,
-    /// How many threads before it the next one of its level lies, 0 for none.
+    /// Distance to the nearest thread of its level before it, threads; 0 for none.
     pub before: i32,
-    /// And after it.
+    /// Distance to the nearest thread of its level after it, threads; 0 for none.
     pub after: i32,
 }
 
 const _: () = assert!(size_of::<ThreadRow>() == 32 && std::mem::offset_of!(ThreadRow, after) == 28);
 
-/// What is the same for all lanes of a pass.
+/// The parameters of a pass.
 ///
 /// **Shape**: twelve 4-byte values, 48 bytes, a multiple of 16 as a uniform buffer wants.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct CrossingsParams {
-    /// How many there are.
+    /// Crossings.
     pub crossings: u32,
     /// Ends.
     pub ends: u32,
@@ -52,15 +52,15 @@ pub struct CrossingsParams {
     pub flags: u32,
     /// How taut the warp is.
     pub tension_warp: f32,
-    /// And the weft.
+    /// How taut the weft is.
     pub tension_weft: f32,
     /// How strongly the cloth is pressed.
     pub press: f32,
     /// The weight of terms that keep threads apart.
     pub penalty: f32,
-    /// The share of its area that a thread wants.
+    /// The share of its own area that a thread claims.
     pub area: f32,
-    /// Which of the passes between two waits it is, from 0.
+    /// The number of the pass since the last wait, from 0.
     pub pass_number: u32,
     /// Unused, 0.
     pub padding: [u32; 2],
@@ -69,7 +69,7 @@ pub struct CrossingsParams {
 const _: () =
     assert!(size_of::<CrossingsParams>() == 48 && std::mem::offset_of!(CrossingsParams, pass_number) == 36);
 
-/// What a group, or all of them, has seen in a pass.
+/// What a workgroup, or all of them, has seen in a pass.
 ///
 /// **Shape**: two `f32`, 8 bytes.
 #[repr(C)]
@@ -77,7 +77,7 @@ const _: () =
 pub struct CrossingsSeenRow {
     /// The longest step of any unknown.
     pub step: f32,
-    /// The least distance of two threads over what they need.
+    /// The least distance of two threads, as a share of what they need.
     pub clearance: f32,
 }
 
@@ -102,7 +102,7 @@ impl CrossingsParams {
     /// Bit of [`CrossingsParams::flags`]: a level of both sets is a layer of the cloth.
     pub const LAYERED: u32 = 4;
 
-    /// What `plan` says. The pass is still to come.
+    /// The parameters of `plan`, without those of a pass.
     ///
     /// ```
     /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, CrossingThread};
@@ -133,7 +133,7 @@ impl CrossingsParams {
         }
     }
 
-    /// The same for a pass, `number` of those between two waits.
+    /// These parameters for `pass`, number `number` since the last wait.
     #[must_use]
     pub const fn with_pass(self, pass: &CrossingsPass, number: u32) -> Self {
         Self { penalty: pass.penalty, area: pass.area, pass_number: number, ..self }
@@ -148,9 +148,9 @@ impl CrossingsSeenRow {
     }
 }
 
-/// Has a device `run` passes, so many between two waits as it may, and hands over what each has
-/// seen until `watch` breaks off: what
-/// [`CrossingsSettler::passes`](texere_core::crossings::CrossingsSettler::passes) is on a GPU.
+/// Runs passes on a device, [`CROSSINGS_PASSES`] between two waits, and hands what each has seen to
+/// `watch` until that breaks off. It is
+/// [`CrossingsSettler::passes`](texere_core::crossings::CrossingsSettler::passes) of a GPU.
 ///
 /// **Errors**: those of `run`.
 pub fn crossings_batches(
@@ -168,7 +168,7 @@ pub fn crossings_batches(
     Ok(ControlFlow::Continue(()))
 }
 
-/// Where the warp lies on the face, a bit for each crossing of `plan` from the lowest one on.
+/// Where the warp lies on the face: a bit for each crossing of `plan`, from the lowest bit on.
 #[must_use]
 pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
     let mut ups = vec![0; plan.crossings().div_ceil(32)];
@@ -180,9 +180,9 @@ pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
     ups
 }
 
-/// Bytes of device memory that a pass of `plan` moves at least: each crossing as others find it is
-/// read, as it is read and written, and as others will find it written, and a bit for which thread
-/// lies on top; what neighbours read again is not counted.
+/// Lower bound on the bytes of device memory that a pass of `plan` moves. A crossing is read as
+/// others find it, read and written as it is, and written as others will find it; a bit says which
+/// thread lies on top. What neighbours read again is not counted.
 #[must_use]
 pub fn crossings_pass_bytes(plan: &CrossingsPlan) -> u64 {
     let crossings = plan.crossings() as u64;

@@ -1,16 +1,16 @@
-//! What the GPU backends of texere share and the core has no need of. No GPU interface is used
-//! here.
+//! What the GPU backends of texere share beyond the core: tables, uploads, constants and schedules.
+//! This crate uses no GPU interface.
 //!
 //! | what a GPU backend needs | here |
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
-//! | tables of a settling, and what devices give back of it | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
+//! | tables of a settling, and what comes back in them | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
 //! | tables of crossings | [`CrossingsParams`], [`ThreadRow`], [`crossings_ups`], [`CrossingsSeenRow`] |
-//! | tables of a settling, and of the way from it to control points | [`SettlingParams`], [`SettledRow`] |
-//! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
+//! | tables that turn settled places into control points | [`SettledParams`], [`SettledRow`], [`BoundsRow`] |
+//! | uploads of control points with virtual ends | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
-//! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
-//! | what a device is called and can under a schedule, and what the schedule leaves out | [`device_name`], [`capabilities`], [`check_schedule`], [`serial_unsupported`] |
+//! | the chunk whose tables lie in a slot, checked so that no kernel has to check a bound | [`LoadedChunk`] |
+//! | a device's name and capabilities under a schedule, and what the schedule leaves out | [`device_name`], [`capabilities`], [`check_schedule`], [`serial_unsupported`] |
 //! | the memory that a plan's work takes | [`device_buffers`], [`host_bytes_beside_gpu`] |
 //!
 //! ```
@@ -47,8 +47,8 @@ pub use prelude::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, Language, SETTLING_C
 pub use schedule::{capabilities, check_schedule, device_name, serial_unsupported};
 pub use settled::{BoundsRow, SettledParams, SettledRow};
 pub use settling::{
-    ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, UNSEEN,
-    settles_flattened, settling_pass_bytes,
+    ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, settles_flattened,
+    settling_pass_bytes,
 };
 pub use tables::{CapRow, Params, YarnRow, cap_pattern, lean_count, lean_rows, part_rows};
 pub use upload::{PaddedUpload, YarnEnds};

@@ -5,9 +5,9 @@ use texere_core::backend::{Chunk, Plan, TablesId};
 
 /// The chunk whose tables lie in a slot of an engine.
 ///
-/// Kernels check no bounds: their tables come from chunks, and what a chunk says is what its plan
-/// counted. So an engine makes sure that it runs them on a chunk of its own plan, and on the one
-/// that it has loaded, whoever calls it.
+/// Kernels check no bounds. They trust the tables of a chunk, which its plan has counted. So an
+/// engine checks, before it runs them, that the chunk is of its own plan and is the one that it has
+/// loaded.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -30,10 +30,10 @@ pub struct LoadedChunk {
 }
 
 impl LoadedChunk {
-    /// Takes the place of what was loaded: `send` sends the tables of `chunk`. Nothing is loaded if
-    /// it fails.
+    /// Notes that `chunk` is loaded, in place of what was; `send` sends its tables. If it fails,
+    /// nothing is loaded.
     ///
-    /// **Errors**: [`BackendError::NotLoaded`] for a chunk of another plan, and what `send` says.
+    /// **Errors**: [`BackendError::NotLoaded`] for a chunk of another plan; the errors of `send`.
     pub fn load<T>(
         &mut self,
         plan: &Plan,
@@ -49,8 +49,9 @@ impl LoadedChunk {
         Ok(sent)
     }
 
-    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are
-    /// here.
+    /// Checks that the tables of `chunk`, one of `plan`'s, are loaded.
+    ///
+    /// **Errors**: [`BackendError::NotLoaded`] where they are not.
     pub fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         if plan.owns(chunk) && self.tables.as_ref() == Some(chunk.tables()) {
             Ok(())

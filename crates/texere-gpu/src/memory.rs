@@ -7,16 +7,16 @@ use texere_core::{Limits, PlanError, SectionPoint, Vertex};
 use crate::tables::{CapRow, YarnRow, cap_pattern, lean_count};
 use crate::upload::Ends;
 
-/// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the mesh of
-/// all chunks of `plan` cut to `limits`, the device's own: what each holds, and its bytes. Those of
-/// the two chunks in flight come last. Where a caller cuts chunks smaller, tables are as large as a
-/// scan needs them, which goes by the device's limits.
+/// The buffers that a session of the schedule per-ring keeps on a GPU while it meshes all chunks of
+/// `plan`: what each holds, and its bytes. The buffers of the two chunks in flight come last.
+/// `limits` are the device's own, which chunks are cut to. Where a caller cuts chunks smaller,
+/// tables are still as large as a scan needs them, for that goes by the device's limits.
 ///
-/// A backend may round each up to what its kernels read at a time, and adds parameters and time
-/// stamps, some hundred bytes. The 16 MiB that wgpu maps to upload through come on top where a
-/// driver takes them from the device's memory. Rings, 48 bytes each, come on top where
-/// [`Session::trajectory`](texere_core::backend::Session::trajectory) is called, packed vertices,
-/// 12 bytes each, where [`Session::packed`](texere_core::backend::Session::packed) is.
+/// Not counted are: the rounding up of each buffer to what kernels read at a time; parameters and
+/// time stamps, some hundred bytes; the 16 MiB that wgpu maps to upload through, which some drivers
+/// take from the device's memory; rings, 48 bytes each, where
+/// [`Session::trajectory`](texere_core::backend::Session::trajectory) is called; packed vertices,
+/// 12 bytes each, where [`Session::packed`](texere_core::backend::Session::packed) is called.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -45,8 +45,8 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
         ("rolls", turns * size_of::<Turn>() as u64),
     ];
     // Chunks take the two slots in turn, and a slot's memory grows to the largest chunk that it
-    // had. A scan goes through the chunks first, for their tables alone; where there are more than
-    // two, that shifts which chunk takes which slot.
+    // had. A scan goes through the chunks first, for their tables alone. Where it has more than two
+    // chunks, that shifts which chunk takes which slot.
     let scanned = if plan.needs_scan() { plan.whole().chunks(limits)?.count() } else { 0 };
     let shift = if scanned > 2 { scanned } else { 0 };
     let mut places = [[0; 4]; 2];
@@ -71,11 +71,9 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
     Ok(buffers)
 }
 
-/// Bytes of host memory that [`Pipeline::mesh`](texere_core::Pipeline::mesh) takes at its peak
-/// beside a GPU, which keeps control points and rolls itself: the mesh, the block table, and the
-/// ends of all yarns. What a driver takes is not in it, nor the memory that it gives to send and
-/// read through, nor a copy of up to 16 MiB of the control points, which is gone before there is a
-/// mesh. [`Plan::host_bytes`] says the same of a CPU.
+/// Bytes of host memory that [`Pipeline::mesh`](texere_core::Pipeline::mesh) takes at its peak with
+/// a GPU, which keeps control points and rolls itself. They hold the mesh, the block table, and the
+/// ends of all yarns. [`Plan::host_bytes`] is the same for a CPU.
 #[must_use]
 pub fn host_bytes_beside_gpu(plan: &Plan) -> u64 {
     let blocks = plan.block_count() * size_of::<Block>() as u64;

@@ -48,8 +48,8 @@ const fn integer(name: &'static str, value: u32) -> Constant {
     Constant { name, value: Value::Integer(value) }
 }
 
-/// All of them, each the core's of the same name. The numbers behind `SINE`, `COSINE` and
-/// `ARCTANGENT` are powers.
+/// The constants of meshes. Each is the core's of the same name. The numbers behind `SINE`,
+/// `COSINE` and `ARCTANGENT` are powers.
 pub const CONSTANTS: [Constant; 38] = [
     integer("BLOCK_RINGS", BLOCK_RINGS),
     float("TURN_STEPS", Turn::STEPS),
@@ -91,8 +91,8 @@ pub const CONSTANTS: [Constant; 38] = [
     float("NORMAL_STEPS", PackedVertex::NORMAL_STEPS),
 ];
 
-/// Those of settling, which stand before all sources, too. `UNSEEN` and the two flags are
-/// [`SettlingParams`]' own, all others the core's.
+/// The constants of settling, which also stand before all sources. `UNSEEN` and the two flags
+/// belong to [`SettlingParams`]; all others are the core's.
 pub const SETTLING_CONSTANTS: [Constant; 41] = [
     float("MARGIN", settling::MARGIN),
     float("NEAR", settling::NEAR),
@@ -137,8 +137,8 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
     integer("PLATES", SettlingParams::PLATES),
 ];
 
-/// Those of crossings, which stand before all sources, too. The three flags are
-/// [`CrossingsParams`]' own, all others the core's.
+/// The constants of crossings, which also stand before all sources. The three flags belong to
+/// [`CrossingsParams`]; all others are the core's.
 pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     float("CROSSINGS_ASPECT", crossings::ASPECT),
     float("CROSSINGS_SHAPE", crossings::SHAPE),
@@ -170,11 +170,11 @@ pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
 ];
 
 /// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`],
-/// [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are as short as
-/// give the same bits again.
+/// [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are the
+/// shortest that give the same bits again.
 ///
-/// Where `flattened` is false the program is for round yarns alone, as wide as high at each control
-/// point: it takes no account of half heights, and is faster by that. The other does all yarns.
+/// With `flattened` the program does all yarns. Without it the program does round yarns alone, as
+/// wide as high at each control point: it ignores half heights, and is faster.
 ///
 /// ```
 /// use texere_gpu::{Language, prelude};
@@ -209,7 +209,8 @@ pub fn prelude(language: Language, flattened: bool) -> String {
 mod tests {
     use super::*;
 
-    /// The core's values, each written here once more: a number in place of a name above is found.
+    /// The core's values, each written once more here. A number that stands in place of a name
+    /// above is found by that.
     const OF_THE_CORE: [(&str, &[f32]); 84] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),

@@ -1,4 +1,4 @@
-//! Schedules: what a device is called under each, and what each leaves out.
+//! Schedules: a device's name under each, and what each leaves out.
 
 use texere_core::backend::{Plan, Schedule};
 use texere_core::{BackendError, Capabilities, Frame};
@@ -19,8 +19,8 @@ pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) ->
     format!("{interface}{index}{of_schedule}")
 }
 
-/// What a GPU can under `schedule`: all settle alike, and the paper's mapping makes meshes alone.
-/// `draw` is whether pictures are drawn through its interface.
+/// What a GPU can do under `schedule`. All schedules settle alike; the paper's mapping makes meshes
+/// and nothing else. `draw`: whether pictures are drawn through its interface.
 ///
 /// ```
 /// use texere_core::Schedule;
@@ -34,13 +34,13 @@ pub const fn capabilities(schedule: Schedule, draw: bool) -> Capabilities {
     Capabilities { settle: true, settle_crossings: true, edit: ours, attributes: ours, pack: ours, draw }
 }
 
-/// The error for [`Schedule::Serial`], which is a host's: no GPU has it. `name` is the device's.
+/// The error for [`Schedule::Serial`], which no GPU has. `name` is the device's.
 #[must_use]
 pub fn serial_unsupported(name: &str) -> BackendError {
     BackendError::Unsupported { schedule: name.into(), what: "the serial schedule".into() }
 }
 
-/// Makes sure that a GPU has `schedule`, and that it does all that `plan` asks for:
+/// Checks that a GPU has `schedule`, and that the schedule does all that `plan` asks for.
 /// [`Schedule::PerYarn`] does upright, untwisted, open yarns without caps. `name` is the device's,
 /// for the error.
 ///
@@ -95,7 +95,7 @@ mod tests {
 
     use super::*;
 
-    /// What `schedule` says to a plain yarn and after it `yarn`.
+    /// What `schedule` leaves out of a plan with a plain yarn and `yarn`.
     fn asked(schedule: Schedule, yarn: Yarn, settings: Settings) -> Option<String> {
         let mut yarns = Yarns::builder();
         for yarn in [Yarn::default(), yarn] {

@@ -1,4 +1,5 @@
-//! Control points from where yarns have come to rest, without a way over the host.
+//! Tables with which a device turns settled places into control points, without a way over the
+//! host.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::backend::Plan;
@@ -21,7 +22,7 @@ pub struct SettledRow {
     /// Both halves of its virtual start, bits of two half floats: yarns don't change their
     /// thickness while they settle.
     pub start_halves: u32,
-    /// And of its virtual end.
+    /// Both halves of its virtual end, likewise.
     pub end_halves: u32,
     /// Unused, 0: keeps the row a multiple of 16 bytes.
     pub padding: [u32; 2],
@@ -29,7 +30,7 @@ pub struct SettledRow {
 
 const _: () = assert!(size_of::<SettledRow>() == 32 && std::mem::offset_of!(SettledRow, end_halves) == 20);
 
-/// What is the same for all places.
+/// The parameters of a launch over all places.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes, a multiple of 16 as a uniform buffer wants.
 #[repr(C)]
@@ -49,7 +50,7 @@ pub struct SettledParams {
 
 const _: () = assert!(size_of::<SettledParams>() == 32 && std::mem::offset_of!(SettledParams, places) == 16);
 
-/// How far a group has found control points to lie.
+/// The box that a workgroup has found round its control points.
 ///
 /// **Shape**: eight `i32`, 32 bytes.
 #[repr(C)]
@@ -68,7 +69,7 @@ pub struct BoundsRow {
 const _: () = assert!(size_of::<BoundsRow>() == 32 && std::mem::offset_of!(BoundsRow, high) == 16);
 
 impl BoundsRow {
-    /// What all of `rows` have found: the least and the greatest coordinates.
+    /// The box round all of `rows`: the least and the greatest coordinates, units.
     #[must_use]
     pub fn joined(rows: &[Self]) -> [[i32; 3]; 2] {
         let nothing = [[i32::MAX; 3], [i32::MIN; 3]];
@@ -82,8 +83,8 @@ impl BoundsRow {
 }
 
 impl SettledRow {
-    /// All yarns, as `settling` has their places and `plan` their control points. Both have the
-    /// same yarns.
+    /// The rows of all yarns. `settling` says where their places lie, `plan` where their control
+    /// points belong; both have the same yarns.
     #[must_use]
     pub fn all(settling: &SettlingPlan, plan: &Plan) -> Vec<Self> {
         let rows = settling.strands().iter().enumerate().map(|(yarn, strand)| {

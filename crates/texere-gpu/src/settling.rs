@@ -1,20 +1,20 @@
-//! Tables of a settling. They go to a device as they are, and what devices found comes back in
-//! them.
+//! Tables of a settling. They are sent to a device byte for byte, and what it has found comes back
+//! in them.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::Ends;
 use texere_core::settling::{Length, Pass, SettlingPlan, SettlingSeen, SettlingYarn, tag};
 
-/// What stands for nothing on devices that may have no infinities: no yarn is as far away.
-pub const UNSEEN: f32 = 1e30;
+/// Stands for infinity, which a device may not have: no yarn is as far away.
+pub(crate) const UNSEEN: f32 = 1e30;
 
-/// So many groups of lanes look for the extent of all chords at most.
+/// The most workgroups that look for the extent of all chords.
 pub const EXTENT_GROUPS: u32 = 256;
 
-/// Cells of chords are at least so many, where there are fewer chords than that.
+/// The cells that chords are sorted into may always be this many, however few chords there are.
 const CELLS: u64 = 64;
 
-/// What is known of a place that settles, beside where it is.
+/// What never changes of a place that settles.
 ///
 /// **Shape**: four 4-byte values, 16 bytes. A table has one row more than places: its `first_chord`
 /// ends the last interval.
@@ -27,13 +27,13 @@ pub struct PlaceRow {
     pub yarn: u32,
     /// The first chord of its interval.
     pub first_chord: u32,
-    /// The length that its interval is to have at the start, mm.
+    /// The length that its interval shall have at the start, mm.
     pub start_length: f32,
 }
 
 const _: () = assert!(size_of::<PlaceRow>() == 16 && std::mem::offset_of!(PlaceRow, start_length) == 12);
 
-/// Where a yarn's places lie, and how it goes on.
+/// Where a yarn's places lie, and whether it goes on past its last point.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes.
 #[repr(C)]
@@ -43,11 +43,11 @@ pub struct StrandRow {
     pub first: u32,
     /// Its control points.
     pub points: u32,
-    /// 0 where it is open, 1 where it goes on.
+    /// 0 where it is open, 1 where it closes or goes on in the next repeat.
     pub goes_on: u32,
-    /// Repeats along x to where it goes on.
+    /// Repeats along x from its last point to where it goes on.
     pub shift_x: i32,
-    /// And along y.
+    /// Repeats along y from its last point to where it goes on.
     pub shift_y: i32,
     /// Its length, in units of [`Spans::along`](texere_core::settling::Spans::along).
     pub length: u32,
@@ -68,7 +68,7 @@ pub struct ChordRow {
     /// How far along its yarn it begins, in units of
     /// [`Spans::along`](texere_core::settling::Spans::along).
     pub from: u32,
-    /// And where it ends.
+    /// How far along its yarn it ends, likewise.
     pub to: u32,
     /// The largest half width or half height of its interval, mm.
     pub thickest: f32,
@@ -76,7 +76,7 @@ pub struct ChordRow {
 
 const _: () = assert!(size_of::<ChordRow>() == 16 && std::mem::offset_of!(ChordRow, thickest) == 12);
 
-/// What is the same for all launches of a list or a pass.
+/// The parameters of all launches of a list or a pass.
 ///
 /// **Shape**: 24 4-byte values, 96 bytes, a multiple of 16 as a uniform buffer wants.
 #[repr(C)]
@@ -92,50 +92,50 @@ pub struct SettlingParams {
     pub flags: u32,
     /// A unit of places, mm.
     pub unit: f32,
-    /// Units in a mm.
+    /// Units per mm.
     pub per_mm: f32,
     /// `s = (1 - tension) / 2` of the spline.
     pub s: f32,
-    /// The share of their thickness that yarns have.
+    /// The share of their full thickness that yarns have.
     pub growth: f32,
-    /// The share of what eases the way to rest.
+    /// How much of what eases the way to rest is left, a share.
     pub ease: f32,
     /// The share of the last step that points go on with.
     pub momentum: f32,
-    /// Half of what is between the plates, mm.
+    /// Half of the gap between the plates, mm.
     pub half_gap: f32,
-    /// What free lengths are drawn in by, a share; eased already.
+    /// The share by which free lengths are drawn in; [`SettlingParams::ease`] is in it.
     pub tension: f32,
     /// The repeat along x, units; 0 where there is none.
     pub period_x: i32,
-    /// And along y.
+    /// The repeat along y, likewise.
     pub period_y: i32,
-    /// Repeats in a mm along x; 0 where there are none.
+    /// Repeats per mm along x; 0 where there are none.
     pub frequency_x: f32,
-    /// And along y.
+    /// Repeats in a mm along y, likewise.
     pub frequency_y: f32,
     /// The mean diameter, mm.
     pub diameter: f32,
-    /// A unit of lengths along yarns, mm.
+    /// The unit of lengths along yarns, mm.
     pub along: f32,
     /// Where cells begin along x, units.
     pub low_x: i32,
-    /// And along y.
+    /// Where cells begin along y, units.
     pub low_y: i32,
-    /// How wide a cell is, units: the last one takes what is left over.
+    /// How wide a cell is, units. The last cell takes what is left over.
     pub size_x: u32,
-    /// And how high.
+    /// How high a cell is, likewise.
     pub size_y: u32,
     /// Cells along x.
     pub count_x: u32,
-    /// And along y.
+    /// Cells along y.
     pub count_y: u32,
 }
 
 const _: () =
     assert!(size_of::<SettlingParams>() == 96 && std::mem::offset_of!(SettlingParams, count_y) == 92);
 
-/// What a group has found of all chords.
+/// What a workgroup has found of the extent of chords.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes.
 #[repr(C)]
@@ -143,11 +143,11 @@ const _: () =
 pub struct ExtentRow {
     /// The least middle of a chord along x, units.
     pub low_x: i32,
-    /// And along y.
+    /// The least middle of a chord along y, units.
     pub low_y: i32,
-    /// The largest one along x, units.
+    /// The largest middle of a chord along x, units.
     pub high_x: i32,
-    /// And along y.
+    /// The largest middle of a chord along y, units.
     pub high_y: i32,
     /// The longest chord's squared length, mm².
     pub longest: f32,
@@ -157,17 +157,18 @@ pub struct ExtentRow {
 
 const _: () = assert!(size_of::<ExtentRow>() == 32 && std::mem::offset_of!(ExtentRow, longest) == 16);
 
-/// What a group, or all of them, has seen in a pass.
+/// What a workgroup, or all of them, has seen in a pass.
 ///
 /// **Shape**: four `f32`, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct SeenRow {
-    /// The least distance of two yarns over both reaches; [`UNSEEN`] where there are none.
+    /// The least distance of two yarns, over the sum of their reaches; 1e30 where no pass has met
+    /// two.
     pub clearance: f32,
     /// The least radius of curvature, in diameters of the yarn, likewise.
     pub radius: f32,
-    /// By how much an interval's length is off at most, a share.
+    /// The most by which an interval's length is off, a share.
     pub length: f32,
     /// The longest step that a point has taken, mm.
     pub step: f32,
@@ -176,7 +177,7 @@ pub struct SeenRow {
 const _: () = assert!(size_of::<SeenRow>() == 16);
 
 impl PlaceRow {
-    /// All places of `plan`, and the row that ends the last one's interval.
+    /// The rows of all places of `plan`, and one more, which ends the last place's interval.
     #[must_use]
     pub fn all(plan: &SettlingPlan) -> Vec<Self> {
         let own = plan.tags().iter().zip(plan.yarns()).zip(plan.chords()).zip(plan.lengths());
@@ -228,7 +229,7 @@ impl SettlingParams {
     /// Bit of [`SettlingParams::flags`]: there are plates.
     pub const PLATES: u32 = 2;
 
-    /// What `plan` says. Pass and cells are still to come.
+    /// The parameters of `plan`, without those of a pass and of cells.
     ///
     /// ```
     /// use texere_core::settling::{Form, Pass};
@@ -269,7 +270,7 @@ impl SettlingParams {
         }
     }
 
-    /// The same for a pass of `plan`, or for listing neighbours at its growth.
+    /// These parameters for `pass`, or for listing neighbours at its growth.
     #[must_use]
     pub fn with_pass(self, plan: &SettlingPlan, pass: &Pass) -> Self {
         let tension = if let Length::Free { tension } = plan.length() { tension * pass.ease } else { 0.0 };
@@ -277,9 +278,9 @@ impl SettlingParams {
         Self { growth, ease, momentum, tension, ..self }
     }
 
-    /// The same with the cells that chords are sorted into at a growth, where `rows` say how far
-    /// they reach: as large that a chord's neighbours lie in its own cell or one beside it, and no
-    /// more of them than chords.
+    /// These parameters with the cells that chords are sorted into at `growth`. `rows` say how
+    /// far chords reach. Cells are so large that a chord's neighbours lie in its own cell or one
+    /// beside it, and there are no more cells than chords.
     #[must_use]
     pub fn with_cells(self, plan: &SettlingPlan, growth: f32, rows: &[ExtentRow]) -> Self {
         let fold = |of: fn(&ExtentRow) -> i32, better: fn(i32, i32) -> i32| {
@@ -288,7 +289,7 @@ impl SettlingParams {
         let low = [fold(|row| row.low_x, i32::min), fold(|row| row.low_y, i32::min)];
         let high = [fold(|row| row.high_x, i32::max), fold(|row| row.high_y, i32::max)];
         let longest = rows.iter().map(|row| row.longest).fold(0.0, f32::max).sqrt();
-        // Along an axis that repeats cells cover the repeat.
+        // Along an axis that repeats, cells cover the repeat.
         let span = [0, 1].map(|axis| match plan.period()[axis] {
             0 => high[axis].abs_diff(low[axis]).saturating_add(1),
             period => period.unsigned_abs(),
@@ -314,7 +315,7 @@ impl SettlingParams {
         }
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     #[must_use]
     pub const fn cells(&self) -> u32 {
         self.count_x * self.count_y
@@ -335,22 +336,23 @@ impl SeenRow {
     }
 }
 
-/// Whether a yarn of `plan` is anywhere not as wide as high: round ones alone have faster programs.
+/// Whether any yarn of `plan` is flattened anywhere. Faster programs settle plans whose yarns are
+/// all round.
 #[must_use]
 pub fn settles_flattened(plan: &SettlingPlan) -> bool {
     plan.places().iter().any(|place| place.halves.width() != place.halves.height())
 }
 
-/// Bytes of device memory that a pass of `plan` in the weighted form moves, where chords have
-/// `neighbours` in all: every table once, what is written and read again twice, and for each
-/// neighbour its number and its chord.
+/// Bytes of device memory that a pass of `plan` in the weighted form moves, where all chords
+/// together have `neighbours`. Every table counts once, what is written and read again counts
+/// twice, and each neighbour counts with its number and its chord.
 #[must_use]
 pub fn settling_pass_bytes(plan: &SettlingPlan, neighbours: u64) -> u64 {
-    // Of a place: where it is and where it goes, what is known of it, its length, its last step,
-    // and what pulls at its interval (four slots of eight numbers, its length's way and arc, the
-    // least distance and clearance), with what is read again.
+    // Bytes of a place: where it is and where it goes, its row, its length, its last step, and what
+    // pulls at its interval (four slots of eight numbers, its length's way and arc, the least
+    // distance and clearance), with what is read again.
     const PLACE: u64 = 3 * 16 + 16 + 2 * 16 + 4 + 2 * 16 + 2 * 4 * (4 * 8 + 6);
-    // Of a chord: its row, where it lies, written and read, and where its neighbours begin.
+    // Bytes of a chord: its row, where it lies, written and read, and where its neighbours begin.
     const CHORD: u64 = 16 + 2 * 32 + 4;
     const NEIGHBOUR: u64 = 4 + 32;
     let counts = plan.counts();

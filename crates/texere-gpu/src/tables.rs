@@ -1,4 +1,5 @@
-//! Tables that kernels read beside control points and blocks. They go to a device as they are.
+//! Tables that kernels read beside control points and blocks. They are sent to a device byte for
+//! byte.
 
 use std::ops::Range;
 
@@ -57,7 +58,7 @@ pub struct CapRow {
 
 const _: () = assert!(size_of::<CapRow>() == 32 && std::mem::offset_of!(CapRow, padding) == 28);
 
-/// What is the same for a whole launch.
+/// The parameters of a launch.
 ///
 /// **Shape**: twelve 4-byte values, 48 bytes, a multiple of 16 as a uniform buffer wants.
 #[repr(C)]
@@ -67,7 +68,8 @@ pub struct Params {
     pub blocks: u32,
     /// Rows of the cap table.
     pub caps: u32,
-    /// The first yarn of a launch over yarns, where [`Params::blocks`] is how many there are.
+    /// The first yarn of a launch over yarns. In such a launch [`Params::blocks`] is the number of
+    /// yarns.
     pub first_yarn: u32,
     /// Yarns of the plan.
     pub yarns: u32,
@@ -75,7 +77,7 @@ pub struct Params {
     pub sides: u32,
     /// Points inserted between two control points.
     pub subdivisions: u32,
-    /// Where the leans of rings begin behind the rolls of blocks; 0 where no yarn leans.
+    /// Index of the first ring's lean, behind the rolls of blocks; 0 where no yarn leans.
     pub leans: u32,
     /// 1 where indices are written, else 0.
     pub indexed: u32,
@@ -85,7 +87,7 @@ pub struct Params {
     pub s: f32,
     /// `1 / (K + 1)`.
     pub step: f32,
-    /// Quanta of packed positions in a mm.
+    /// Quanta of packed positions, per mm.
     pub quanta_per_mm: f32,
 }
 
@@ -141,13 +143,13 @@ impl CapRow {
 }
 
 impl Params {
-    /// For a launch over some yarns of `plan`, which `chunk` is one of.
+    /// The parameters of a launch over some yarns of `plan`; `chunk` is any of its chunks.
     #[must_use]
     pub fn of_yarns(plan: &Plan, chunk: &Chunk, yarns: &Range<usize>) -> Self {
         Self { blocks: yarns.len() as u32, first_yarn: yarns.start as u32, ..Self::new(plan, chunk) }
     }
 
-    /// For all launches on `chunk`, one of `plan`'s, with its own block table.
+    /// The parameters of all launches on `chunk`, one of `plan`'s, with its own block table.
     #[must_use]
     pub fn new(plan: &Plan, chunk: &Chunk) -> Self {
         let settings = plan.settings();
@@ -168,9 +170,10 @@ impl Params {
     }
 }
 
-/// Where the leans of `yarns` begin in the lean table, which kernels read behind the rolls of
-/// blocks, and what is there: the lean of each ring, [`BLOCK_RINGS`] for each block of those yarns,
-/// zero where a yarn does not lean. Nothing where no yarn of `plan` does.
+/// The part of the lean table that belongs to `yarns`: the index of its first value, and its
+/// values, the lean of each ring. There are [`BLOCK_RINGS`] for each block of these yarns, zero
+/// where a yarn does not lean. Where no yarn of `plan` leans there are none. Kernels read the lean
+/// table behind the rolls of blocks.
 ///
 /// **Panics** past the last yarn.
 #[must_use]
@@ -189,15 +192,15 @@ pub fn lean_rows(plan: &Plan, yarns: Range<usize>) -> (u64, Vec<Turn>) {
     (first, rows)
 }
 
-/// How many there are in the whole lean table.
+/// The number of values in the whole lean table.
 #[must_use]
 pub fn lean_count(plan: &Plan) -> u64 {
     if plan.layout().leans() { plan.block_count() * u64::from(BLOCK_RINGS) } else { 0 }
 }
 
-/// The block table of `chunk`, one of `plan`'s, for a schedule with a lane a part: one row a part,
-/// or a few where it has more than `most_rings`. Such a row is consecutive rings of a yarn, from
-/// any ring on and of any number.
+/// The block table of `chunk`, one of `plan`'s, for a schedule in which a lane makes a part. A part
+/// is one row, or several where it has more than `most_rings` rings. A row is any number of
+/// consecutive rings of a yarn, from any ring on.
 #[must_use]
 pub fn part_rows(plan: &Plan, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
     joined_rows(plan, chunk.blocks(), most_rings)
@@ -227,8 +230,9 @@ fn joined_rows(plan: &Plan, blocks: &[Block], most_rings: u32) -> Vec<Block> {
     rows
 }
 
-/// Cap indices numbered from the cap's first vertex: for each section of `plan` those of its start
-/// cap, `3 (sides - 2)` values, and as many of its finish cap. Empty where there are no caps.
+/// The indices of caps, numbered from the cap's first vertex. For each section of `plan` come those
+/// of its start cap, `3 (sides - 2)` values, then as many for its finish cap. Empty where there are
+/// no caps.
 #[must_use]
 pub fn cap_pattern(plan: &Plan) -> Vec<u32> {
     let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };

@@ -1,5 +1,5 @@
-//! Uploads to padded control points that lie elsewhere, such as on a GPU: what to write there,
-//! without a copy here.
+//! Uploads of control points to padded memory elsewhere, such as a GPU's. Nothing is copied on the
+//! host: what is to be written is lent run by run.
 
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -8,12 +8,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use texere_core::backend::{Plan, renew_virtual_ends, zeroed};
 use texere_core::{BackendError, ControlPoint};
 
-/// A yarn's first three and last two points: those that virtual ends come from. Of a short yarn
-/// some are the same.
+/// A yarn's first three and last two points, which virtual ends come from. In a short yarn some
+/// coincide.
 pub(crate) type Ends = [ControlPoint; 5];
 
-/// The ends of all yarns as last uploaded, so that virtual ends are right also after an upload of
-/// the other end alone.
+/// The ends of all yarns as last uploaded. With them virtual ends are right even after an upload of
+/// one end alone.
 ///
 /// Together with the padded points themselves, which start as zeros, this does what
 /// [`PaddedPoints`](texere_core::backend::PaddedPoints) does.
@@ -36,23 +36,23 @@ pub(crate) type Ends = [ControlPoint; 5];
 #[derive(Debug, Clone)]
 pub struct YarnEnds {
     ends: Vec<Ends>,
-    /// Whether they are those of the points on the device.
+    /// Whether they belong to the points that the device holds now.
     known: bool,
     flattened: bool,
 }
 
 impl YarnEnds {
-    /// Room for the ends of all yarns of `plan`, all zero.
+    /// Takes memory for the ends of all yarns of `plan`, all zero.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn new(plan: &Plan) -> Result<Self, BackendError> {
         Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)?, known: true, flattened: false })
     }
 
-    /// What an upload of `points`, the first of which is number `first` of the fabric, has to
-    /// write. Points past the fabric's last are left out.
+    /// What an upload of `points` has to write. `first` is the number of the first of them in the
+    /// fabric. Points past the fabric's last are left out.
     ///
-    /// **Panics** for another plan that has more yarns.
+    /// **Panics** for a plan with more yarns.
     #[must_use]
     pub fn upload<'a>(&self, plan: &'a Plan, first: u64, points: &'a [ControlPoint]) -> PaddedUpload<'a> {
         let yarns = plan.layout().yarns_of(first..first.saturating_add(points.len() as u64));
@@ -70,8 +70,8 @@ impl YarnEnds {
         upload
     }
 
-    /// Whether a control point that was kept was not round, as wide as high; so it stays, even
-    /// where that point is round again.
+    /// Whether any upload kept so far had a flattened control point, wider or less wide than high.
+    /// It stays true when that point is round again.
     #[must_use]
     pub fn flattened(&self) -> bool {
         self.flattened
@@ -79,7 +79,7 @@ impl YarnEnds {
 
     /// Remembers the ends of an upload that has been written.
     ///
-    /// **Panics** for an upload to another plan that has more yarns.
+    /// **Panics** for an upload to a plan with more yarns.
     pub fn keep(&mut self, upload: &PaddedUpload<'_>) {
         for yarn in upload.yarns.clone() {
             self.ends[yarn] = upload.renewed(yarn, self.ends[yarn]);
@@ -88,30 +88,31 @@ impl YarnEnds {
         self.flattened = upload.flattened.load(Ordering::Relaxed);
     }
 
-    /// Forgets all ends, for the device has other control points now that never were here.
-    /// `flattened` says whether one of them is not round.
+    /// Forgets all ends: the device now holds control points that the host has never seen.
+    /// `flattened`: whether one of them is not round.
     pub fn forget(&mut self, flattened: bool) {
         self.known = false;
         self.ends.fill(Ends::default());
         self.flattened |= flattened;
     }
 
-    /// Whether the device's control points have to be read before so many are uploaded, the first
-    /// of which is number `first`: virtual ends may hang on points that were forgotten.
+    /// Whether the device's control points have to be read before `count` points are uploaded from
+    /// number `first` on. They have to be where virtual ends may depend on points that were
+    /// forgotten.
     #[must_use]
     pub fn are_missing(&self, plan: &Plan, first: u64, count: usize) -> bool {
         !self.known && (first > 0 || (count as u64) < plan.layout().point_count())
     }
 
-    /// Takes all ends from the device's control points, padded as [`Plan::padded_offsets`] of
-    /// `plan` says.
+    /// Takes all ends from the device's control points, which are padded as
+    /// [`Plan::padded_offsets`] of `plan` says.
     ///
-    /// **Panics** for fewer points, and for another plan that has more yarns.
+    /// **Panics** for fewer points, and for a plan with more yarns.
     pub fn renew(&mut self, plan: &Plan, padded: &[ControlPoint]) {
         for (yarn, ends) in self.ends.iter_mut().enumerate() {
             let own = &padded[plan.padded_offsets()[yarn] as usize + 1..];
             let count = (plan.layout().offsets()[yarn + 1] - plan.layout().offsets()[yarn]) as usize;
-            // Of a yarn of two points the second stands for the third, as in an upload.
+            // In a yarn of two points the second stands for the third, as in an upload.
             for (end, at) in ends.iter_mut().zip([0, 1, 2.min(count - 1), count - 2, count - 1]) {
                 *end = own[at];
             }
@@ -120,7 +121,7 @@ impl YarnEnds {
     }
 }
 
-/// Control points on their way to where they lie padded, as [`Plan::padded_offsets`] says. Several
+/// An upload of control points to padded memory, laid out as [`Plan::padded_offsets`] says. Several
 /// threads may write pieces of it at once.
 #[derive(Debug)]
 pub struct PaddedUpload<'a> {
@@ -128,17 +129,17 @@ pub struct PaddedUpload<'a> {
     first: u64,
     points: &'a [ControlPoint],
     yarns: Range<usize>,
-    /// Of the first yarn and the last, of which only a part may be sent.
+    /// The ends of the first yarn and of the last one, which may be sent in part.
     cut: [Ends; 2],
-    /// Whether a point that was lent, or sent before, is not round. Found while the points are in a
-    /// core's cache anyway.
+    /// Whether a point that was lent, or sent before, is not round. It is found while the points
+    /// are in a core's cache anyway.
     flattened: AtomicBool,
 }
 
 impl PaddedUpload<'_> {
-    /// The ranges of padded points that are to be written, in order: the points sent, with the
-    /// virtual ends between them, and the first yarn's start and the last one's end where they hang
-    /// on what was sent. Any may be empty.
+    /// The three ranges of padded points that are to be written, in order: the first yarn's virtual
+    /// start, where it depends on points that were sent apart from it; the points sent, with the
+    /// virtual ends between them; the last yarn's virtual end, likewise. Any may be empty.
     #[must_use]
     pub fn ranges(&self) -> [Range<u64>; 3] {
         let Some(last) = self.yarns.clone().last() else { return [0..0, 0..0, 0..0] };
@@ -159,9 +160,9 @@ impl PaddedUpload<'_> {
         ]
     }
 
-    /// Lends the padded points of `range`, a part of one of [`PaddedUpload::ranges`], run by run:
-    /// the caller's own points where they lie, and virtual ends. Of another range it lends what it
-    /// knows.
+    /// Lends the padded points of `range` run by run: the caller's own points where they lie, and
+    /// virtual ends. `range` lies within one of [`PaddedUpload::ranges`]; of any other range only
+    /// the points that this upload knows are lent.
     pub fn runs(&self, range: Range<u64>, mut take: impl FnMut(&[ControlPoint])) {
         let offsets = self.plan.padded_offsets();
         let before = offsets.partition_point(|&start| start <= range.start).saturating_sub(1);
@@ -175,7 +176,7 @@ impl PaddedUpload<'_> {
                 (inner.start + own.start as u64, &self.points[sent]),
                 (back.start, &short[virtual_end..][..(back.end - back.start) as usize]),
             ];
-            // Room for more points, if there is any.
+            // Behind the yarn there may be room for more points.
             let room = (back.end..offsets[yarn + 1]).step_by(ROOM.len());
             let room = room.map(|at| (at, &ROOM[..ROOM.len().min((offsets[yarn + 1] - at) as usize)]));
             for (at, run) in runs.into_iter().chain(room) {
@@ -221,7 +222,7 @@ impl PaddedUpload<'_> {
         self.plan.layout().points_of(yarn, &(self.first..self.first + self.points.len() as u64))
     }
 
-    /// The ends of a yarn of which `ends` are those before.
+    /// The ends of a yarn after this upload; `ends` are those before it.
     fn renewed(&self, yarn: usize, mut ends: Ends) -> Ends {
         let ([own, sent], count) = (self.overlap(yarn), self.count(yarn));
         for (end, at) in ends.iter_mut().zip([0, 1, 2, count - 2, count - 1]) {
@@ -232,12 +233,12 @@ impl PaddedUpload<'_> {
         ends
     }
 
-    /// A padded yarn of five points with the same virtual ends.
+    /// A padded yarn of five points with the virtual ends of `yarn`.
     fn short(&self, yarn: usize) -> [ControlPoint; 9] {
         let ends = match yarn {
             _ if yarn == self.yarns.start => self.cut[0],
             _ if yarn + 1 == self.yarns.end => self.cut[1],
-            // Those between are sent whole.
+            // Yarns between the first and the last are sent whole.
             _ => self.renewed(yarn, Ends::default()),
         };
         let mut padded = [ControlPoint::default(); 9];
@@ -248,10 +249,11 @@ impl PaddedUpload<'_> {
     }
 }
 
-/// What is written where there is only room for points.
+/// What is written to room that holds no points yet.
 static ROOM: LazyLock<[ControlPoint; 64]> = LazyLock::new(|| [ControlPoint::default(); 64]);
 
-/// Without a branch for each point, so that it takes no time beside writing them.
+/// Whether all are round. There is no branch for each point, so that the test takes no time beside
+/// writing them.
 fn all_round(points: &[ControlPoint]) -> bool {
     points.iter().fold(true, |round, point| round & point.is_round())
 }

@@ -1,4 +1,4 @@
-//! Attributes of vertices: their kernels, and how long yarns are at each block's start.
+//! Attributes of vertices: their kernels, and the lengths along yarns.
 
 use std::ops::Range;
 
@@ -8,25 +8,25 @@ use texere_core::{ArcLength, BackendError};
 use texere_gpu::Params;
 use texere_kernels::{ATTRIBUTES_OF_CAPS, ATTRIBUTES_OF_TUBES, BLOCK_LENGTHS, YARN_LENGTHS};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel, in_memory};
-use crate::kernels::{Launches, Work};
 use crate::opened::Opened;
+use crate::work::{Launches, Work};
 
-/// What makes attributes, of an engine that was asked for them.
+/// The kernels and memory that an engine takes once attributes are asked for.
 #[derive(Debug)]
 pub(crate) struct Attributes {
     block_lengths: Kernel,
     yarn_lengths: Kernel,
     of_tubes: Kernel,
     of_caps: Kernel,
-    /// How long its yarn is at each block's start.
+    /// The length of its yarn up to each block's start.
     pub(crate) lengths: Buffer,
 }
 
 impl Attributes {
-    /// Compiles the kernels if no engine has before, and takes memory.
+    /// Takes memory, and compiles the kernels unless an engine has done so before.
     ///
     /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn,
     /// [`BackendError::OutOfMemory`], [`BackendError::Compile`].
@@ -45,7 +45,7 @@ impl Attributes {
         })
     }
 
-    /// The first half of measuring: how long each block of the chunk is.
+    /// The first half of measuring: the length of each block of the chunk.
     pub(crate) fn block_lengths(
         &mut self,
         work: Work<'_>,
@@ -60,7 +60,7 @@ impl Attributes {
         unsafe { self.block_lengths.run(work.opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
-    /// The second half: how long `yarns` are at the start of each of their blocks.
+    /// The second half of measuring: the lengths of `yarns` up to each of their blocks' starts.
     pub(crate) fn yarn_lengths(
         &mut self,
         work: Work<'_>,
@@ -72,7 +72,7 @@ impl Attributes {
         unsafe { self.yarn_lengths.run(work.opened, &args, yarns, None) }
     }
 
-    /// Attributes of the chunk's vertices, for all of which there is room.
+    /// Makes the attributes of the chunk's vertices. `memory` has room for all.
     pub(crate) fn make(
         &mut self,
         work: Work<'_>,

@@ -45,12 +45,12 @@ pub struct OpenClBackend {
     pub(crate) opened: Arc<Opened>,
 }
 
-/// The largest workgroup that a kernel asks for.
+/// Lanes of the largest workgroup of any kernel.
 const LARGEST_GROUP: usize = 256;
 
 impl OpenClBackend {
-    /// All devices of all platforms, in the order that [`OpenClBackend::open`] counts them. Nothing
-    /// is opened.
+    /// All devices of all platforms. The place in this list is the number that
+    /// [`OpenClBackend::open`] takes. Nothing is opened.
     ///
     /// **Errors**: [`BackendError::Driver`] with an [`OpenClError`](crate::OpenClError) as its
     /// source where there is no loader or no platform.
@@ -61,9 +61,9 @@ impl OpenClBackend {
     /// Opens device number `index` of [`OpenClBackend::devices`] and compiles the kernels of
     /// `schedule` for it.
     ///
-    /// **Errors**: those of [`OpenClBackend::devices`]; [`BackendError::NoDevice`] past the last;
-    /// [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`] for a device
-    /// without workgroups of 256, and for [`Schedule::Serial`].
+    /// **Errors**: the errors of [`OpenClBackend::devices`]; [`BackendError::NoDevice`] past the
+    /// last device; [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`]
+    /// for a device without workgroups of 256, and for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let mut devices = listed(schedule)?;
         if index >= devices.len() {
@@ -82,15 +82,15 @@ impl OpenClBackend {
         Self::with(chosen.id, context, queue, chosen.info)
     }
 
-    /// Works on a queue of the caller's, in its context and on its device, under the name `opencl`
-    /// or `opencl/per-yarn`. Queue and context are retained for as long as the backend or a session
-    /// of it lives. Kernels and uploads go to this queue in the order of the calls; results are
-    /// read through a queue of our own.
+    /// Opens the device of a caller's queue, and works on that queue and in its context. The
+    /// device's name is `opencl` or `opencl/per-yarn`. Queue and context are retained while the
+    /// backend or a session of it lives. Kernels and uploads go to the queue in the order of the
+    /// calls; results are read through another queue.
     ///
-    /// A queue without profiling does not time its commands: each stage is then waited for, and
+    /// A queue without profiling does not time its commands. Then each stage is waited for, and
     /// timed by the host's clock.
     ///
-    /// **Errors**: [`BackendError::Unsupported`] for a queue that runs out of order, and those of
+    /// **Errors**: [`BackendError::Unsupported`] for a queue that runs out of order; the errors of
     /// [`OpenClBackend::open`].
     ///
     /// # Safety
@@ -119,7 +119,7 @@ impl OpenClBackend {
         let known = listed(schedule)?.into_iter().find(|device| device.id == id);
         let info = match known {
             Some(device) => DeviceInfo { name, ..device.info },
-            // A sub-device is in no list.
+            // The list has no sub-devices.
             None => {
                 let part = Device::new(id);
                 let platform =
@@ -154,18 +154,17 @@ impl OpenClBackend {
         Ok(Self { info, opened: Arc::new(opened) })
     }
 
-    /// The same device, held to `limits` where its own are wider.
+    /// This device with `limits`, where its own are wider.
     #[must_use]
     pub fn with_limits(mut self, limits: Limits) -> Self {
         self.info.limits = self.info.limits.min(&limits);
         self
     }
 
-    /// Starts work on a plan in a session that lends its memory: see
-    /// [`OpenClSession::device_mesh`].
+    /// Starts a session of `plan` that lends its device memory: see [`OpenClSession::device_mesh`].
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], also where the control points exceed one buffer;
-    /// [`BackendError::Unsupported`] for what [`Schedule::PerYarn`] does not do.
+    /// [`BackendError::Unsupported`] for a plan that [`Schedule::PerYarn`] can't do.
     pub fn lending_session(&self, plan: Arc<Plan>) -> Result<OpenClSession, BackendError> {
         let engine = OpenClEngine::new(self.opened.clone(), &self.info.limits, plan.clone())?;
         Ok(OpenClSession(Session::with_engine(Box::new(engine), self.info.limits, plan)))

@@ -1,4 +1,4 @@
-//! Device memory of a chunk in flight: its tables and its results.
+//! The device memory of a chunk in flight: its tables and its results.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use texere_core::definitions::Ring;
 use texere_core::{Attribute, BackendError, PackedVertex, Topology, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// Memory of a chunk in flight. The next chunk but one uses it again.
+/// The memory of a chunk in flight. The next chunk but one takes it again.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,
@@ -22,9 +22,9 @@ pub(crate) struct ChunkMemory {
     pub(crate) rings: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
-    /// Empty until they are asked for.
+    /// Empty until attributes are asked for.
     pub(crate) attributes: Buffer,
-    /// Likewise.
+    /// Empty until packed vertices are asked for.
     pub(crate) packed: Buffer,
     /// The last command that writes here.
     pub(crate) ready: Option<Arc<Handle>>,
@@ -37,13 +37,13 @@ impl ChunkMemory {
         [table, caps, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
-    /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in
-    /// flight but after those that work here.
+    /// Sends the tables of `chunk`, one of `plan`'s. They are sent beside the kernels of the other
+    /// chunk in flight, but after those that still use this memory.
     pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         let Self { loaded, table, caps, ready, .. } = self;
         self.rows = loaded.load(plan, chunk, || {
-            // Kept until the new tables are sent: commands that still use the old ones may be under
-            // way.
+            // It is kept until the new tables are sent, for commands that use the old ones may
+            // still run.
             let used = ready.clone();
             let parts;
             let rows = match opened.schedule {
@@ -60,7 +60,7 @@ impl ChunkMemory {
                 table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,
                 caps.write(opened, &opened.transfers, 0, &cap_rows, used.as_deref())?,
             ];
-            // In order, so the last stands for both.
+            // They end in order, so the last stands for both.
             *ready = sent.into_iter().flatten().last();
             Ok(rows.len())
         })?;

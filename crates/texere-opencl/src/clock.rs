@@ -11,7 +11,7 @@ use texere_core::backend::StageTimings;
 
 use crate::handles::Handle;
 
-/// What a command's time counts towards.
+/// The stage that a command's time counts towards.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Stage {
     Upload,
@@ -21,15 +21,15 @@ pub(crate) enum Stage {
     Readback,
 }
 
-/// Adds up the time of commands as they end.
+/// Adds up the times of commands as they end.
 #[derive(Debug, Default)]
 pub(crate) struct Clock {
     total: StageTimings,
-    /// The first and the last of commands that may still be running.
+    /// Groups of commands that may still run, each with its first and its last command.
     pending: Vec<(Stage, [Arc<Handle>; 2])>,
 }
 
-/// Commands that are held before those that have ended are added up.
+/// The number of groups that are held before those that have ended are added up.
 const PENDING: usize = 64;
 
 impl Clock {
@@ -38,8 +38,8 @@ impl Clock {
         self.note_all(stage, event, event);
     }
 
-    /// Counts the time from the start of `first`'s command to the end of `last`'s, a later one of
-    /// the same queue.
+    /// Counts the time from the start of `first`'s command to the end of `last`'s, which comes
+    /// later in the same queue.
     pub(crate) fn note_all(&mut self, stage: Stage, first: &Arc<Handle>, last: &Arc<Handle>) {
         self.pending.push((stage, [first.clone(), last.clone()]));
         if self.pending.len() >= PENDING {
@@ -56,11 +56,11 @@ impl Clock {
         add(&mut self.total, stage, time);
     }
 
-    /// The time of all commands, which are waited for.
+    /// Waits for all commands, and returns their times.
     pub(crate) fn timings(&self) -> StageTimings {
         let mut total = self.total;
         for (stage, events) in &self.pending {
-            // A command that failed is one that took no time.
+            // A command that failed counts as no time.
             if wait_for_events(&[events[1].raw()]).is_ok() {
                 add(&mut total, *stage, duration(events));
             }
@@ -84,7 +84,8 @@ fn has_ended(event: &Handle) -> bool {
     get_event_info(event.raw(), CL_EVENT_COMMAND_EXECUTION_STATUS).map_or(true, |status| status.to_int() <= 0)
 }
 
-/// From the first one's start to the last one's end on the device; none for a command that failed.
+/// The time on the device from the first command's start to the last one's end. Zero for a command
+/// that failed.
 fn duration([first, last]: &[Arc<Handle>; 2]) -> Duration {
     let at = |event: &Handle, what| get_event_profiling_info(event.raw(), what).map(|time| time.to_ulong());
     match (at(first, CL_PROFILING_COMMAND_START), at(last, CL_PROFILING_COMMAND_END)) {

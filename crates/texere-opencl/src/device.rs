@@ -12,7 +12,7 @@ use texere_gpu::{capabilities, device_name};
 use crate::Schedule;
 use crate::faults::failed;
 
-/// A device of the list, with the name that opens it.
+/// A device of the list, with its information.
 pub(crate) struct Listed {
     pub(crate) id: *mut c_void,
     pub(crate) info: DeviceInfo,
@@ -21,8 +21,8 @@ pub(crate) struct Listed {
 /// All devices of all platforms, platform by platform.
 pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
     // Loader and drivers set themselves up on the first call of each kind, and some fail if a
-    // second thread calls meanwhile: ocl-icd then answers that there is no platform, PoCL reads a
-    // device that is half made.
+    // second thread calls meanwhile. ocl-icd then answers that there is no platform, and PoCL reads
+    // a device that is half made.
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     let _alone = ONE_AT_A_TIME.lock();
     let mut devices = Vec::new();
@@ -40,7 +40,7 @@ pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
     Ok(devices)
 }
 
-/// All platforms; at least one.
+/// All platforms. None is an error.
 fn platforms() -> Result<Vec<Platform>, i32> {
     match get_platforms() {
         Ok(platforms) if platforms.is_empty() => Err(CL_PLATFORM_NOT_FOUND_KHR),
@@ -49,7 +49,7 @@ fn platforms() -> Result<Vec<Platform>, i32> {
     }
 }
 
-/// What `device`, opened by `name`, says of itself.
+/// The information about `device`, which `name` opens.
 pub(crate) fn info(
     device: &Device,
     platform: &Platform,
@@ -84,13 +84,13 @@ pub(crate) fn info(
         memory_bytes: Some(memory),
         limits: Limits {
             binding_bytes: device.max_mem_alloc_size().map_err(ask("clGetDeviceInfo"))?,
-            // The driver, other programs and our small tables want some too; where the memory is
+            // The driver, other programs and small tables need some memory too. Where the memory is
             // the host's, so does the mesh that is read into it.
             memory_bytes: if shared { memory / 2 } else { memory / 8 * 7 },
             ..Limits::NONE
         },
         can: capabilities(schedule, false),
-        // Our own queues all take the time of their commands.
+        // Queues that this crate creates time their commands.
         timed_by_device: true,
         name,
     })

@@ -1,4 +1,5 @@
-//! The work on a plan on an OpenCL device: memory and timings; the kernels are the schedule's.
+//! The engine on an OpenCL device: it holds memory, launches the schedule's kernels and takes
+//! timings.
 
 use std::any::Any;
 use std::ops::{ControlFlow, Range};
@@ -15,16 +16,17 @@ use texere_core::{BackendError, ControlPoint, Limits, MeshPiece, Vertex};
 use texere_gpu::{YarnEnds, YarnRow, check_schedule, settles_flattened};
 
 use crate::attributes::Attributes;
-use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
-use crate::kernels::{Kernels, Launches, Work, kernels};
+use crate::device_mesh::DeviceMesh;
+use crate::kernels::kernels;
 use crate::opened::Opened;
 use crate::packed::Packed;
-use crate::session::DeviceMesh;
+use crate::readback::Readback;
 use crate::settling::OpenClSettler;
 use crate::tables::Tables;
 use crate::upload::Outbox;
+use crate::work::{Kernels, Launches, Work};
 
 /// The engine of an [`OpenClSession`](crate::OpenClSession).
 #[derive(Debug)]
@@ -33,15 +35,16 @@ pub struct OpenClEngine {
     ends: YarnEnds,
     tables: Tables,
     kernels: Box<dyn Kernels>,
-    /// Whether the kernels are those for all yarns.
+    /// Whether the kernels are those for all yarns, rather than for round yarns alone.
     flattened: bool,
     /// None until attributes are asked for.
     attributes: Option<Box<Attributes>>,
-    /// Likewise, for as many yarns as the other kernels.
+    /// None until packed vertices are asked for. For round yarns alone, or for all, as `kernels`
+    /// are.
     packed: Option<Packed>,
-    /// One for each [`Slot`].
+    /// The memory of each [`Slot`].
     memory: Vec<ChunkMemory>,
-    staging: Staging,
+    readback: Readback,
     outbox: Outbox,
     clock: Clock,
     opened: Arc<Opened>,
@@ -59,7 +62,7 @@ impl OpenClEngine {
             packed: None,
             plan,
             memory: Vec::new(),
-            staging: Staging::default(),
+            readback: Readback::default(),
             outbox: Outbox::default(),
             clock: Clock::default(),
             opened,
@@ -71,15 +74,15 @@ impl OpenClEngine {
         &self.memory[slot.index()]
     }
 
-    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in
-    /// `slot`.
+    /// Checks that `chunk` is of the plan, and that its tables are in `slot`, or else returns
+    /// [`BackendError::NotLoaded`].
     fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
-    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its memory; none where
-    /// that is on no device of OpenCL.
+    /// The engine behind a [`LiveMesh`](texere_core::backend::LiveMesh), which lends the mesh's
+    /// memory. None where the mesh is not on an OpenCL device.
     ///
     /// ```no_run
     /// # fn example(mesh: &texere_core::backend::LiveMesh) -> Option<()> {
@@ -95,20 +98,19 @@ impl OpenClEngine {
         (engine as &dyn Any).downcast_ref()
     }
 
-    /// The mesh of the chunk in `slot` where it lies on the device. None where nothing was made
-    /// yet.
+    /// The device memory of the mesh of the chunk in `slot`. None where nothing was made yet.
     #[must_use]
     pub fn device_mesh(&self, slot: Slot) -> Option<DeviceMesh<'_>> {
         Some(DeviceMesh::new(self.memory.get(slot.index())?))
     }
 
-    /// Bytes of device memory that it holds.
+    /// Bytes of device memory that the engine holds.
     pub(crate) fn device_bytes(&self) -> u64 {
         let lengths = self.attributes.as_ref().map_or(0, |attributes| attributes.lengths.bytes());
         self.tables.bytes() + lengths + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Takes the kernels for all yarns where one is not round.
+    /// Changes to the kernels for all yarns once a yarn is flattened.
     fn choose_kernels(&mut self) -> Result<(), BackendError> {
         if self.ends.flattened() && !self.flattened {
             self.kernels = kernels(&self.opened, &self.plan, true)?;
@@ -132,7 +134,7 @@ impl OpenClEngine {
         self.note(stage, slot, started, launches)
     }
 
-    /// The same for the kernels of attributes, whose plan was measured.
+    /// [`Self::run`] for the kernels of attributes. The plan must have been measured.
     fn run_attributes(
         &mut self,
         stage: Stage,
@@ -146,7 +148,7 @@ impl OpenClEngine {
         self.note(stage, slot, started, launches)
     }
 
-    /// Notes the time of what was started for a stage, and lets the memory of `slot` wait for it.
+    /// Notes the time of a stage's launches, and lets the memory of `slot` wait for them.
     fn note(
         &mut self,
         stage: Stage,
@@ -155,7 +157,7 @@ impl OpenClEngine {
         launches: Result<Launches, BackendError>,
     ) -> Result<(), BackendError> {
         let launches = launches.inspect_err(|_| {
-            // Some kernels may be running, and nobody else would wait for them. An error of this
+            // Some kernels may be running, and nothing else would wait for them. An error of this
             // wait adds nothing.
             let _ = finish(self.opened.queue.raw());
         })?;
@@ -240,11 +242,13 @@ impl Engine for OpenClEngine {
 
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
         let first = yarns.start * size_of::<YarnRow>();
-        // In the queue of the kernels, so that those before still read the rows before.
+        // Sent through the queue of the kernels, so that earlier kernels still read the earlier
+        // rows.
         let rows = YarnRow::of(&plan, yarns.clone());
         self.tables.yarns.write(&self.opened, &self.opened.queue, first as u64, &rows, None)?;
         self.tables.reserve_rolls(&self.opened, &plan)?;
-        // Room for leans is made with the first yarn that leans, and holds nothing then.
+        // Room for leans is taken with the first yarn that leans. It is empty then, so all leans
+        // are sent.
         let all = 0..plan.layout().yarns().len();
         let leaning = if self.plan.layout().leans() { yarns } else { all };
         self.tables.set_leans(&self.opened, &plan, leaning)?;
@@ -283,9 +287,9 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { rings, ready, .. } = &memory[slot.index()];
-        staging.read(opened, rings, chunk.rings(), ready.as_deref(), clock, &mut |_, rings| sink(rings))
+        readback.read(opened, rings, chunk.rings(), ready.as_deref(), clock, &mut |_, rings| sink(rings))
     }
 
     fn read_mesh(
@@ -294,10 +298,10 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { vertices, indices, ready, .. } = &memory[slot.index()];
         let ready = ready.as_deref();
-        let flow = staging.read(
+        let flow = readback.read(
             opened,
             vertices,
             chunk.vertices(),
@@ -308,7 +312,7 @@ impl Engine for OpenClEngine {
         if flow.is_break() {
             return Ok(flow);
         }
-        staging.read(opened, indices, chunk.indices(), ready, clock, &mut |first, indices: &[u32]| {
+        readback.read(opened, indices, chunk.indices(), ready, clock, &mut |first, indices: &[u32]| {
             sink(MeshPiece::Indices { first, indices })
         })
     }
@@ -340,9 +344,9 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: AttributeSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { attributes, ready, .. } = &memory[slot.index()];
-        staging.read(opened, attributes, chunk.vertices(), ready.as_deref(), clock, sink)
+        readback.read(opened, attributes, chunk.vertices(), ready.as_deref(), clock, sink)
     }
 
     fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
@@ -365,9 +369,9 @@ impl Engine for OpenClEngine {
         chunk: &Chunk,
         sink: PackedSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Self { opened, memory, staging, clock, .. } = self;
+        let Self { opened, memory, readback, clock, .. } = self;
         let ChunkMemory { packed, ready, .. } = &memory[slot.index()];
-        staging.read(opened, packed, chunk.vertices(), ready.as_deref(), clock, sink)
+        readback.read(opened, packed, chunk.vertices(), ready.as_deref(), clock, sink)
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

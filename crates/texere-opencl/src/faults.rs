@@ -1,4 +1,4 @@
-//! From OpenCL's status numbers to errors with a name.
+//! Errors from OpenCL's status numbers.
 
 use opencl3::error_codes::{
     CL_CONTEXT_TERMINATED_KHR, CL_DEVICE_NOT_AVAILABLE, CL_INVALID_BUFFER_SIZE, CL_INVALID_COMMAND_QUEUE,
@@ -8,7 +8,8 @@ use opencl3::error_codes::{
 use texere_core::{BackendError, OutOfMemory};
 use thiserror::Error;
 
-/// What OpenCL said: the `source` of a [`BackendError::Driver`] or [`BackendError::DeviceLost`].
+/// An error that OpenCL reported. It is the `source` of a [`BackendError::Driver`] or
+/// [`BackendError::DeviceLost`].
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum OpenClError {
@@ -20,10 +21,10 @@ pub enum OpenClError {
     /// CPU.
     #[error("no OpenCL platform is installed")]
     NoPlatform,
-    /// Memory was mapped where no value can lie.
+    /// Memory was mapped at an address where values can't lie.
     #[error("memory mapped at an address that is not a multiple of {needed} bytes")]
     Misaligned {
-        /// What the address must be a multiple of, bytes.
+        /// The alignment that the address needs, bytes.
         needed: usize,
     },
     /// Any other status.
@@ -46,7 +47,7 @@ impl OpenClError {
     }
 }
 
-/// NVIDIA's status after a kernel has read or written where it must not; the context is dead then.
+/// NVIDIA's status after a kernel has read or written where it must not. The context is dead then.
 const ILLEGAL_ACCESS: i32 = -9999;
 
 /// The error that `call` on `device` ended in.

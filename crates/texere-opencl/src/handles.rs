@@ -7,7 +7,7 @@ use std::ffi::c_void;
 
 use opencl3::{command_queue, context::context, event, kernel, memory, program};
 
-/// Gives an object back.
+/// A function that releases an object.
 type Release = unsafe fn(*mut c_void) -> Result<(), i32>;
 
 /// One reference to an OpenCL object, released on drop.

@@ -1,4 +1,4 @@
-//! A kernel with its arguments.
+//! One kernel: its arguments and its launch.
 
 use std::ffi::{CString, c_void};
 use std::ops::Range;
@@ -11,18 +11,18 @@ use opencl3::kernel::{create_kernel, set_kernel_arg};
 use texere_core::BackendError;
 use texere_kernels::EntryPoint;
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// An entry point of a program. It carries its arguments, so each session has kernels of its own.
+/// A kernel of a program. OpenCL keeps arguments in it, so each session has kernels of its own.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     handle: Handle,
     group: usize,
 }
 
-/// What a kernel's parameter is set to.
+/// An argument of a kernel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Arg<'a> {
     /// A `__global` pointer; null where the buffer is empty.
@@ -31,17 +31,18 @@ pub(crate) enum Arg<'a> {
     Value(&'a [u8]),
 }
 
-/// Workgroups of one launch at most: 16 million rings, a few milliseconds on a GPU, so that no
-/// launch of a large chunk runs into a watchdog.
+/// The most workgroups of one launch: 16 million rings, a few milliseconds on a GPU. So no launch
+/// of a large chunk runs into a watchdog.
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {
-    /// `entry` of the program for round yarns, or of the one for all yarns.
+    /// The kernel `entry` of the schedule's program for round yarns, or with `flattened` of the one
+    /// for all yarns.
     pub(crate) fn new(opened: &Opened, entry: EntryPoint, flattened: bool) -> Result<Self, BackendError> {
         Self::of(opened, opened.program(flattened)?, entry)
     }
 
-    /// `entry` of `program`.
+    /// The kernel `entry` of `program`.
     pub(crate) fn of(opened: &Opened, program: &Handle, entry: EntryPoint) -> Result<Self, BackendError> {
         let failed = opened.failed("clCreateKernel");
         let name = CString::new(entry.name).map_err(|_| failed(CL_INVALID_KERNEL_NAME))?;
@@ -54,8 +55,8 @@ impl Kernel {
         self.group
     }
 
-    /// Sets all arguments, in the order of the source, and runs workgroups `groups` after what is
-    /// in the queue and after `after`; in several launches where they are many. Gives back the
+    /// Sets all arguments, in the order of the source, and launches the workgroups `groups` after
+    /// what is in the queue and after `after`. Many workgroups take several launches. Returns the
     /// launches' events, in order.
     ///
     /// # Safety
@@ -109,11 +110,11 @@ impl Kernel {
     }
 }
 
-/// Starts a kernel with a lane for each of `lanes` or a few more, after those in the queue.
+/// Launches a kernel with at least `lanes` lanes, in whole workgroups, after what is in the queue.
 ///
 /// # Safety
 ///
-/// As [`Kernel::run`].
+/// The contract of [`Kernel::run`].
 pub(crate) unsafe fn start(
     kernel: &mut Kernel,
     opened: &Opened,
@@ -126,7 +127,7 @@ pub(crate) unsafe fn start(
     Ok(())
 }
 
-/// Arguments that lie in memory.
+/// Arguments from buffers.
 pub(crate) fn in_memory<'a, const COUNT: usize>(buffers: [&'a Buffer; COUNT]) -> [Arg<'a>; COUNT] {
     buffers.map(Arg::Memory)
 }

@@ -1,57 +1,15 @@
-//! The kernels of a schedule, and those of the schedule per-ring.
+//! The kernels of a schedule.
 
-use std::fmt::Debug;
-use std::ops::Range;
-use std::sync::Arc;
+use texere_core::BackendError;
+use texere_core::backend::{Plan, Schedule};
 
-use bytemuck::bytes_of;
-use texere_core::backend::{Chunk, Plan, Schedule};
-use texere_core::{BackendError, Topology};
-use texere_gpu::Params;
-use texere_kernels::{
-    BLOCK_TURNS, CAPS, EntryPoint, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS,
-};
-
-use crate::chunk_memory::ChunkMemory;
-use crate::handles::Handle;
-use crate::kernel::{Arg, Kernel};
 use crate::opened::Opened;
+use crate::per_ring::PerRing;
 use crate::per_yarn::PerYarn;
-use crate::tables::Tables;
+use crate::work::Kernels;
 
-/// The events of the launches that make a stage, in order.
-pub(crate) type Launches = Vec<Arc<Handle>>;
-
-/// What a stage works with.
-#[derive(Clone, Copy)]
-pub(crate) struct Work<'a> {
-    pub(crate) opened: &'a Opened,
-    pub(crate) plan: &'a Plan,
-    pub(crate) tables: &'a Tables,
-}
-
-impl<'a> Work<'a> {
-    /// What the kernels that read a chunk's table begin with, in the order of the sources. Those
-    /// that need no rolls leave out the last two, `block_turns` the last.
-    pub(crate) fn inputs(
-        &self,
-        params: &'a Params,
-        window: &'a u64,
-        memory: &'a ChunkMemory,
-    ) -> [Arg<'a>; 7] {
-        [
-            Arg::Value(bytes_of(params)),
-            Arg::Value(bytes_of(window)),
-            Arg::Memory(&self.tables.points),
-            Arg::Memory(&self.tables.yarns),
-            Arg::Memory(&memory.table),
-            Arg::Memory(&self.tables.rolls),
-            Arg::Memory(&self.tables.yarn_turns),
-        ]
-    }
-}
-
-/// The kernels of `opened`'s schedule for a plan: for round yarns alone, or for all yarns.
+/// The kernels of `opened`'s schedule for `plan`: for round yarns alone, or with `flattened` for
+/// all yarns.
 ///
 /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`].
 pub(crate) fn kernels(
@@ -63,133 +21,4 @@ pub(crate) fn kernels(
         Schedule::PerYarn => Box::new(PerYarn::new(opened, flattened)?),
         _ => Box::new(PerRing::new(opened, plan, flattened)?),
     })
-}
-
-/// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the
-/// chunk's tables, and room for what the stage writes.
-pub(crate) trait Kernels: Debug + Send {
-    /// Whether `mesh` reads the chunk's rings rather than work them out itself.
-    fn mesh_reads_rings(&self) -> bool;
-
-    /// The first half of the scan: what each block of the chunk turns by.
-    fn block_turns(
-        &mut self,
-        work: Work<'_>,
-        chunk: &Chunk,
-        memory: &ChunkMemory,
-    ) -> Result<Launches, BackendError>;
-    /// The second half: rolls of `yarns` from the turns of their blocks.
-    fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError>;
-    fn trajectory(
-        &mut self,
-        work: Work<'_>,
-        chunk: &Chunk,
-        memory: &ChunkMemory,
-    ) -> Result<Launches, BackendError>;
-    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, memory: &ChunkMemory)
-    -> Result<Launches, BackendError>;
-}
-
-/// A workgroup a block.
-#[derive(Debug)]
-pub(crate) struct PerRing {
-    block_turns: Kernel,
-    yarn_rolls: Kernel,
-    trajectory: Kernel,
-    mesh: Kernel,
-    caps: Kernel,
-}
-
-impl PerRing {
-    pub(crate) fn new(opened: &Opened, plan: &Plan, flattened: bool) -> Result<Self, BackendError> {
-        let settings = plan.settings();
-        let mesh = if settings.sides.is_multiple_of(2) { MESH } else { MESH_ODD };
-        let group = if settings.topology == Topology::Indexed { mesh.group } else { UNINDEXED_GROUP };
-        Ok(Self {
-            block_turns: Kernel::new(opened, BLOCK_TURNS, flattened)?,
-            yarn_rolls: Kernel::new(opened, YARN_ROLLS, flattened)?,
-            trajectory: Kernel::new(opened, TRAJECTORY, flattened)?,
-            mesh: Kernel::new(opened, EntryPoint { group, ..mesh }, flattened)?,
-            caps: Kernel::new(opened, CAPS, flattened)?,
-        })
-    }
-}
-
-impl Kernels for PerRing {
-    fn mesh_reads_rings(&self) -> bool {
-        false
-    }
-
-    fn block_turns(
-        &mut self,
-        work: Work<'_>,
-        chunk: &Chunk,
-        memory: &ChunkMemory,
-    ) -> Result<Launches, BackendError> {
-        let Work { opened, plan, .. } = work;
-        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
-        let args = &work.inputs(&params, &window, memory)[..6];
-        // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's
-        // table and what that names, and writes its block's roll: the plan counted all blocks. A
-        // repeated ring's is the next chunk's first.
-        unsafe { self.block_turns.run(opened, args, 0..memory.rows, memory.ready.as_deref()) }
-    }
-
-    fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError> {
-        let Work { opened, tables, .. } = work;
-        let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.yarn_turns)];
-        // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and
-        // writes the yarn's rolls, and writes its whole turn: the plan counted all of them.
-        unsafe { self.yarn_rolls.run(opened, &args, yarns, None) }
-    }
-
-    fn trajectory(
-        &mut self,
-        work: Work<'_>,
-        chunk: &Chunk,
-        memory: &ChunkMemory,
-    ) -> Result<Launches, BackendError> {
-        let Work { opened, plan, .. } = work;
-        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
-        let args = [&work.inputs(&params, &window, memory)[..], &[Arg::Memory(&memory.rings)]].concat();
-        // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's
-        // table and what that names, and writes its rings, for all of which there is room.
-        unsafe { self.trajectory.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }
-    }
-
-    fn mesh(
-        &mut self,
-        work: Work<'_>,
-        chunk: &Chunk,
-        memory: &ChunkMemory,
-    ) -> Result<Launches, BackendError> {
-        let Work { opened, plan, tables } = work;
-        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
-        let outputs = [
-            Arg::Memory(&tables.outlines),
-            Arg::Memory(&tables.pattern),
-            Arg::Memory(&memory.vertices),
-            Arg::Memory(&memory.indices),
-        ];
-        let args = [&work.inputs(&params, &window, memory)[..], &outputs].concat();
-        // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and
-        // what that names, and writes the row's vertices and indices, for all of which there is
-        // room.
-        let tubes = unsafe { self.mesh.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
-        let args = [
-            Arg::Value(bytes_of(&params)),
-            Arg::Value(bytes_of(&window)),
-            Arg::Memory(&tables.points),
-            Arg::Memory(&memory.caps),
-            Arg::Memory(&tables.cap_pattern),
-            Arg::Memory(&memory.vertices),
-            Arg::Memory(&memory.indices),
-        ];
-        let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `caps`; a lane reads its cap's row and what that
-        // names, and writes a vertex and a triangle, for all of which there is room. Lanes past the
-        // last do nothing.
-        let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
-        Ok([tubes, caps].concat())
-    }
 }

@@ -1,8 +1,8 @@
 //! The OpenCL backend of texere: GPUs of any maker, and CPUs through PoCL.
 //!
 //! It needs OpenCL 1.2 and no extension. The OpenCL library is loaded at run time, so a program
-//! that links this crate builds and starts without one; [`OpenClBackend::devices`] then says what
-//! is missing.
+//! that links this crate builds and starts without it. [`OpenClBackend::devices`] then says what is
+//! missing.
 //!
 //! ```
 //! use texere_opencl::OpenClBackend;
@@ -12,16 +12,18 @@
 //! }
 //! ```
 //!
-//! A program that has an OpenCL queue of its own works on it with [`OpenClBackend::on_queue`], and
-//! takes the mesh where it lies with [`OpenClSession::device_mesh`].
+//! A program with an OpenCL queue of its own opens a backend on it with
+//! [`OpenClBackend::on_queue`], and takes the mesh in device memory with
+//! [`OpenClSession::device_mesh`].
 
 mod attributes;
 mod backend;
-mod buffers;
+mod buffer;
 mod chunk_memory;
 mod clock;
 mod crossings;
 mod device;
+mod device_mesh;
 mod engine;
 mod faults;
 mod handles;
@@ -29,16 +31,20 @@ mod kernel;
 mod kernels;
 mod opened;
 mod packed;
+mod per_ring;
 mod per_yarn;
 mod pinned;
+mod readback;
 mod room;
 mod session;
 mod settling;
 mod tables;
 mod upload;
+mod work;
 
 pub use backend::OpenClBackend;
+pub use device_mesh::DeviceMesh;
 pub use engine::OpenClEngine;
 pub use faults::OpenClError;
-pub use session::{DeviceMesh, OpenClSession};
+pub use session::OpenClSession;
 pub use texere_core::backend::Schedule;

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 
 use opencl3::command_queue::{CL_QUEUE_DEVICE, get_command_queue_info};
 use opencl3::error_codes::{CL_BUILD_PROGRAM_FAILURE, ClError};
+use opencl3::event::wait_for_events;
 use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
@@ -31,15 +32,15 @@ pub(crate) struct Opened {
     pub(crate) transfers: Handle,
     /// The program for round yarns alone.
     round: Handle,
-    /// The one for all yarns, compiled where it is wanted first.
+    /// The program for all yarns, compiled at its first use.
     flattened: OnceLock<Handle>,
-    /// That of attributes, likewise.
+    /// The program of attributes, likewise.
     attributes: OnceLock<Handle>,
-    /// Those of packed vertices, for round yarns alone and for all, likewise.
+    /// The programs of packed vertices, for round yarns alone and for all, likewise.
     packing: [OnceLock<Handle>; 2],
-    /// Those of settlings, likewise.
+    /// The programs of settlings, for round yarns alone and for all, likewise.
     settling: [OnceLock<Handle>; 2],
-    /// That of crossings, likewise.
+    /// The program of crossings, likewise.
     crossings: OnceLock<Handle>,
 }
 
@@ -84,7 +85,7 @@ impl Opened {
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn attributes(&self) -> Result<&Handle, BackendError> {
-        // They do not depend on sizes.
+        // Attributes do not depend on sizes.
         self.compiled(&self.attributes, ATTRIBUTES, false)
     }
 
@@ -106,11 +107,11 @@ impl Opened {
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn crossings(&self) -> Result<&Handle, BackendError> {
-        // It does not ask whether yarns are flattened: there all are.
+        // All yarns of crossings are flattened.
         self.compiled(&self.crossings, CROSSINGS, true)
     }
 
-    /// What `held` holds: `program`, compiled where it is wanted first.
+    /// What `held` holds: `program`, compiled at its first use.
     fn compiled<'a>(
         &self,
         held: &'a OnceLock<Handle>,
@@ -125,6 +126,11 @@ impl Opened {
         let compiled = build(device, &self.context, &self.name, program, flattened)?;
         // Another session may have been faster.
         Ok(held.get_or_init(|| compiled))
+    }
+
+    /// Waits until `event`'s command has ended.
+    pub(crate) fn wait(&self, event: &Handle) -> Result<(), BackendError> {
+        wait_for_events(&[event.raw()]).map_err(self.failed("clWaitForEvents"))
     }
 
     /// The error that `call` ended in.

@@ -7,10 +7,10 @@ use texere_kernels::{PACKED, PACKED_CAPS, PACKED_ODD};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
-use crate::kernels::{Launches, Work};
 use crate::opened::Opened;
+use crate::work::{Launches, Work};
 
-/// What packs vertices, of an engine that was asked for it.
+/// The kernels that an engine takes once packed vertices are asked for.
 #[derive(Debug)]
 pub(crate) struct Packed {
     tubes: Kernel,
@@ -18,7 +18,7 @@ pub(crate) struct Packed {
 }
 
 impl Packed {
-    /// Compiles the kernels for round yarns alone, or for all, if no engine has before.
+    /// Compiles the kernels for round yarns alone, or for all, unless an engine has done so before.
     ///
     /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
     pub(crate) fn new(opened: &Opened, plan: &Plan, flattened: bool) -> Result<Self, BackendError> {
@@ -33,7 +33,7 @@ impl Packed {
         })
     }
 
-    /// Packed vertices of the chunk, for all of which there is room.
+    /// Makes the packed vertices of the chunk. `memory` has room for all.
     pub(crate) fn make(
         &mut self,
         work: Work<'_>,

@@ -1,4 +1,4 @@
-//! The schedule per-yarn: the paper's algorithms 2 and 4.
+//! The schedule per-yarn, the paper's algorithms 2 and 4: a lane makes a part of a yarn.
 
 use std::ops::Range;
 
@@ -10,10 +10,10 @@ use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
-use crate::kernels::{Kernels, Launches, Work};
 use crate::opened::Opened;
+use crate::work::{Kernels, Launches, Work};
 
-/// A lane a part.
+/// The kernels of the schedule.
 #[derive(Debug)]
 pub(crate) struct PerYarn {
     trajectory: Kernel,
@@ -39,7 +39,7 @@ impl Kernels for PerYarn {
         true
     }
 
-    /// There is nothing to scan: a plan with rolls is refused.
+    /// Does nothing: plans with rolls are refused.
     fn block_turns(&mut self, _: Work<'_>, _: &Chunk, _: &ChunkMemory) -> Result<Launches, BackendError> {
         Ok(Vec::new())
     }

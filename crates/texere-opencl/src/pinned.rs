@@ -1,4 +1,4 @@
-//! Pinned host memory: what goes over the bus goes through it.
+//! Pinned host memory, through which everything crosses the bus.
 
 use std::ffi::c_void;
 use std::ptr;
@@ -15,7 +15,7 @@ use crate::faults::not_allocated;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// Host memory that the device reads and writes at full speed, mapped for good.
+/// Host memory that the device reads and writes at full speed. It stays mapped.
 #[derive(Debug)]
 pub(crate) struct Pinned {
     opened: Arc<Opened>,
@@ -30,7 +30,7 @@ unsafe impl Send for Pinned {}
 unsafe impl Sync for Pinned {}
 
 impl Pinned {
-    /// `bytes` for `what`, mapped for the host to do what `access` says.
+    /// Takes `bytes` for `what`, mapped for the host's `access`.
     pub(crate) fn new(
         opened: &Arc<Opened>,
         what: &'static str,
@@ -73,7 +73,7 @@ impl Pinned {
         Ok(unsafe { std::slice::from_raw_parts(self.aligned()?, count) })
     }
 
-    /// Where values of this type may lie.
+    /// The start as a pointer to values of type `T`, if they may lie there.
     pub(crate) fn aligned<T>(&self) -> Result<*mut T, BackendError> {
         let start = self.start.cast::<T>();
         if start.is_null() || !start.is_aligned() {
@@ -97,7 +97,7 @@ impl Drop for Pinned {
                 ptr::null(),
             )
         };
-        // Where even this fails the device is gone, and the memory with it.
+        // Where even this fails the device is lost, and the memory with it.
         drop(Handle::event(unmapped));
     }
 }

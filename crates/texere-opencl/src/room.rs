@@ -1,12 +1,12 @@
-//! What may still be taken of a device's memory.
+//! The memory of a device that may still be taken.
 
 use bytemuck::Pod;
 use texere_core::{BackendError, Limits, OutOfMemory};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::opened::Opened;
 
-/// What a device may still be asked for.
+/// The memory that a settler may still take of a device.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Room {
     pub(crate) binding_bytes: u64,
@@ -18,7 +18,7 @@ impl Room {
         Self { binding_bytes: limits.binding_bytes, memory_bytes: limits.memory_bytes }
     }
 
-    /// Takes `bytes` for `what` off it.
+    /// Subtracts `bytes` for `what`.
     fn take(&mut self, what: &'static str, bytes: u64) -> Result<u64, BackendError> {
         if bytes > self.binding_bytes || bytes > self.memory_bytes {
             return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
@@ -27,10 +27,10 @@ impl Room {
         Ok(bytes)
     }
 
-    /// `bytes` of zeros for `what`.
+    /// Takes `bytes` of zeros for `what`.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
-    /// them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
+    /// may have.
     pub(crate) fn zeroed(
         &mut self,
         opened: &Opened,
@@ -40,7 +40,7 @@ impl Room {
         Buffer::zeroed(opened, what, self.take(what, bytes)?)
     }
 
-    /// Memory that holds `data`, likewise.
+    /// Takes memory that holds `data`, likewise.
     pub(crate) fn holding<T: Pod>(
         &mut self,
         opened: &Opened,

@@ -1,20 +1,17 @@
-//! A session that lends a chunk's mesh where it lies on the device.
+//! A session that lends a chunk's mesh in device memory.
 
-use std::ffi::c_void;
-use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
 use std::ptr;
 
 use texere_core::backend::{Chunk, Session, SessionError};
 
-use crate::chunk_memory::ChunkMemory;
+use crate::device_mesh::DeviceMesh;
 use crate::engine::OpenClEngine;
-use crate::handles::Handle;
 
-/// A [`Session`] that lends a chunk's mesh where it lies.
+/// A [`Session`] that lends a chunk's mesh in device memory.
 ///
-/// Control points stay on the device whole; a chunk's results stay until a stage is run for the
-/// next chunk but one.
+/// All control points stay on the device. A chunk's results stay until a stage is run for the next
+/// chunk but one.
 ///
 /// ```no_run
 /// use std::sync::Arc;
@@ -37,52 +34,23 @@ use crate::handles::Handle;
 #[derive(Debug)]
 pub struct OpenClSession(pub(crate) Session<OpenClEngine>);
 
-/// A chunk's mesh in the device's memory. Valid as long as it is borrowed: until the session's next
-/// call.
-#[derive(Debug)]
-pub struct DeviceMesh<'a> {
-    /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
-    pub vertices: *mut c_void,
-    /// A `cl_mem` with the chunk's `u32` indices from its start; null where it has none.
-    pub indices: *mut c_void,
-    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where
-    /// none were made.
-    pub attributes: *mut c_void,
-    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start;
-    /// null where none were made.
-    pub packed: *mut c_void,
-    /// The `cl_event` of the last command that writes them: wait for it, also in a queue.
-    pub ready: *mut c_void,
-    memory: PhantomData<&'a ChunkMemory>,
-}
-
-impl<'a> DeviceMesh<'a> {
-    pub(crate) fn new(memory: &'a ChunkMemory) -> Self {
-        Self {
-            vertices: memory.vertices.raw(),
-            indices: memory.indices.raw(),
-            attributes: memory.attributes.raw(),
-            packed: memory.packed.raw(),
-            ready: memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
-            memory: PhantomData,
-        }
-    }
-}
-
 impl OpenClSession {
-    /// The mesh of `chunk` where it lies on the device, for a caller who draws it or works on with
-    /// it there.
+    /// The mesh of `chunk` in device memory, for a caller that draws it or works on with it there.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::mesh`] has been called for this chunk.
     pub fn device_mesh(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
-        let mesh = DeviceMesh::new(self.0.engine().memory(slot));
-        Ok(if chunk.indices() > 0 { mesh } else { DeviceMesh { indices: ptr::null_mut(), ..mesh } })
+        let mut mesh = DeviceMesh::new(self.0.engine().memory(slot));
+        if chunk.indices() == 0 {
+            // The memory may hold those of an earlier chunk.
+            mesh.indices = ptr::null_mut();
+        }
+        Ok(mesh)
     }
 
-    /// The packed vertices of `chunk` where they lie on the device, likewise; whether there is a
-    /// mesh beside them is not asked.
+    /// The packed vertices of `chunk` in device memory. The other buffers of the result may be
+    /// those of an earlier chunk.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::packed`] has been called for this chunk.
@@ -90,9 +58,9 @@ impl OpenClSession {
         Ok(DeviceMesh::new(self.0.engine().memory(self.0.slot_of_packed(chunk)?)))
     }
 
-    /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`device_buffers`](texere_gpu::device_buffers), and the rings where [`Session::trajectory`]
-    /// was called.
+    /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
+    /// of [`device_buffers`](texere_gpu::device_buffers), and the rings where
+    /// [`Session::trajectory`] was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

@@ -1,4 +1,5 @@
-//! What stays on the device for a session's whole life.
+//! Memory that stays on the device as long as its engine: control points, the plan's tables and the
+//! rolls.
 
 use std::ops::Range;
 
@@ -7,10 +8,10 @@ use texere_core::definitions::{Turn, index_pattern};
 use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{YarnRow, cap_pattern, lean_count, lean_rows};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::opened::Opened;
 
-/// What every stage reads.
+/// The plan's tables, which all chunks read, and the rolls.
 #[derive(Debug)]
 pub(crate) struct Tables {
     pub(crate) points: Buffer,
@@ -36,7 +37,7 @@ impl Tables {
             return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         let mut tables = Self {
-            // Zeros, as on every backend, until they are uploaded.
+            // Points are zeros until they are uploaded, as on every backend.
             points: Buffer::zeroed(opened, what, bytes)?,
             yarns: Buffer::holding(opened, "the yarn table", &YarnRow::all(plan))?,
             outlines: Buffer::holding(opened, "outlines", plan.outlines())?,
@@ -61,7 +62,7 @@ impl Tables {
         Ok(())
     }
 
-    /// Sends how the outlines of `yarns` lean.
+    /// Sends the leans of `yarns`.
     pub(crate) fn set_leans(
         &mut self,
         opened: &Opened,
@@ -74,7 +75,7 @@ impl Tables {
         Ok(())
     }
 
-    /// Bytes of all of it.
+    /// Bytes of all tables.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { points, yarns, outlines, pattern, cap_pattern, rolls, yarn_turns } = self;
         [points, yarns, outlines, pattern, cap_pattern, rolls, yarn_turns].map(Buffer::bytes).iter().sum()

@@ -1,5 +1,5 @@
-//! Control points to the device: all cores pad them into pinned memory, piece by piece, while
-//! pieces before are sent.
+//! Control points to the device, piece by piece. All cores pad a piece into pinned memory, while
+//! earlier pieces are sent.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -11,7 +11,7 @@ use opencl3::memory::CL_MAP_WRITE;
 use texere_core::{BackendError, ControlPoint};
 use texere_gpu::PaddedUpload;
 
-use crate::buffers::{Buffer, wait};
+use crate::buffer::Buffer;
 use crate::clock::{Clock, Stage};
 use crate::handles::Handle;
 use crate::opened::Opened;
@@ -19,39 +19,38 @@ use crate::pinned::Pinned;
 
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
-/// Up to so many points, such as an edited yarn's, go as they are: the driver's own way is as fast
-/// then.
+/// The most points, such as an edited yarn's, that are sent without pinned memory. For them the
+/// driver's own way is as fast.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// So do up to so many the first time: to make pinned memory takes longer than that way, and may
-/// not be wanted again.
+/// The most points that are sent without pinned memory in the first upload. Taking pinned memory
+/// would cost more time than it saves, and it may never be wanted again.
 const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 
-/// Points of a piece, so many that what one transfer costs before and after does not count. The
-/// first are shorter, so that the bus starts early.
+/// Points of a piece. It is so large that the overhead of a transfer does not count. The first
+/// pieces are shorter, so that the bus starts early.
 const PIECE_POINTS: u64 = (8 << 20) / POINT_BYTES;
 const FIRST_PIECE_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// Points that a core pads at a time. A multiple of them is a piece.
+/// Points that a core pads at a time. A piece is a multiple of them.
 const PART_POINTS: u64 = (32 << 10) / POINT_BYTES;
 
-/// Pieces that have room at once: one that is filled, one that is sent, and one that keeps either
-/// from waiting.
+/// Pieces that have memory at once: one is filled, one is sent, and one keeps both from waiting.
 const SLOTS: usize = 3;
 
-/// Pinned memory that control points are sent from, kept for the next upload.
+/// The pinned memory that control points are sent from. It is kept for the next upload.
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     slots: Vec<Pinned>,
     /// Whether more than a few points have been sent.
     used: bool,
-    /// The last command that reads them; those before it end before it.
+    /// The last command that reads the slots. Earlier commands end before it.
     last: Option<Arc<Handle>>,
 }
 
 impl Outbox {
-    /// Sends `upload` to `target` by the queue of the kernels, and gives back the bytes of it. May
-    /// return before it is there.
+    /// Sends `upload` to `target` through the queue of the kernels, and returns its bytes. It may
+    /// return before they are there.
     pub(crate) fn send(
         &mut self,
         opened: &Arc<Opened>,
@@ -79,7 +78,7 @@ impl Outbox {
         Ok(bytes)
     }
 
-    /// Gives back the commands in the order that they run in.
+    /// Returns the commands in the order in which they run.
     fn send_pieces(
         &mut self,
         opened: &Arc<Opened>,
@@ -88,7 +87,7 @@ impl Outbox {
         range: Range<u64>,
     ) -> Result<Vec<Arc<Handle>>, BackendError> {
         if let Some(last) = self.last.take() {
-            wait(opened, &last)?;
+            opened.wait(&last)?;
         }
         let pieces = Piece::cut(&range);
         let largest = pieces.iter().map(|piece| piece.range.end - piece.range.start).max().unwrap_or(0);
@@ -122,17 +121,18 @@ impl Outbox {
 impl Drop for Outbox {
     fn drop(&mut self) {
         if let Some(last) = self.last.take() {
-            // Before the memory goes. Where the wait fails the device is gone.
+            // The memory must not go before the command has ended. Where the wait fails the device
+            // is lost.
             let _ = opencl3::event::wait_for_events(&[last.raw()]);
         }
     }
 }
 
-/// Some of the points of an upload, on their way through one slot.
+/// A piece of an upload, on its way through one slot.
 #[derive(Debug)]
 struct Piece {
     range: Range<u64>,
-    /// Whether what was in its slot before has been sent.
+    /// Whether the piece that was in its slot before has been sent.
     free: AtomicBool,
     /// Parts that are still to be padded.
     left: AtomicUsize,
@@ -158,8 +158,8 @@ impl Piece {
     }
 }
 
-/// An upload under way. Cores take parts in order, and whoever ends a piece sends it: there is no
-/// barrier between pieces, at which cores would fall asleep.
+/// An upload under way. Cores take parts in order, and the core that ends a piece sends it. There
+/// is no barrier between pieces, at which cores would fall asleep.
 struct Flight<'a> {
     opened: &'a Opened,
     upload: &'a PaddedUpload<'a>,
@@ -168,14 +168,14 @@ struct Flight<'a> {
     /// The first point that no core has taken.
     next: AtomicU64,
     end: u64,
-    /// Where to, and the commands so far: one thread at a time speaks to the driver.
+    /// The target and the commands so far. One thread at a time calls the driver.
     sent: Mutex<(&'a mut Buffer, Vec<Arc<Handle>>)>,
-    /// Why it was broken off.
+    /// The error that ended it early.
     failed: OnceLock<BackendError>,
 }
 
 impl Flight<'_> {
-    /// Takes part after part until there is none.
+    /// Takes part after part until none is left.
     fn run(&self) {
         loop {
             let first = self.next.fetch_add(PART_POINTS, Ordering::Relaxed);
@@ -189,7 +189,8 @@ impl Flight<'_> {
         }
     }
 
-    /// Pads the part from point number `first` on, and sends its piece if it was the last of it.
+    /// Pads the part from point number `first` on, and sends its piece if this was the piece's last
+    /// part.
     fn take(&self, first: u64) -> Result<(), BackendError> {
         let number = self.pieces.partition_point(|piece| piece.range.start <= first) - 1;
         let piece = &self.pieces[number];
@@ -204,9 +205,9 @@ impl Flight<'_> {
             let start = slot.add((first - piece.range.start) as usize);
             std::slice::from_raw_parts_mut(start, (part.end - part.start) as usize)
         };
-        // Cores that fall asleep after the last pieces answer late for what their caches hold of
-        // them: reading those took the device up to four times as long. Past the caches with all
-        // pieces would keep it from the memory.
+        // The last pieces are written past the caches. Cores that fall asleep after them answer
+        // late for what their caches hold, and the device took up to four times as long to read it.
+        // All pieces past the caches would keep the device from the memory.
         pad(self.upload, part, padded, number + self.slots.len() >= self.pieces.len());
         if piece.left.fetch_sub(1, Ordering::AcqRel) == 1 {
             let count = (piece.range.end - piece.range.start) as usize;
@@ -216,26 +217,27 @@ impl Flight<'_> {
         Ok(())
     }
 
-    /// Waits until the slot of piece `number` may be written; the core with its first part waits
-    /// for the device. False where another core has failed.
+    /// Waits until the slot of piece `number` may be written. The core with the piece's first part
+    /// waits for the device. False where another core has failed.
     fn wait_for_slot(&self, number: usize, first_part: bool) -> Result<bool, BackendError> {
         let piece = &self.pieces[number];
         if let (true, Some(before)) = (first_part, number.checked_sub(self.slots.len())) {
-            // Its parts were taken before, so other cores are at them.
+            // The parts of the piece before were taken earlier, so other cores work on them.
             let Some(sent) = self.wait_until(|| self.pieces[before].sent.get()) else { return Ok(false) };
-            wait(self.opened, sent)?;
+            self.opened.wait(sent)?;
             piece.free.store(true, Ordering::Release);
         }
         Ok(self.wait_until(|| piece.free.load(Ordering::Acquire).then_some(())).is_some())
     }
 
-    /// Asks until there is an answer, or an error elsewhere.
+    /// Asks `answer` until it has one, or until another core has failed.
     fn wait_until<T>(&self, ask: impl Fn() -> Option<T>) -> Option<T> {
         loop {
             match ask() {
                 Some(answer) => return Some(answer),
                 None if self.failed.get().is_some() => return None,
-                // A matter of microseconds, but the core that works at it may have to share.
+                // It takes microseconds, but the core that works on it may share its time with
+                // others.
                 None => thread::yield_now(),
             }
         }
@@ -250,13 +252,14 @@ impl Flight<'_> {
         let event = Arc::new(event.map_err(self.opened.failed("clEnqueueWriteBuffer"))?);
         events.push(event.clone());
         flush(queue.raw()).map_err(self.opened.failed("clFlush"))?;
-        // It is the only one to do so.
+        // Only this core does so.
         let _ = piece.sent.set(event);
         Ok(())
     }
 }
 
-/// Writes the padded points of `part`; past the caches with `past_caches`, where the processor can.
+/// Writes the padded points of `part`. With `past_caches` they go past the caches, where the
+/// processor can.
 fn pad(upload: &PaddedUpload<'_>, part: Range<u64>, padded: &mut [ControlPoint], past_caches: bool) {
     let mut rest = padded;
     upload.runs(part, |run| {

@@ -1,8 +1,8 @@
-//! What is seen where no yarn is.
+//! The background of a picture.
 
 use texere_core::Material;
 
-/// What a picture has where no yarn is.
+/// What a picture shows where there is no yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Background {
     /// Light grey ground that the cloth lies on and casts its shadow on.
@@ -15,7 +15,7 @@ pub enum Background {
 }
 
 impl Background {
-    /// Linear colour, and what kind it is, as `view.wgsl` has them.
+    /// Its linear colour and its kind, as `view.wgsl` encodes them.
     pub(crate) fn encoded(self) -> ([f32; 3], u32) {
         match self {
             Self::Ground => ([0.0; 3], 0),

@@ -2,17 +2,18 @@
 
 use glam::Vec3;
 
+use crate::axes::{across, aspect};
 use crate::{Extent, RenderError};
 
 /// Room left round the cloth, as a share of it.
 const MARGIN: f32 = 0.05;
 
-/// How high the eye stands over the cloth's plane, radians: for the whole of it, and near a point
-/// of it.
+/// How high the eye stands over the cloth's plane, radians: in views of the whole cloth, and in
+/// close-ups.
 const OBLIQUE_HEIGHT: f32 = 0.72;
 const CLOSE_HEIGHT: f32 = 0.95;
 
-/// How far it stands to the left of the cloth's middle near a point of it, radians.
+/// How far the eye stands to the left of the cloth's middle in close-ups, radians.
 const CLOSE_TURN: f32 = -0.35;
 
 /// Which threads a cut goes through.
@@ -40,8 +41,7 @@ pub(crate) enum Projection {
     },
 }
 
-/// Where an eye is, and where it looks: what [`Camera::perspective`] and [`Camera::orthographic`]
-/// ask for.
+/// Where an eye is, and where it looks, for [`Camera::perspective`] and [`Camera::orthographic`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// The eye, mm.
@@ -52,8 +52,8 @@ pub struct Pose {
     pub up: [f32; 3],
 }
 
-/// A view of a fabric, made for pictures of a certain size: one of those that show a whole cloth or
-/// a place of it, or any [`Pose`].
+/// A view of a fabric, for pictures of one size. Some constructors show the whole cloth or a place
+/// of it; others take any [`Pose`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -82,8 +82,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// From the picture's lower to its upper edge, radians, of cameras that nobody gave another:
-    /// that of a portrait lens, which keeps threads parallel to the eye.
+    /// The default field of view, from the picture's lower to its upper edge, radians. It is a
+    /// portrait lens's, in which parallel threads look parallel.
     pub const FIELD_OF_VIEW: f32 = 0.42;
 
     /// The whole cloth from straight above its face, its threads along the picture's edges.
@@ -94,8 +94,8 @@ impl Camera {
         Self::straight(extent, size, height)
     }
 
-    /// The face at true scale: a pixel is `mm_per_pixel` each way, and the picture as large as that
-    /// makes the cloth.
+    /// The whole cloth from above at true scale: each pixel shows `mm_per_pixel` each way. The
+    /// picture is as large as the cloth then needs.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn true_scale(extent: &Extent, mm_per_pixel: f32) -> Result<Self, RenderError> {
@@ -201,8 +201,8 @@ impl Camera {
         Self::posed(extent, pose, size, |distance| Projection::Perspective { distance, field_of_view })
     }
 
-    /// The same with parallel lines of sight. `height`: what the picture's height shows, mm. The
-    /// whole depth of the cloth is in the picture, however near the eye is.
+    /// A view from any point with parallel lines of sight. `height`: what the picture's height
+    /// shows, mm. The whole depth of the cloth is in the picture, however near the eye is.
     ///
     /// **Errors**: [`RenderError::Camera`], as for [`Camera::perspective`].
     pub fn orthographic(
@@ -260,7 +260,7 @@ impl Camera {
         }
     }
 
-    /// The same view of the cloth turned over sideways, so that its back is seen and end 1 is at
+    /// This view of the cloth turned over sideways, so that its back is seen and end 1 is at
     /// the right.
     #[must_use]
     pub fn turned_over(self) -> Self {
@@ -285,20 +285,9 @@ impl Camera {
     }
 }
 
-/// A perspective of the field of view that all cameras have which nobody gave another.
+/// A perspective with the default field of view.
 fn portrait(distance: f32) -> Projection {
     Projection::Perspective { distance, field_of_view: Camera::FIELD_OF_VIEW }
-}
-
-/// The picture's right and up, where the eye lies in direction `toward`.
-pub(crate) fn across(up: Vec3, toward: Vec3) -> [Vec3; 2] {
-    let right = up.cross(toward).normalize();
-    [right, toward.cross(right)]
-}
-
-pub(crate) fn aspect(size: [u32; 2]) -> f32 {
-    // An empty picture is refused later, when it is drawn.
-    size[0].max(1) as f32 / size[1].max(1) as f32
 }
 
 fn positive(what: &'static str, value: f32) -> Result<f32, RenderError> {

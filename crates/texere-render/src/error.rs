@@ -26,7 +26,7 @@ pub enum RenderError {
     Supersampling {
         /// Pixels of the screen for a pixel of the picture, each way.
         supersampling: u32,
-        /// Most of them for a picture of this size.
+        /// The most that a picture of this size may have.
         most: u32,
         /// Pixels across.
         width: u32,
@@ -51,7 +51,7 @@ pub enum RenderError {
     /// The device failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// A call of the session that a picture should not have made.
+    /// A wrong call of the session: a fault of this crate.
     #[error(transparent)]
     Session(SessionError),
 }

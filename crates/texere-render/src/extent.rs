@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use texere_core::settling::Settler;
 use texere_core::{BackendError, Section, Yarns};
 
-use crate::camera::{across, aspect};
+use crate::axes::{across, aspect};
 
 /// The box round a fabric, and how thick its yarns are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +14,8 @@ pub struct Extent {
     pub low: [f32; 3],
     /// The greatest, mm.
     pub high: [f32; 3],
-    /// The mean radius of its yarns, mm: of flattened ones that of a round yarn of the same area.
+    /// The mean radius of its yarns, mm. A flattened yarn counts with the radius of a round yarn of
+    /// the same area.
     pub radius: f32,
 }
 
@@ -38,7 +39,7 @@ impl Extent {
                 )
             })
         });
-        // In order, so that the sum is the same every time.
+        // Added up in order, so that the sum is the same every time.
         let (low, high, radii) = each
             .collect::<Vec<_>>()
             .into_iter()
@@ -47,7 +48,7 @@ impl Extent {
         Self { low: low.to_array(), high: high.to_array(), radius }
     }
 
-    /// The box round `yarns` where a settler has left them, each as wide as the widest of them.
+    /// The box round `yarns` as `settler` has placed them. Each yarn counts as wide as the widest.
     ///
     /// **Errors**: [`BackendError`] of the settler's device.
     pub fn settled(yarns: &Yarns, settler: &mut dyn Settler) -> Result<Self, BackendError> {
@@ -65,10 +66,10 @@ impl Extent {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
     }
 
-    /// How far an eye in the direction `toward` from the cloth's middle has to be from it to see
-    /// all of the cloth, mm, with `up` up in pictures of `size`. `field_of_view`: from the
-    /// picture's lower to its upper edge, radians. `margin`: room left round the cloth, as a share
-    /// of it.
+    /// The least distance, mm, from which an eye sees all of the cloth. `toward`: the direction
+    /// from the cloth's middle to the eye. `up`: the direction that is up in pictures of `size`.
+    /// `field_of_view`: from the picture's lower to its upper edge, radians. `margin`: room left
+    /// round the cloth, as a share of it.
     ///
     /// ```
     /// use texere_render::Extent;
@@ -102,8 +103,8 @@ impl Extent {
         (Vec3::from(self.low) + Vec3::from(self.high)) * 0.5
     }
 
-    /// How far yarns may reach out of it: a spline leaves the box of its control points by up to an
-    /// eighth of what that measures, where its tension is 0, and sections have corners.
+    /// How far yarns may reach out of it, mm. A spline of tension 0 leaves the box of its control
+    /// points by up to an eighth of the box's sides, and sections have corners.
     pub(crate) fn spare(&self) -> Vec3 {
         (Vec3::from(self.high) - Vec3::from(self.low)) / 8.0 + self.radius
     }
@@ -117,7 +118,7 @@ impl Extent {
     }
 }
 
-/// How far a section reaches from its centre level or upright, in radii of the yarn.
+/// How far a section reaches from its centre, along its width or its height, in radii of the yarn.
 fn reach(section: &Section) -> f32 {
     section.half_width().max(section.half_height())
 }

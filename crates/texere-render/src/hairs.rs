@@ -1,4 +1,4 @@
-//! Fibres that stand off their yarns: how many there are, and what the shaders know of them.
+//! Hairs: fibres that stand off their yarns. Their number, and the constants that shaders share.
 
 use std::f32::consts::E;
 
@@ -15,13 +15,13 @@ const PARTS: u32 = 16;
 /// `HAIR_SCALE` of `hair.wgsl`: the scale of their lengths' exponential distribution, mm.
 const SCALE: f32 = 0.6;
 
-/// `HAIR_LONGEST` of `hair.wgsl`: where that is cut off, in its scale.
+/// `HAIR_LONGEST` of `hair.wgsl`: where that distribution is cut off, in units of its scale.
 const LONGEST: f32 = 4.0;
 
 /// How far a hair reaches from its root, mm.
 pub(crate) const REACH: f32 = LONGEST * SCALE;
 
-/// Parts of hairs that a block has numbers for.
+/// The most parts of hairs that a block can have.
 pub(crate) const OF_BLOCK: u64 = BLOCK_RINGS as u64 * OF_GAP as u64 * PARTS as u64;
 
 /// A hair's mean length, mm.
@@ -34,8 +34,8 @@ pub(crate) fn any(yarns: &Yarns) -> bool {
     yarns.layout().yarns().iter().any(|yarn| yarns.materials()[yarn.material as usize].hairiness > 0.0)
 }
 
-/// Hairs a mm of each yarn, for `hairs.wgsl`. Uster's H is their length for a length of yarn, cm a
-/// cm or mm a mm.
+/// Hairs per mm of each yarn, for `hairs.wgsl`. Uster's hairiness H is the length of hairs per
+/// length of yarn, a pure number.
 pub(crate) fn densities(renderer: &Renderer, yarns: &Yarns) -> Result<wgpu::Buffer, BackendError> {
     let mean = mean();
     let density = |yarn: &texere_core::Yarn| yarns.materials()[yarn.material as usize].hairiness / mean;

@@ -7,14 +7,16 @@
 //! ```
 //!
 //! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a
-//! view of the fabric. Every triangle is drawn from control points, by compute shaders and without
-//! a mesh, chunk after chunk; then the visible pixels are lit, once.
+//! view of the fabric. Compute shaders draw every triangle straight from control points, chunk
+//! after chunk, without a mesh. Then each visible pixel is lit once.
 
+mod axes;
 mod background;
 mod camera;
 mod error;
 mod extent;
 mod hairs;
+mod mapped;
 mod memory;
 mod projection;
 mod raster;

@@ -1,13 +1,12 @@
 //! Buffers of a renderer's device.
 
 use texere_core::BackendError;
-use texere_wgpu::WgpuBackend;
 use wgpu::BufferUsages;
 
 use crate::Renderer;
 
 impl Renderer {
-    /// A buffer that holds `bytes`, and can be written again.
+    /// A buffer that holds `bytes`, and can be written to again.
     pub(crate) fn filled(
         &self,
         what: &'static str,
@@ -29,7 +28,7 @@ impl Renderer {
         self.device.buffer(what, bytes, usage | BufferUsages::COPY_DST)
     }
 
-    /// Makes `buffer` anew where it is shorter than `bytes`.
+    /// Makes `buffer` at least `bytes` long. A new one does not keep what the old one held.
     pub(crate) fn reserve(&self, buffer: &mut wgpu::Buffer, bytes: u64) -> Result<(), BackendError> {
         if buffer.size() < bytes {
             *buffer = self.buffer("a picture's buffer", bytes, buffer.usage())?;
@@ -41,16 +40,4 @@ impl Renderer {
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), BackendError> {
         self.device.scoped("Queue::write_buffer", || self.device.queue().write_buffer(buffer, 0, bytes))
     }
-}
-
-/// What `read` makes of `buffer`, which a submission that is done has asked to map.
-pub(crate) fn read_mapped<T>(
-    device: &WgpuBackend,
-    buffer: &wgpu::Buffer,
-    read: impl FnOnce(&[u8]) -> T,
-) -> Result<T, BackendError> {
-    let call = "Buffer::get_mapped_range";
-    device
-        .scoped(call, || buffer.get_mapped_range(..).map(|view| read(&view)))?
-        .map_err(|source| BackendError::Driver { call, source: source.into() })
 }

@@ -1,5 +1,5 @@
-//! From a place on the cloth to a pixel, and back: the matrices of a camera, and its lines of
-//! sight.
+//! A camera's matrices, which take a place on the cloth to a pixel, and its lines of sight, which
+//! go back.
 
 use glam::dcamera::rh::proj::directx;
 use glam::dcamera::rh::view;
@@ -9,8 +9,8 @@ use texere_core::Ray;
 use crate::Camera;
 use crate::camera::Projection;
 
-/// The near plane is at least this share of the way to the target before the eye, so that the far
-/// end keeps enough depth resolution.
+/// The least distance from the eye to the near plane, as a share of the way to the target. A nearer
+/// plane would leave the far end too little depth resolution.
 const NEAREST: f64 = 0.02;
 
 impl Camera {
@@ -85,8 +85,8 @@ impl Camera {
         [f64::from(near + spare), f64::from(far - spare)]
     }
 
-    /// Whether the inside of yarns can be seen: where they are cut, or where the near plane may go
-    /// through them. They are closed at their ends.
+    /// Whether the inside of yarns can be seen: in cuts, or where the near plane may go through
+    /// yarns. Their ends are closed.
     pub(crate) fn sees_inside(&self) -> bool {
         let Projection::Perspective { distance, field_of_view } = self.projection else { return self.cuts };
         let eye = f64::from(distance);
@@ -94,7 +94,7 @@ impl Camera {
             // All of the cloth lies behind it.
             return false;
         }
-        // The box round what is seen of the plane against the cloth's.
+        // The box round the visible part of the near plane against the cloth's box.
         let [right, above] = self.across().map(|axis| axis.as_dvec3().normalize());
         let (target, toward) = (self.target.as_dvec3(), self.toward.as_dvec3().normalize());
         let middle = target + toward * (eye * (1.0 - NEAREST));

@@ -1,4 +1,5 @@
-//! A chunk drawn without a mesh: which blocks, which triangle in each sample, and what that shows.
+//! A chunk drawn without a mesh, in three steps: list the blocks in view, find the nearest triangle
+//! of each sample, and work out what that triangle shows.
 
 use std::ops::Range;
 
@@ -28,9 +29,9 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own;
-/// such GPUs take a hundredth of a second for it. GPUs of other kinds get smaller chunks, so that
-/// the desktop does not wait for them. Each chunk costs a look at all samples.
+/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own.
+/// Such GPUs take a hundredth of a second for it. Other GPUs get smaller chunks, so that the
+/// desktop does not wait for them. Larger chunks are faster: each costs a look at all samples.
 const BLOCKS_MOST: u64 = 1 << 20;
 
 /// Bytes of a ring's roll.
@@ -56,13 +57,13 @@ pub(crate) struct Raster {
     ring_rolls: wgpu::Buffer,
     /// How far a section reaches from its centre, in half widths or half heights.
     reach: f32,
-    /// Whether sections turn anywhere.
+    /// Whether any section turns.
     rolled: bool,
-    /// Where fibres stand off any yarn: how many of each.
+    /// The hairs per mm of each yarn; none where no yarn has any.
     hair_densities: Option<wgpu::Buffer>,
     /// Whether the next picture shows them.
     pub(crate) has_hairs: bool,
-    /// Whether it shows all of the fabric.
+    /// Whether the next picture shows all of the fabric.
     pub(crate) sees_all: bool,
 }
 
@@ -89,31 +90,30 @@ impl Raster {
         self.hair_densities.is_some()
     }
 
-    /// The limits that chunks are cut to: their tables fit a binding, their triangles and hairs a
-    /// number of 32 bits, and none takes long.
+    /// The limits that chunks are cut to. Their tables fit a binding, the numbers of their
+    /// triangles and hairs fit 32 bits, and none takes long to draw.
     pub(crate) fn chunk_limits(plan: &Plan, yarns: &Yarns, device: &DeviceInfo) -> Limits {
         let settings = plan.settings();
         let triangles = 2 * u64::from(BLOCK_RINGS) * u64::from(settings.sides);
-        // A row has two caps at most, each with as many numbers as a block.
+        // A block has two caps at most, each with as many numbers as a block.
         let hairs = if hairs::any(yarns) { hairs::OF_BLOCK } else { 0 };
         let numbered = u64::from(u32::MAX) / (3 * triangles + hairs);
-        // Those that a block's rings read, and at most three more: of the yarn's ends, or its
-        // neighbours'.
+        // The points that a block's rings read, and at most three more at either end.
         let points = u64::from(BLOCK_RINGS.div_ceil(settings.subdivisions + 1)) + 3;
         // A caller's own limit stands.
         let kinds = [DeviceKind::DiscreteGpu, DeviceKind::Cpu];
         let is_fast = kinds.contains(&device.kind) && device.limits.blocks == LAUNCH_BLOCKS;
         let blocks = if is_fast { BLOCKS_MOST } else { device.limits.blocks };
         let binding = device.limits.binding_bytes;
-        // A window begins and ends a little before and behind them.
+        // A window begins a little before the first point and ends a little behind the last.
         let windows = (binding / size_of::<ControlPoint>() as u64).saturating_sub(32) / points;
-        // The rolls of all rings, and tables of less than that.
+        // The rolls of all rings must fit; all other tables are smaller.
         let tables = (binding / (u64::from(BLOCK_RINGS) * ROLL_BYTES)).saturating_sub(1);
         Limits { blocks: numbered.min(windows).min(tables).min(blocks).max(2), ..Limits::NONE }
     }
 
-    /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work
-    /// over.
+    /// Draws a chunk on the rows `band` of the screen, over what earlier chunks left there, and
+    /// hands the work to the device.
     pub(crate) fn draw(
         &mut self,
         renderer: &Renderer,
@@ -169,12 +169,13 @@ struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    /// The sweep of a round, with its number in group 1.
+    /// The sweep of a round, with its binding in group 1.
     fn sweep(&self, round: usize) -> (u32, BindingResource<'_>) {
         (1, self.raster.sweeps[round].as_entire_binding())
     }
 
-    /// Sets `pipeline` with `fabric` of the session and `own` of the picture.
+    /// Sets `pipeline`, with tables of the session (`fabric`) in group 0 and the picture's `own`
+    /// resources in group 1.
     fn set(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
@@ -191,7 +192,7 @@ impl Binder<'_> {
         pass.set_bind_group(1, &group(self.device, pipeline, 1, own), &[]);
     }
 
-    /// Records what lists the blocks that the view may show, or all.
+    /// Records the shader that lists the blocks that the view may show, or all blocks.
     fn list(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, all: bool) {
         use Resource::{Blocks, Params, Points};
         let blocks = chunk.blocks().len() as u32;
@@ -207,7 +208,7 @@ impl Binder<'_> {
         pass.dispatch_workgroups(columns, rows, 1);
     }
 
-    /// Records what finds the nearest triangle of each sample.
+    /// Records the shaders that find the nearest triangle of each sample.
     fn find(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, keys: Keys) {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Rolls, Yarns};
         let Raster { listed, groups, ring_rolls, rolled, hair_densities, has_hairs, .. } = self.raster;
@@ -226,7 +227,7 @@ impl Binder<'_> {
             let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
             let sweep = self.sweep(round);
             let own = [view.clone(), sweep.clone(), listed.clone(), samples.clone(), rolls.clone()];
-            // Where nothing turns there are no rolls.
+            // Where no section turns there are no rolls.
             let without = usize::from(!rolled);
             let counts = [Some(count_listed), Some(count_left), None];
             for (number, (count, raster)) in (0..).zip(counts.into_iter().zip(rasters)) {
@@ -252,7 +253,8 @@ impl Binder<'_> {
         }
     }
 
-    /// Records what works out what these show, in as many columns and rows of the screen.
+    /// Records the shader that works out what these triangles show, over `columns` and `rows` of
+    /// the screen.
     fn show(
         &self,
         pass: &mut wgpu::ComputePass<'_>,

@@ -9,7 +9,7 @@ use texere_shaders::picture;
 use texere_wgpu::{LONG_ATOMICS, WgpuBackend};
 use wgpu::{BindGroupEntry, BindingResource};
 
-/// What the nearest triangle of a sample is found with.
+/// How the nearest triangle of a sample is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Keys {
     /// Atomics of 64 bits: depth and triangle at once.
@@ -19,12 +19,12 @@ pub(crate) enum Keys {
 }
 
 impl Keys {
-    /// The faster ones of those that `device` can do.
+    /// The faster kind that `device` has.
     pub(crate) fn of(device: &WgpuBackend) -> Self {
         if device.device().features().contains(LONG_ATOMICS) { Self::Whole } else { Self::InRounds }
     }
 
-    /// How often all triangles are gone through.
+    /// How many times all triangles are gone through.
     pub(crate) const fn rounds(self) -> usize {
         match self {
             Self::Whole => 1,
@@ -33,7 +33,7 @@ impl Keys {
     }
 }
 
-/// The shaders of a device, for each kind of fabric, each compiled where it is wanted first.
+/// The shaders of a device for each kind of fabric. Each is compiled at its first use.
 #[derive(Debug)]
 pub(crate) struct Rasteriser {
     pub(crate) keys: Keys,
@@ -44,8 +44,8 @@ pub(crate) struct Rasteriser {
     kinds: [[[OnceLock<Arc<Pipelines>>; 2]; 2]; 2],
 }
 
-/// What of a fabric shaders differ for: whether yarns are flattened anywhere, sections turn, fibres
-/// stand off.
+/// What shaders are specialised for: whether any yarn is flattened, any section turns, any fibre
+/// stands off.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kind {
     pub(crate) flattened: bool,
@@ -60,10 +60,10 @@ pub(crate) struct Pipelines {
     pub(crate) list_all: wgpu::ComputePipeline,
     pub(crate) count_listed: wgpu::ComputePipeline,
     pub(crate) count_left: wgpu::ComputePipeline,
-    /// What draws quads of at most two by two pixels, of a few samples, of many.
+    /// For quads of at most two by two pixels, of a few samples, and of many.
     pub(crate) rasters: [wgpu::ComputePipeline; 3],
     pub(crate) caps: wgpu::ComputePipeline,
-    /// Where any yarn has hairs.
+    /// None where no yarn has hairs.
     pub(crate) hairs: Option<wgpu::ComputePipeline>,
     pub(crate) resolve: wgpu::ComputePipeline,
 }
@@ -77,8 +77,8 @@ impl Rasteriser {
         Self { keys, raster, hairs, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
     }
 
-    /// The same with another shader of what samples show, such as a broken one that a test must
-    /// find.
+    /// These shaders, but for the one that says what samples show: a broken one, which a test
+    /// must find.
     #[cfg(test)]
     pub(crate) fn with_resolve(self, resolve: String) -> Self {
         Self { resolve: Cow::Owned(resolve), ..self }
@@ -112,7 +112,7 @@ impl Rasteriser {
     }
 }
 
-/// What `place` has, compiled if nobody has wanted it before.
+/// What `place` holds, compiled at its first use.
 ///
 /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
 pub(crate) fn compiled_once<'a, T>(
@@ -135,7 +135,7 @@ pub(crate) fn module(device: &wgpu::Device, source: impl Into<Cow<'static, str>>
     })
 }
 
-/// A compute pipeline that binds what its shader uses.
+/// A compute pipeline whose layout is what its shader uses.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,

@@ -25,17 +25,17 @@ use crate::screen::Screen;
 /// # }
 /// ```
 ///
-/// Its clones are the same device with the same pipelines. A [`Scene`](crate::Scene) keeps one, and
-/// so may outlive the renderer that made it.
+/// Clones share the device and the pipelines. A [`Scene`](crate::Scene) keeps a clone, so it may
+/// outlive the renderer that made it.
 #[derive(Debug, Clone)]
 pub struct Renderer {
     pub(crate) device: WgpuBackend,
     pub(crate) rasteriser: Arc<Rasteriser>,
     pub(crate) visibility: wgpu::ComputePipeline,
-    /// For near views and for far ones, each compiled where it is wanted first.
+    /// For near views and for far ones, each compiled at its first use.
     shade: Arc<[OnceLock<wgpu::ComputePipeline>; 2]>,
     pub(crate) gather: wgpu::ComputePipeline,
-    /// That of the last picture.
+    /// The screen of the last picture.
     screen: Arc<Mutex<Option<Arc<Screen>>>>,
 }
 
@@ -60,7 +60,7 @@ impl Renderer {
         Ok(Self { device, rasteriser, visibility, shade, gather, screen })
     }
 
-    /// What lights samples.
+    /// The pipeline that lights samples.
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub(crate) fn shade(&self, is_far: bool) -> Result<&wgpu::ComputePipeline, BackendError> {
@@ -69,19 +69,20 @@ impl Renderer {
         })
     }
 
-    /// What a picture of this size is drawn into: that of the last one where it fits and no scene
-    /// has it any more. A device takes longer to hand out that much memory than to draw.
+    /// A screen for pictures of this size. The last picture's is taken again where it fits and no
+    /// scene holds it any more, since a device takes longer to allocate that much memory than to
+    /// draw.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Driver`],
     /// [`BackendError::DeviceLost`].
     pub(crate) fn screen(&self, size: [u32; 2], supersampling: u32) -> Result<Arc<Screen>, BackendError> {
         let mut last = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
-        // One that does not fit is given back before another one is asked for.
+        // A screen that does not fit is freed before another is asked for.
         let free =
             last.take().filter(|screen| screen.fits(size, supersampling) && Arc::strong_count(screen) == 1);
         let screen = match free {
             Some(screen) => screen,
-            None => Arc::new(Screen::new(self, size, supersampling)?),
+            None => Arc::new(Screen::new(&self.device, size, supersampling)?),
         };
         Ok(last.insert(screen).clone())
     }
@@ -92,16 +93,15 @@ impl Renderer {
         self.device.info()
     }
 
-    /// The backend that it draws on: a settler of it leaves yarns where [`Renderer::settled_scene`]
-    /// finds them.
+    /// The backend that it draws on. Yarns that a settler of this backend has settled stay on the
+    /// device for [`Renderer::settled_scene`].
     #[must_use]
     pub const fn backend(&self) -> &WgpuBackend {
         &self.device
     }
 
     /// The longest side of a picture, supersampled, in pixels.
-    #[must_use]
-    pub fn side_limit(&self) -> u32 {
+    pub(crate) fn side_limit(&self) -> u32 {
         self.device.device().limits().max_texture_dimension_2d
     }
 }

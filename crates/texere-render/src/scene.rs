@@ -23,29 +23,29 @@ const CHUNKS_KEPT: usize = 2;
 /// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quality {
-    /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever
-    /// this is.
+    /// Pixels of the screen for each pixel of the picture, each way. Each pixel of the screen has
+    /// four samples.
     pub supersampling: u32,
-    /// Whether fibres that stand off yarns are drawn, where threads are four pixels wide or more;
-    /// never in cuts.
+    /// Whether fibres that stand off yarns are drawn. They are drawn where threads are four pixels
+    /// wide or more, and never in cuts.
     pub hairs: bool,
 }
 
 impl Default for Quality {
-    /// Four pixels of the screen, sixteen samples, for a pixel of the picture, and fibres.
+    /// Four pixels of the screen, so sixteen samples, for each pixel of the picture; with fibres.
     fn default() -> Self {
         Self { supersampling: 2, hairs: true }
     }
 }
 
-/// Sides of the tube in a picture of woven cloth at rest, if it has no more control points than
-/// that: threads of larger cloths are hardly wider than pixels.
+/// Sides of tubes in a picture of woven cloth at rest, and the most control points for which they
+/// are used. Threads of larger cloths are hardly wider than pixels.
 const FINE_SIDES: u32 = 16;
 const FINE_POINTS: usize = 4_000_000;
 
-/// How many sides tubes have in a picture where nobody asks for others: of a polygon as many as it
-/// has corners. `lies_close`: whether the yarns are flattened threads of woven cloth at rest, which
-/// lie so close that ground would be seen past the corners of fewer sides.
+/// The default number of sides of tubes in a picture. Polygons have as many as they have corners.
+/// `lies_close`: whether the yarns are flattened threads of woven cloth at rest, which lie so close
+/// that with fewer sides the ground would show past their corners.
 ///
 /// **Units**: sides of a section, as in [`Settings::sides`].
 #[must_use]
@@ -65,8 +65,8 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Red, green and blue, a byte each, sRGB; rows from the top.
     pub rgb: Vec<u8>,
-    /// How much of each pixel shows a yarn or a background, a byte, 255 for all of it: less only
-    /// with [`Background::Nothing`]. Colours are not multiplied with it.
+    /// How much of each pixel shows a yarn or a background, a byte, 255 for all of it. It is less
+    /// only with [`Background::Nothing`]. Colours are not multiplied by it.
     pub alpha: Vec<u8>,
     /// How long it took.
     pub timings: PictureTimings,
@@ -81,12 +81,12 @@ impl Picture {
     }
 }
 
-/// Time that a picture took, stage by stage, one after the other.
+/// The time that each stage of a picture took. Stages follow one another.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PictureTimings {
-    /// Textures of its size, where the picture before had another.
+    /// Taking textures of its size, where the picture before had another.
     pub screen: Duration,
-    /// Drawing, chunk after chunk: what each sample shows.
+    /// Finding what each sample shows, chunk after chunk.
     pub draw: Duration,
     /// Visibility and light.
     pub shade: Duration,
@@ -94,16 +94,16 @@ pub struct PictureTimings {
     pub copy: Duration,
 }
 
-/// A fabric on a device: control points and tables. No mesh is made for a picture: what it takes
-/// beside them is its samples, eight bytes each while they are found, 25 until pixels are made of
-/// them. The renderer keeps that memory for the next scene.
+/// A fabric on a device, as control points and tables. A picture takes no mesh, but memory for its
+/// samples: eight bytes each while they are found, and 25 until pixels are made of them. The
+/// renderer keeps that memory for the next scene.
 #[derive(Debug)]
 pub struct Scene {
     pub(crate) renderer: Renderer,
     pub(crate) plan: Arc<Plan>,
     pub(crate) session: WgpuSession,
     limits: Limits,
-    /// All chunks, where they are few enough to stay in the session.
+    /// All chunks, where they are few enough to stay in the session; otherwise none.
     chunks: Vec<Chunk>,
     extent: Extent,
     looks: wgpu::Buffer,
@@ -111,38 +111,39 @@ pub struct Scene {
     pub(crate) view: wgpu::Buffer,
     background: Background,
     pub(crate) screen: Option<Arc<Screen>>,
-    /// Whether the last picture has no visibility of its own, as [`ViewUniform::is_far`] says.
+    /// Whether the last picture has no visibility, as [`ViewUniform::is_far`] says.
     is_far: bool,
-    /// Of the last picture.
+    /// The camera of the last picture.
     pub(crate) camera: Option<Camera>,
 }
 
-/// A picture that stays on the device: [`Scene::frame`].
+/// A picture that stays on the device, made by [`Scene::frame`].
 #[derive(Debug, Clone)]
 pub struct DevicePicture {
-    /// Red, green, blue and alpha, a byte each, sRGB though the format does not say so:
-    /// [`wgpu::TextureFormat::Rgba8Unorm`], to be sampled or copied. It is the scene's, and the
-    /// next picture of the same size is drawn into it; once the scene is gone, that of another
-    /// scene of the renderer.
+    /// Red, green, blue and alpha, a byte each, to be sampled or copied. Values are sRGB, though
+    /// the format is [`wgpu::TextureFormat::Rgba8Unorm`]. The texture is lent: the scene's next
+    /// picture of the same size is drawn into it. Once the scene is dropped, another scene of the
+    /// renderer may take it.
     pub texture: wgpu::TextureView,
-    /// How long it took; nothing is copied.
+    /// How long it took. Nothing is copied.
     pub timings: PictureTimings,
 }
 
 impl Renderer {
-    /// Sends a fabric to the device, or several: [`Yarns::placed`] says where each is,
-    /// [`Yarns::merged`] makes one of them. The settings' topology and caps are ignored: pictures
-    /// list their own triangles, and show yarns solid, also where they end or are cut. Those of
-    /// [`Settings::following_fibres`] have rings enough for the yarns' twist.
+    /// Sends a fabric to the device. Several fabrics make one with [`Yarns::placed`], which says
+    /// where each is, and [`Yarns::merged`]. The settings' topology and caps are ignored: pictures
+    /// list their own triangles, and show yarns solid where they end or are cut.
+    /// [`Settings::following_fibres`] gives enough rings for the yarns' twist.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
         self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
     }
 
-    /// The same for `yarns` where a settler has left them: on this renderer's device they don't
-    /// leave it. Which yarns are [steep](texere_core::Layout::is_steep), and how outlines
-    /// [lean](texere_core::Layout::ups), stays as it was before.
+    /// The scene of `yarns` as `settler` has placed them. A settler of this renderer's device hands
+    /// them over without a way over the host. Which yarns are
+    /// [steep](texere_core::Layout::is_steep), and how outlines [lean](texere_core::Layout::ups),
+    /// stays as `yarns` say.
     ///
     /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Backend`] for a settler of
     /// other yarns.
@@ -169,7 +170,7 @@ impl Renderer {
         let mut session = self.device.lending_session(plan.clone())?;
         let limits = Raster::chunk_limits(&plan, yarns, self.info());
         let mut chunks = Ok(Vec::new());
-        // Cut while points are sent.
+        // Chunks are cut while points are sent.
         rayon::in_place_scope(|scope| {
             scope.spawn(|_| chunks = kept_chunks(&plan, &limits));
             send(&mut session)?;
@@ -199,7 +200,7 @@ impl Renderer {
 }
 
 impl Scene {
-    /// Bytes that went between host and device so far, but for the pictures themselves.
+    /// Bytes sent between host and device so far, without the pictures themselves.
     #[must_use]
     pub fn traffic(&self) -> Traffic {
         self.session.traffic()
@@ -217,15 +218,15 @@ impl Scene {
         &self.plan
     }
 
-    /// Cuts chunks to `limits` where the scene's own are wider.
-    #[must_use]
-    pub fn with_limits(self, limits: &Limits) -> Self {
+    /// This scene with chunks cut to `limits`, where the scene's own are wider.
+    #[cfg(test)]
+    pub(crate) fn with_limits(self, limits: &Limits) -> Self {
         let limits = self.limits.min(limits);
-        // Limits that no block fits are said when a picture is made.
+        // Limits that no block fits are an error when a picture is made.
         Self { chunks: kept_chunks(&self.plan, &limits).unwrap_or_default(), limits, ..self }
     }
 
-    /// What its pictures have from now on where no yarn is; at first ground.
+    /// Sets the background of pictures from now on; it is [`Background::Ground`] at first.
     pub fn set_background(&mut self, background: Background) {
         self.background = background;
     }
@@ -243,8 +244,8 @@ impl Scene {
         Ok(Picture { size: camera.size(), rgb, alpha, timings })
     }
 
-    /// Makes a picture and leaves it on the device: for a window that shows it. It is done when
-    /// this returns.
+    /// Makes a picture and leaves it on the device, for a window that shows it. The picture is
+    /// finished when this returns.
     ///
     /// **Errors**: those of [`Scene::picture`].
     pub fn frame(&mut self, camera: &Camera, quality: Quality) -> Result<DevicePicture, RenderError> {
@@ -263,7 +264,7 @@ impl Scene {
         Ok(DevicePicture { texture, timings })
     }
 
-    /// Makes room for a picture, and sends the view. Gives the picture's texture.
+    /// Makes room for a picture, and sends the view. Returns the picture's texture.
     pub(crate) fn look(
         &mut self,
         camera: &Camera,
@@ -281,7 +282,7 @@ impl Scene {
         self.raster.has_hairs = view.has_hairs();
         self.raster.sees_all = camera.sees_all();
         self.is_far = view.is_far();
-        // Where it is compiled first, that is no part of drawing.
+        // A first compilation should not count as drawing.
         self.renderer.shade(self.is_far)?;
         self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         Ok(texture)
@@ -311,7 +312,7 @@ impl Scene {
         drawn
     }
 
-    /// Draws these. While one is drawn the next one's tables are sent.
+    /// Draws `chunks`. While one is drawn, the next one's tables are sent.
     fn draw_chunks(&mut self, chunks: impl Iterator<Item: Borrow<Chunk>>) -> Result<(), RenderError> {
         let Self { renderer, session, raster, view, screen: Some(screen), .. } = self else { return Ok(()) };
         let mut before = None;
@@ -320,8 +321,8 @@ impl Scene {
             let tables = session.chunk_tables(chunk)?;
             for band in screen.bands() {
                 let drawn = raster.draw(renderer, tables, chunk, view, screen, band)?;
-                // No more than two are under way, so that each wait is for one and not for a
-                // fabric.
+                // No more than two are under way, so that each wait is for one chunk and not for a
+                // whole fabric.
                 if let Some(submission) = before.replace(drawn) {
                     renderer.device.wait(submission)?;
                 }
@@ -385,7 +386,7 @@ impl Scene {
     }
 }
 
-/// All chunks of a plan where they are few enough to stay in a session, else none.
+/// All chunks of a plan where they are few enough to stay in a session; otherwise none.
 ///
 /// **Errors**: [`PlanError`] where not even one block fits the limits.
 fn kept_chunks(plan: &Plan, limits: &Limits) -> Result<Vec<Chunk>, PlanError> {
@@ -393,8 +394,8 @@ fn kept_chunks(plan: &Plan, limits: &Limits) -> Result<Vec<Chunk>, PlanError> {
     Ok(if first.len() > CHUNKS_KEPT { Vec::new() } else { first })
 }
 
-/// The mean length from ring to ring of each yarn, mm, by its first control points: it only places
-/// the fibres' pattern.
+/// The mean way from ring to ring of each yarn, mm, estimated from its first control points. It
+/// serves only to scale the fibres' pattern.
 fn ring_lengths(yarns: &Yarns, plan: &Plan) -> Vec<f32> {
     const POINTS: usize = 64;
     let per_interval = plan.settings().subdivisions as f32 + 1.0;

@@ -1,16 +1,15 @@
-//! What a picture is drawn into, and the copy that goes to the host.
+//! The textures and buffers that a picture is drawn into, and the copy that goes to the host.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::BackendError;
+use texere_core::{Backend, BackendError};
 use texere_wgpu::WgpuBackend;
 use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 
-use crate::Renderer;
-use crate::memory::read_mapped;
+use crate::mapped::read_mapped;
 
-/// Samples of a pixel, where rasterisers of every device have them for four.
+/// Samples of a pixel. They lie where rasterisers of every device have four.
 pub(crate) const SAMPLES: u32 = 4;
 
 /// `SCREEN_GROUP` of `view.wgsl`.
@@ -25,8 +24,8 @@ const KEY_BYTES: u64 = 8;
 /// Most bytes of keys: sixteen samples for each of two million pixels.
 const KEYS_MOST: u64 = 256 << 20;
 
-/// What one size of picture takes: 132 bytes a pixel, times the square of the supersampling, and 8
-/// bytes; fewer where a binding does not hold the keys of all samples.
+/// The memory for pictures of one size. It takes 8 bytes a pixel, and 132 bytes times the square of
+/// the supersampling; fewer where a binding does not hold the keys of all samples.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],
@@ -36,7 +35,7 @@ pub(crate) struct Screen {
     pub(crate) directions: wgpu::TextureView,
     pub(crate) places: wgpu::TextureView,
     pub(crate) visibility: wgpu::TextureView,
-    /// The four samples of a pixel in one number each.
+    /// The four samples of a pixel, in one number each.
     pub(crate) lit: wgpu::TextureView,
     pub(crate) picture: wgpu::TextureView,
     /// The nearest triangle of each sample of a band.
@@ -45,8 +44,11 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
-    pub(crate) fn new(renderer: &Renderer, size: [u32; 2], supersampling: u32) -> Result<Self, BackendError> {
-        let device = &renderer.device;
+    pub(crate) fn new(
+        device: &WgpuBackend,
+        size: [u32; 2],
+        supersampling: u32,
+    ) -> Result<Self, BackendError> {
         let large = size.map(|pixels| pixels * supersampling);
         let texture = |label, [width, height]: [u32; 2], layers, format, usage| {
             let texture = device.device().create_texture(&wgpu::TextureDescriptor {
@@ -77,11 +79,11 @@ impl Screen {
         let bytes = u64::from(row_bytes(size)) * u64::from(size[1]);
         let host = device.buffer("picture", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
         let key_bytes = key_row(large) * u64::from(large[1]);
-        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes).max(key_row(large));
-        let keys = renderer.buffer(
+        let most = KEYS_MOST.min(device.info().limits.binding_bytes).max(key_row(large));
+        let keys = device.buffer(
             "samples",
             key_bytes.min(most / key_row(large) * key_row(large)),
-            BufferUsages::STORAGE,
+            BufferUsages::STORAGE | BufferUsages::COPY_DST,
         )?;
         Ok(Self { size, supersampling, depths, directions, places, visibility, lit, picture, keys, host })
     }
@@ -96,19 +98,20 @@ impl Screen {
         self.size
     }
 
-    /// The same before it is scaled down to the picture's.
+    /// Width and height of the screen before it is scaled down to the picture, pixels.
     pub(crate) fn large(&self) -> [u32; 2] {
         self.size.map(|pixels| pixels * self.supersampling)
     }
 
-    /// The stretches of its rows that are drawn one after the other: there are keys for each.
+    /// The bands of rows that are drawn one after the other: each has as many rows as there are
+    /// keys for.
     pub(crate) fn bands(&self) -> impl Iterator<Item = Range<u32>> + use<> {
         let height = self.large()[1];
         let rows = (self.keys.size() / key_row(self.large())) as usize;
         (0..height).step_by(rows).map(move |first| first..height.min(first + rows as u32))
     }
 
-    /// Bytes of the keys of so many rows.
+    /// Bytes of the keys of `rows` rows.
     pub(crate) fn key_bytes(&self, rows: u32) -> u64 {
         u64::from(rows) * key_row(self.large())
     }
@@ -130,7 +133,7 @@ impl Screen {
         );
     }
 
-    /// Asks for the copy, once it is handed over, to be mapped.
+    /// Asks for the copy to be mapped, after it has been submitted.
     pub(crate) fn map(&self) {
         self.host.map_async(wgpu::MapMode::Read, .., |_| ());
     }
@@ -156,12 +159,12 @@ impl Screen {
     }
 }
 
-/// Bytes of the keys of a row of a screen this large.
+/// Bytes of the keys of one row of a screen.
 fn key_row(large: [u32; 2]) -> u64 {
     u64::from(large[0]) * u64::from(SAMPLES) * KEY_BYTES
 }
 
-/// Bytes of a row of the copy, which wgpu wants in multiples of 256.
+/// Bytes of a row of the copy: wgpu requires multiples of 256.
 fn row_bytes(size: [u32; 2]) -> u32 {
     (size[0] * COLOR_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use wgpu::{BufferUsages, Extent3d, Origin3d, TexelCopyBufferInfo, TexelCopyBufferLayout, TextureAspect};
 
-use crate::memory::read_mapped;
+use crate::mapped::read_mapped;
 use crate::{RenderError, Scene};
 
 /// What a picture shows at a point: the yarn, and where on its surface.
@@ -11,12 +11,12 @@ use crate::{RenderError, Scene};
 pub struct Seen {
     /// The number of the yarn, from 0.
     pub yarn: usize,
-    /// The place on its surface, mm, or on a fibre that stands off it. Where the yarn is cut open,
-    /// that on the far side of its inside.
+    /// The place on its surface, or on a fibre that stands off it, mm. Where a yarn is cut open,
+    /// the place lies on the far wall inside.
     pub position: [f64; 3],
 }
 
-/// Bytes of what is read of a sample: the place on its yarn, and its depth.
+/// Bytes that are read of a sample: its place on the yarn, and its depth.
 const PLACE_BYTES: u64 = 8;
 const DEPTH_BYTES: u64 = 4;
 
@@ -25,8 +25,8 @@ const MARKS: u32 = 0xc000_0000;
 
 impl Scene {
     /// What the last picture shows at a point, in pixels from its left and upper edges. None where
-    /// it shows no yarn, outside, and before the first picture. It is read from the picture's
-    /// samples, so it takes as long in a large fabric as in a small one.
+    /// it shows no yarn, outside the picture, and before the first one. It is read from the
+    /// picture's samples, so its cost does not grow with the fabric.
     ///
     /// ```no_run
     /// # fn example(scene: &texere_render::Scene) -> Result<(), texere_render::RenderError> {

@@ -14,11 +14,12 @@ const REACH_RADII: f32 = 5.0;
 /// How far shadows fall, radii of a yarn.
 const SHADOW_RADII: f32 = 9.0;
 
-/// How thick what casts a shadow is taken to be, radii of a yarn: two yarns, one on the other.
+/// The thickness that anything that casts a shadow is taken to have, radii of a yarn: two yarns,
+/// one on the other.
 const THICKNESS_RADII: f32 = 4.0;
 
-/// Where all that takes light from a place lies within so many pixels of it, there is nothing to
-/// find on the screen.
+/// Least reach of ambient occlusion, pixels. Where everything that could take light from a place
+/// lies closer to it than this, the screen shows nothing of it, and visibility is not looked for.
 const LEAST_REACH: f32 = 1.5;
 
 /// `View` of `view.wgsl`.
@@ -50,8 +51,8 @@ const _: () = assert!(size_of::<ViewUniform>() == 256);
 
 impl ViewUniform {
     /// `may_have_hairs`: whether fibres stand off the yarns and are wanted. They are shown where
-    /// threads are four pixels wide or more, since of finer ones no fibre would be seen, and not in
-    /// cuts, where those of the whole cloth would lie before one another.
+    /// threads are four pixels wide or more; on finer threads no fibre could be seen. Cuts show
+    /// none: there the hairs of the whole cloth would lie one before another.
     pub(crate) fn new(
         camera: &Camera,
         background: Background,
@@ -97,22 +98,22 @@ impl ViewUniform {
         self.has_hairs != 0
     }
 
-    /// Whether visibility is not looked for on the screen, since all that takes light from a place
-    /// lies too near it there.
+    /// Whether visibility is left out, as [`LEAST_REACH`] says.
     pub(crate) fn is_far(&self) -> bool {
         self.reach_pixels < LEAST_REACH
     }
 }
 
-/// How far pixels reach for their samples where threads are so thick, pixels: the threads' own
-/// pattern is finer than a pixel can show below two, and what it has that is as fine goes from
-/// there to four.
+/// How far a pixel reaches for its samples where threads are `thickness` pixels wide, pixels. Below
+/// two pixels the threads' own pattern is finer than pixels can show, and the reach is a whole
+/// pixel. Up to four pixels it fades to 0.
 fn spread(thickness: f32) -> f32 {
     (2.0 - 0.5 * thickness).clamp(0.0, 1.0)
 }
 
-/// The direction to the key light: from the left, high, a little from beyond the cloth, so that
-/// threads across and along shine by turns. For a cut, where beyond is up, from the eye's side.
+/// The direction to the key light. It stands high on the left and a little beyond the cloth, so
+/// that threads across and along shine by turns. In a cut, where beyond is up, it stands on the
+/// eye's side.
 fn key_light(camera: &Camera, up: Vec3) -> Vec3 {
     let [right, above] = camera.across();
     let (height, beyond) = if camera.cuts {
@@ -138,9 +139,9 @@ pub(crate) struct YarnLook {
 const _: () = assert!(size_of::<YarnLook>() == 32);
 
 impl YarnLook {
-    /// How each yarn of a fabric looks, whose rings are so far apart, mm. A yarn without twist is
-    /// taken for filament, smooth as silk, one with twist for spun staple; widths are of the order
-    /// that Sadeghi et al. 2013 measured on silk and on linen.
+    /// The looks of all yarns of a fabric. `ring_lengths`: the mean way from ring to ring of each
+    /// yarn, mm. A yarn without twist is taken for filament, smooth as silk; a twisted yarn for
+    /// spun staple. Widths are of the order that Sadeghi et al. 2013 measured on silk and on linen.
     pub(crate) fn all(yarns: &Yarns, ring_lengths: &[f32]) -> Vec<Self> {
         let degrees = f32::to_radians;
         let look = |(yarn, &ring_length): (&texere_core::Yarn, &f32)| {

@@ -14,24 +14,24 @@ use texere::picture::{DevicePicture, Picture, PictureTimings, Quality, RenderErr
 use texere::read::NamedPlace;
 use texere::yarn::YarnPlace;
 
+use crate::messages::Cloth;
 use crate::orbit::{Orbit, Side};
-use crate::workshop::Cloth;
 
-/// How long the view has to rest before it is drawn as well as it can be.
+/// How long the view has to rest before it is drawn at its best.
 const REST: Duration = Duration::from_millis(200);
 
-/// What a picture may take while the view moves. One that takes longer is drawn with fewer pixels
-/// next time, one that takes far less with more.
+/// The time that a picture may take while the view moves. After a longer one the next has fewer
+/// pixels, after a far shorter one more.
 const MOVING: Duration = Duration::from_millis(60);
 
-/// What a picture may take when the view rests. Where the best would take longer, it has fewer
-/// samples.
+/// The time that a picture may take when the view rests. Where the best would take longer, it has
+/// fewer samples.
 const RESTING: Duration = Duration::from_secs(1);
 
-/// Pixels of the window for one of the picture at most, each way.
+/// The most pixels of the window for one of the picture, each way.
 const COARSEST: u32 = 4;
 
-/// How much a notch of the wheel brings nearer, by its points.
+/// The logarithm by which one point of the wheel brings the eye nearer.
 const NEARER: f32 = 0.0025;
 
 /// What a picture was drawn of.
@@ -52,10 +52,10 @@ struct Fineness {
 }
 
 impl Fineness {
-    /// What takes least of all pictures that have all pixels.
+    /// The fastest picture with all pixels.
     const PLAIN: Self = Self { supersampling: 1, coarseness: 1, hairs: false };
 
-    /// How fine the next picture may be while the view moves, where the last one, this fine, took
+    /// The fineness of the next picture while the view moves. The last one was this fine and `took`
     /// so long.
     fn moving(self, took: Duration) -> Self {
         let coarseness = match self.coarseness {
@@ -66,7 +66,8 @@ impl Fineness {
         Self { coarseness, ..Self::PLAIN }
     }
 
-    /// How fine a picture may be when the view rests.
+    /// The fineness of a picture when the view rests. The last one was this fine and `took` so
+    /// long.
     fn resting(self, took: Duration) -> Self {
         let best = Quality::default().supersampling;
         let more = best * self.coarseness / self.supersampling;
@@ -85,7 +86,7 @@ enum Made {
 
 /// What the window shows.
 enum Shown {
-    /// A texture of the scene's, which is another where the picture has another size.
+    /// A texture of the scene's. A picture of another size has another texture.
     There(TextureId, wgpu::TextureView),
     Copied(TextureHandle),
 }
@@ -98,31 +99,31 @@ pub(crate) struct Canvas {
     /// None until a cloth has been shown.
     orbit: Option<Orbit>,
     shown: Option<Shown>,
-    /// What the last picture shows, or the one that is under way.
+    /// The look of the last picture, or of the one that is under way.
     drawn: Option<Look>,
-    /// The picture that is under way: a thread of its own waits for the device, for the window
-    /// could not hear that it is closed meanwhile.
+    /// The picture that is under way. A thread of its own waits for the device, so that the window
+    /// can be closed meanwhile.
     under_way: Option<Receiver<Result<Made, RenderError>>>,
-    /// How fine the last picture is, and the last one while the view moved.
+    /// The fineness of the last picture, and of the last one while the view moved.
     fineness: Fineness,
     fineness_moving: Fineness,
-    /// Whether the last picture is as fine as it gets, and since when the view is as it is.
+    /// Whether the last picture is as fine as it gets, and since when the view rests.
     rests: bool,
     rests_since: Instant,
     pub(crate) timings: PictureTimings,
-    /// What went wrong with the last picture.
+    /// The failure of the last picture.
     pub(crate) failure: Option<String>,
-    /// Where the pointer was when it was asked last what lies there, and what that was.
+    /// The pointer's last place that was looked up, and the yarn found there.
     pointed: Option<(Pos2, Option<NamedPlace>)>,
-    /// Where a click waits for the picture that it is on.
+    /// The place of a click that waits for the picture under way.
     clicked: Option<Pos2>,
 }
 
-/// What a person points at.
+/// The yarns under the pointer.
 pub(crate) struct Pointed {
     /// What lies under the pointer.
     pub(crate) place: Option<NamedPlace>,
-    /// What was clicked on.
+    /// The place that was clicked on.
     pub(crate) clicked: Option<NamedPlace>,
 }
 
@@ -159,7 +160,7 @@ impl Canvas {
         self.pointed = None;
     }
 
-    /// What the eye looks at, once there is a cloth.
+    /// The eye, once there is a cloth.
     pub(crate) const fn orbit_mut(&mut self) -> Option<&mut Orbit> {
         self.orbit.as_mut()
     }
@@ -171,7 +172,7 @@ impl Canvas {
         (size, 4 * supersampling.pow(2))
     }
 
-    /// Shows the cloth in what is left of the window, and lets a pointer move it.
+    /// Shows the cloth in the rest of the window, and lets a pointer move it.
     pub(crate) fn show(&mut self, ui: &mut Ui, cloth: &Cloth) -> Pointed {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         let scale = ui.pixels_per_point();
@@ -197,14 +198,14 @@ impl Canvas {
         Pointed { place, clicked: clicked.and_then(|at| self.named(cloth, at, rect, scale)) }
     }
 
-    /// Draws the cloth where the last picture shows something else or could show it better.
+    /// Draws the cloth if the last picture shows another view or could be finer.
     fn draw(&mut self, ui: &Ui, cloth: &Cloth, look: Look) {
         if self.is_under_way(ui) {
             return;
         }
         let took = self.timings.draw + self.timings.shade;
         if self.drawn != Some(look) {
-            // A picture of a view at rest says nothing of one that moves.
+            // The time of a picture at rest does not predict that of one that moves.
             self.fineness = if self.rests { self.fineness_moving } else { self.fineness.moving(took) };
             self.fineness_moving = self.fineness;
             (self.rests, self.rests_since) = (false, Instant::now());
@@ -243,7 +244,7 @@ impl Canvas {
                 scene.frame(&camera, quality).map(Made::There)
             };
             drop(scene);
-            // Nobody waits for it where another cloth came.
+            // The receiver is gone if another cloth came meanwhile.
             let _ = done.send(picture);
             window.request_repaint();
         };
@@ -303,7 +304,7 @@ impl Canvas {
         }
     }
 
-    /// What lies under the pointer, in a designer's words.
+    /// The place under the pointer, in a designer's words.
     fn named(&mut self, cloth: &Cloth, at: Pos2, rect: Rect, scale: f32) -> Option<NamedPlace> {
         if let Some((before, place)) = &self.pointed
             && *before == at
@@ -313,7 +314,7 @@ impl Canvas {
         let scene = match cloth.scene.try_lock() {
             Ok(scene) => scene,
             Err(TryLockError::Poisoned(scene)) => scene.into_inner(),
-            // Until the picture is made that is under way, what was there is.
+            // While a picture is under way the last answer stays.
             Err(TryLockError::WouldBlock) => {
                 return self.pointed.as_ref().and_then(|(_, place)| place.clone());
             }
@@ -364,7 +365,7 @@ mod tests {
 
     const MILLISECOND: Duration = Duration::from_millis(1);
 
-    /// A device that draws a pixel with four samples in so long.
+    /// The time of a picture on a device that takes `whole` for all pixels with four samples each.
     fn took(fineness: Fineness, whole: Duration) -> Duration {
         whole * fineness.supersampling.pow(2) / fineness.coarseness.pow(2)
     }

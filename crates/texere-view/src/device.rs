@@ -7,8 +7,8 @@ use texere::DeviceInfo;
 use texere::gpu::WgpuBackend;
 use texere::gpu::wgpu::{Adapter, Backends, InstanceFlags, Surface};
 
-/// How the window opens the device called `name`: as [`WgpuBackend::open`] does, but one that can
-/// draw into the window.
+/// How the window opens the device called `name`: as [`WgpuBackend::open`] does, with the ability
+/// to draw into the window.
 pub(crate) fn configuration(name: String) -> WgpuConfiguration {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = Backends::VULKAN | Backends::METAL | Backends::DX12;

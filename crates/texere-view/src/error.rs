@@ -14,14 +14,14 @@ pub enum ViewError {
     /// The design can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The section that was asked for does not go with the design; with the file, line and key that
-    /// it does not go with.
+    /// The design does not allow [`View::section`](crate::View::section); with file, line and key
+    /// of the design.
     #[error(transparent)]
     Refused(Box<Refusal>),
-    /// The device.
+    /// The device can't be opened, or failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// The system has no place for a window, or its driver can't draw there.
+    /// The system opens no window, or its driver can't draw into one.
     #[error("no window can be opened")]
     Window(#[source] Box<dyn Error>),
 }

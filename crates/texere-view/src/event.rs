@@ -1,4 +1,4 @@
-//! What happens in a window, for the program that has opened it.
+//! Events of a window, for the program that has opened it.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use texere::check::Crossing;
 use texere::read::NamedPlace;
 
-/// What has happened in a window. It is written in a line of its own.
+/// An event of a window. It is printed as one line.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Event {
@@ -34,15 +34,14 @@ pub enum Event {
     Saved {
         /// The file.
         path: PathBuf,
-        /// What a design file has no place for.
+        /// Parts of the design that a design file has no place for.
         left_out: Vec<String>,
     },
-    /// What was asked for could not be done, or the design's file is broken: the cloth is shown as
-    /// it was.
+    /// An order failed, or the design's file is broken. The cloth is shown as it was.
     Failed(String),
     /// The window was told to close. [`View::open`](crate::View::open) returns when the device has
-    /// done what it is at, which may take seconds; a program that has nothing else to do may end
-    /// here.
+    /// finished its present work, which may take seconds. A program with nothing else to do may
+    /// exit here.
     Closed,
 }
 

@@ -1,4 +1,4 @@
-//! Where the eye is: it goes round a point of the cloth.
+//! The eye, which goes round a point of the cloth.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -18,10 +18,10 @@ const REACH: [f32; 2] = [1e-5, 20.0];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Orbit {
     target: Vec3,
-    /// About z, radians: 0 is seen from below the cloth's lower edge, and grows counter-clockwise
-    /// as seen from above.
+    /// The angle about z, radians: 0 looks from the cloth's lower edge, and it grows
+    /// counter-clockwise as seen from above.
     turn: f32,
-    /// Over the cloth's plane, radians: from straight above to straight below.
+    /// The angle over the cloth's plane, radians, from π/2 straight above to -π/2 straight below.
     height: f32,
     /// From the target to the eye, mm.
     distance: f32,
@@ -39,7 +39,7 @@ pub(crate) enum Side {
 }
 
 impl Orbit {
-    /// The whole cloth, in pictures of such a shape.
+    /// The view of the whole cloth, for pictures of `size`, pixels.
     pub(crate) fn whole(extent: &Extent, side: Side, size: [u32; 2]) -> Self {
         let (low, high) = (Vec3::from(extent.low), Vec3::from(extent.high));
         let (turn, height) = match side {
@@ -59,7 +59,7 @@ impl Orbit {
         Self { distance: distance.max(f32::MIN_POSITIVE), ..orbit }
     }
 
-    /// What is right and up in the picture, and the direction to the eye.
+    /// Unit vectors to the right and up in the picture, and towards the eye.
     fn axes(&self) -> [Vec3; 3] {
         let ((sine, cosine), (high, flat)) = (self.turn.sin_cos(), self.height.sin_cos());
         let toward = Vec3::new(sine * flat, -cosine * flat, high);
@@ -67,14 +67,14 @@ impl Orbit {
         [above.cross(toward), above, toward]
     }
 
-    /// What the picture's height shows at the target, mm.
+    /// The length that the picture's height spans at the target, mm.
     fn height_mm(&self) -> f32 {
         2.0 * self.distance * (0.5 * Camera::FIELD_OF_VIEW).tan()
     }
 
-    /// The view, for pictures of such a size.
+    /// The camera for pictures of `size`, pixels.
     ///
-    /// **Errors**: those of [`Camera::perspective`].
+    /// **Errors**: the errors of [`Camera::perspective`].
     pub(crate) fn camera(&self, extent: &Extent, size: [u32; 2]) -> Result<Camera, RenderError> {
         let [_, above, toward] = self.axes();
         let eye = self.target + toward * self.distance;
@@ -86,21 +86,21 @@ impl Orbit {
         }
     }
 
-    /// Goes round the target, as a drag over so many pixels to the right and down asks.
+    /// Goes round the target after a drag by these numbers of pixels to the right and down.
     pub(crate) fn turn(&mut self, [right, down]: [f32; 2]) {
         self.turn -= right * TURN;
         self.height = (self.height + down * TURN).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
-    /// Takes the cloth along with a drag, in a picture of `size`, pixels.
+    /// Moves the cloth with a drag, in a picture of `size`, pixels.
     pub(crate) fn pan(&mut self, [right, down]: [f32; 2], size: [u32; 2]) {
         let pixel = self.height_mm() / size[1].max(1) as f32;
         let [across, above, _] = self.axes();
         self.target += (above * down - across * right) * pixel;
     }
 
-    /// Comes nearer by `factor`, above 1, or goes away; what lies at the point `at` of a picture of
-    /// `size`, pixels, stays there.
+    /// Comes nearer by a `factor` above 1, or goes away by one below 1. The point of the cloth at
+    /// `at` in a picture of `size`, pixels, stays there.
     pub(crate) fn zoom(&mut self, factor: f32, at: [f32; 2], size: [u32; 2], extent: &Extent) {
         let diagonal = Vec3::from(extent.high).distance(Vec3::from(extent.low));
         let distance = (self.distance / factor).clamp(diagonal * REACH[0], diagonal * REACH[1]);

@@ -1,13 +1,13 @@
-//! What stands beside the cloth: its name, what can be chosen, and how long a picture takes.
+//! The panel beside the cloth: its name, choices, and how long a picture takes.
 
 use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, SliderClamping, Ui};
 use texere::Settings;
 use texere::mesh::TWIST_SUBDIVISIONS_MAX;
 
 use crate::Event;
+use crate::messages::{Cloth, Order};
 use crate::orbit::Side;
 use crate::window::Window;
-use crate::workshop::{Cloth, Order};
 
 impl<T: FnMut(&Event)> Window<T> {
     /// Shows the panel at the left.
@@ -59,7 +59,7 @@ impl<T: FnMut(&Event)> Window<T> {
     fn mesh(&self, ui: &mut Ui, cloth: &Cloth) {
         let Settings { mut sides, mut subdivisions, .. } = cloth.settings;
         let mut tension = cloth.yarns.tension();
-        // A polygon has the sides that it has.
+        // The sides of a polygon are fixed.
         let is_round = cloth.yarns.layout().corners().is_none();
         let changed = [
             ui.add_enabled(

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// When a file was written last, and how long it is. None where there is no such file.
+/// When a file was written last, and its length in bytes. None if there is no such file.
 type Stamp = Option<(SystemTime, u64)>;
 
 /// The files of a design, as they were when it was read.
@@ -14,16 +14,15 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Watches `files` from now on. A design is to be read after this and not before, so that no
-    /// change is missed.
+    /// Watches `files` from now on. Read the design after this call, so that no change is missed.
     pub(crate) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let mut watch = Self { files: Vec::new() };
         watch.follow(files);
         watch
     }
 
-    /// Watches these from now on, and those among them that were watched before as they were seen
-    /// last.
+    /// Watches these files from now on. A file that was watched before is still compared with its
+    /// last state.
     pub(crate) fn follow(&mut self, files: impl IntoIterator<Item = PathBuf>) {
         let before = std::mem::take(&mut self.files);
         let known = |file: &PathBuf| before.iter().find(|(known, _)| known == file).map(|(_, stamp)| *stamp);
@@ -36,12 +35,12 @@ impl Watch {
             .collect();
     }
 
-    /// Whether one of them is another than when [`Watch::changed`] was asked last.
+    /// Whether a file differs from its state at the last call of [`Watch::changed`].
     pub(crate) fn is_stale(&self) -> bool {
         self.files.iter().any(|(file, before)| stamp(file) != *before)
     }
 
-    /// Whether one of them is another than when this was asked last.
+    /// Whether a file differs from its state at the last call.
     pub(crate) fn changed(&mut self) -> bool {
         let mut changed = false;
         for (file, before) in &mut self.files {
@@ -72,7 +71,7 @@ mod tests {
         fs::write(&design, "one").unwrap();
         let mut watch = Watch::new([design.clone()]);
         assert!(!watch.changed());
-        // While it was read it changed, and it names another file.
+        // It changed while it was read, and it names another file now.
         fs::write(&design, "one and two").unwrap();
         watch.follow([design.clone(), image.clone()]);
         assert!(watch.changed() && !watch.changed());

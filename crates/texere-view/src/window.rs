@@ -15,97 +15,110 @@ use texere::picture::Renderer;
 use texere::read::NamedPlace;
 
 use crate::canvas::{Canvas, Pointed};
+use crate::messages::{Cloth, News, Order};
 use crate::orbit::Side;
 use crate::watch::Watch;
-use crate::workshop::{Cloth, News, Order, Workshop};
+use crate::workshop::Workshop;
 use crate::{Event, View, ViewError, device};
 
-/// How long a picture that the device refused is not tried again.
+/// The wait after which a picture that the device refused is tried again.
 const AGAIN: Duration = Duration::from_millis(50);
 
-/// How long a window that closes waits for the workshop: what it does on the device would keep the
-/// device from going.
+/// How long a window that closes waits for the workshop. A device can't be dropped while the
+/// workshop uses it.
 const LEAVING: Duration = Duration::from_millis(500);
 
-/// Opens the window and waits until it is closed.
-pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
-    let mut watch = Watch::new([view.design.clone()]);
-    let design = view.read()?;
-    watch.follow(design.files().iter().cloned());
-    // What opens the window says of a wrong name only that it failed.
-    texere::picture::picture_device(&view.device, &WgpuBackend::devices()?)?;
-    let options = eframe::NativeOptions {
-        viewport: ViewportBuilder::default()
-            .with_title(format!("{} - texere", design.name))
-            .with_inner_size(view.size.map(|points| points as f32)),
-        renderer: eframe::Renderer::Wgpu,
-        wgpu_options: device::configuration(view.device.clone()),
-        ..Default::default()
-    };
-    let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let render = context.wgpu_render_state.clone().ok_or("no device")?;
-        // A device takes one thing after the other, and a processor takes seconds for a cloth: the
-        // window would wait behind it, and not hear that it is closed. A copy costs next to nothing
-        // there.
-        let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let renderer = if is_apart {
-            texere::picture::open_renderer(&view.device)?
-        } else {
-            let (device, queue) = (render.device.clone(), render.queue.clone());
-            Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
+impl View {
+    /// Opens the window and waits until it is closed. `tell` learns what happens in it.
+    ///
+    /// ```no_run
+    /// texere_view::View::of("designs/herringbone.wif").open(|event| println!("{event}"))?;
+    /// # Ok::<(), texere_view::ViewError>(())
+    /// ```
+    ///
+    /// Call it on the program's main thread: other threads may not open windows on every system.
+    ///
+    /// **Errors**: [`ViewError`].
+    pub fn open(self, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
+        let mut watch = Watch::new([self.design.clone()]);
+        let design = self.read()?;
+        watch.follow(design.files().iter().cloned());
+        // eframe does not tell why a wrong name fails, so the name is checked first.
+        texere::picture::picture_device(&self.device, &WgpuBackend::devices()?)?;
+        let options = eframe::NativeOptions {
+            viewport: ViewportBuilder::default()
+                .with_title(format!("{} - texere", design.name))
+                .with_inner_size(self.size.map(|points| points as f32)),
+            renderer: eframe::Renderer::Wgpu,
+            wgpu_options: device::configuration(self.device.clone()),
+            ..Default::default()
         };
-        // The surface can't take another size while the workshop hands the device work, and what is
-        // drawn for the new size does not go with the old one. Every call of ours is in a scope, so
-        // nothing else comes here. The next picture asks the surface anew.
-        let window = context.egui_ctx.clone();
-        render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
-        let ((orders, taken), (news, told)) = (channel(), channel());
-        let is_closing = Arc::new(AtomicBool::new(false));
-        let workshop = Workshop {
-            orders: taken,
-            is_closing: is_closing.clone(),
-            news,
-            window: context.egui_ctx.clone(),
-            renderer,
-            view,
-            watch,
-            design,
-            colors: BTreeMap::new(),
-            lifts: Vec::new(),
-            settler: None,
-            yarns: None,
+        let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+            let render = context.wgpu_render_state.clone().ok_or("no device")?;
+            // A device does its work in order, and a processor takes seconds for a cloth: the
+            // window would wait behind it, and could not be closed. So the cloth has a device of
+            // its own there, from which a copy costs next to nothing.
+            let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+            let renderer = if is_apart {
+                texere::picture::open_renderer(&self.device)?
+            } else {
+                let (device, queue) = (render.device.clone(), render.queue.clone());
+                Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
+            };
+            // The surface can't be resized while the workshop gives the device work, and drawing at
+            // the new size then fails on the old surface. Our own calls are in error scopes, so
+            // only that failure comes here. The next picture tries again.
+            let window = context.egui_ctx.clone();
+            render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
+            let ((orders, taken), (news, told)) = (channel(), channel());
+            let is_closing = Arc::new(AtomicBool::new(false));
+            let workshop = Workshop {
+                orders: taken,
+                is_closing: is_closing.clone(),
+                news,
+                window: context.egui_ctx.clone(),
+                renderer,
+                view: self,
+                watch,
+                design,
+                colors: BTreeMap::new(),
+                lifts: Vec::new(),
+                settler: None,
+                yarns: None,
+            };
+            let workshop = thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
+            Ok(Box::new(Window {
+                canvas: Canvas::new(render, is_apart),
+                orders,
+                is_closing,
+                workshop,
+                news: told,
+                cloth: None,
+                settling: None,
+                said: None,
+                lifts: false,
+                place: None,
+                tell,
+            }))
         };
-        let workshop = thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
-        Ok(Box::new(Window {
-            canvas: Canvas::new(render, is_apart),
-            orders,
-            is_closing,
-            workshop,
-            news: told,
-            cloth: None,
-            settling: None,
-            said: None,
-            lifts: false,
-            place: None,
-            tell,
-        }))
-    };
-    eframe::run_native("texere", options, Box::new(start)).map_err(|error| ViewError::Window(error.into()))
+        eframe::run_native("texere", options, Box::new(start))
+            .map_err(|error| ViewError::Window(error.into()))
+    }
 }
 
 /// All that the window shows.
 pub(crate) struct Window<T> {
     pub(crate) canvas: Canvas,
     orders: Sender<Order>,
-    /// What the workshop looks at while it works.
+    /// Read by the workshop while it works.
     is_closing: Arc<AtomicBool>,
     workshop: JoinHandle<()>,
     news: Receiver<News>,
-    /// None until the first one is made.
+    /// None until the first cloth is made.
     pub(crate) cloth: Option<Box<Cloth>>,
-    /// The share that is done while yarns settle.
+    /// The share of the work that is done, while yarns settle.
     pub(crate) settling: Option<f64>,
-    /// What came of settling, or what failed.
+    /// The result of settling, or the last failure.
     pub(crate) said: Option<String>,
     /// Whether a click changes a lift.
     pub(crate) lifts: bool,
@@ -124,7 +137,7 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         if self.is_closing.load(Ordering::Relaxed) {
-            // Nobody would see another picture.
+            // No further picture would be seen.
             return;
         }
         while let Ok(news) = self.news.try_recv() {
@@ -134,8 +147,8 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
         self.panel(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
             let Some(cloth) = &self.cloth else {
-                // Still: what turns would be drawn without end, behind what the workshop has the
-                // device do.
+                // A still label: a spinner would be drawn without end, and each time wait for the
+                // workshop's work on the device.
                 ui.centered_and_justified(|ui| ui.label("The cloth is being made."));
                 return;
             };
@@ -158,7 +171,7 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
 
 impl<T: FnMut(&Event)> Window<T> {
     pub(crate) fn order(&self, order: Order) {
-        // The workshop is there for as long as the window.
+        // The workshop lives as long as the window.
         let _ = self.orders.send(order);
     }
 
@@ -212,14 +225,14 @@ impl<T: FnMut(&Event)> Window<T> {
     }
 
     fn keys(&mut self, ui: &egui::Ui) {
-        // A text field has the keyboard for itself.
+        // A text field takes the keyboard.
         if ui.ctx().egui_wants_keyboard_input() {
             return;
         }
         let pressed = |wanted: Key, with: Modifiers| {
             ui.input(|input| {
                 input.events.iter().any(|event| {
-                    // One that is held down for long counts once.
+                    // A key that is held down counts once.
                     matches!(event, egui::Event::Key { key, pressed: true, repeat: false, modifiers, .. }
                         if *key == wanted && modifiers.matches_exact(with))
                 })

@@ -1,5 +1,4 @@
-//! Where cloth is made: a thread that reads the design, takes orders, and sends scenes to the
-//! window.
+//! The thread that makes cloth: it reads the design, takes orders, and sends scenes to the window.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -12,75 +11,27 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 use texere::mesh::Undersampled;
-use texere::picture::{Camera, Extent, Quality, RenderError, Renderer, Scene};
+use texere::picture::{Camera, Quality, RenderError, Renderer, Scene};
 use texere::read::Refusal;
 use texere::rest::{FinishError, RestReport};
 use texere::write::Output;
 use texere::{Backend, Design, Settings, Structure, Yarns};
 
 use crate::error::said;
+use crate::messages::{Cloth, News, Order};
 use crate::watch::Watch;
 use crate::{Event, View};
 
 /// How often files are looked at.
 const POLL: Duration = Duration::from_millis(150);
 
-/// How long a file has to stay as it is before it is read: an editor may be writing it.
+/// How long a file has to stay unchanged before it is read: an editor may be writing it.
 const WRITING: Duration = Duration::from_millis(40);
 
-/// How long a file is waited for that changes without end. Then it is read as it is.
+/// How long a file that keeps changing is waited for. Then it is read as it is.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What the window asks for.
-#[derive(Debug)]
-pub(crate) enum Order {
-    /// The warp above or below at a crossing, end and pick from 0.
-    Lift { end: usize, pick: usize, up: bool },
-    /// Takes back the last lift.
-    Undo,
-    /// Another colour, sRGB, for a material, from 0.
-    Color { material: usize, srgb: [u8; 3] },
-    /// Another mesh.
-    Settings(Settings),
-    /// Another tension of the yarns' splines.
-    Tension(f32),
-    /// Whether yarns settle.
-    Settle(bool),
-    /// A copy of the design as it is now.
-    Save,
-}
-
-/// A cloth on the device, and what it is made from.
-#[derive(Debug)]
-pub(crate) struct Cloth {
-    pub(crate) design: Arc<Design>,
-    pub(crate) yarns: Arc<Yarns>,
-    pub(crate) settings: Settings,
-    /// Held while a picture is made.
-    pub(crate) scene: Arc<Mutex<Scene>>,
-    pub(crate) extent: Extent,
-    pub(crate) triangles: u64,
-    /// Whether its yarns have settled.
-    pub(crate) is_settled: bool,
-    /// Whether lifts can be taken back.
-    pub(crate) is_edited: bool,
-    /// That it does not hang together, if so.
-    pub(crate) apart: Vec<String>,
-    /// What the mesh does not show of twist.
-    pub(crate) undersampled: Option<Undersampled>,
-}
-
-/// What the window is told.
-#[derive(Debug)]
-pub(crate) enum News {
-    Cloth(Box<Cloth>),
-    /// Yarns settle: the share of the work that is done, or what has come of it.
-    Settling(f64),
-    Settled(String),
-    Event(Event),
-}
-
-/// What an order makes necessary.
+/// The work that an order makes necessary, least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Change {
     Nothing,
@@ -88,13 +39,13 @@ enum Change {
     Yarns,
 }
 
-/// All that a cloth is made from.
+/// Everything that a cloth is made from.
 pub(crate) struct Workshop {
     pub(crate) orders: Receiver<Order>,
-    /// Whether the window is being closed: what is done then is for nobody.
+    /// Whether the window is being closed, so that all work can stop.
     pub(crate) is_closing: Arc<AtomicBool>,
     pub(crate) news: Sender<News>,
-    /// What waits for news.
+    /// The window, which is asked to repaint for news.
     pub(crate) window: egui::Context,
     pub(crate) renderer: Renderer,
     pub(crate) view: View,
@@ -105,7 +56,8 @@ pub(crate) struct Workshop {
     /// Lifts as they were before they were changed: end and pick from 0, and whether the warp was
     /// up.
     pub(crate) lifts: Vec<(usize, usize, bool)>,
-    /// Where yarns settle, once they have: drivers do not give back all that a device took.
+    /// The device on which yarns settle, opened once: drivers do not free everything that a device
+    /// took.
     pub(crate) settler: Option<Box<dyn Backend>>,
     /// The yarns that are shown, and whether they have settled.
     pub(crate) yarns: Option<(Arc<Yarns>, bool)>,
@@ -124,7 +76,7 @@ impl Workshop {
             }
             change = match waiting.take().map_or_else(|| self.orders.recv_timeout(POLL), Ok) {
                 Ok(first) => {
-                    // A slider sends many, and only the last cloth is seen.
+                    // A slider sends many orders, and only the last cloth is seen.
                     let mut change = self.take(first);
                     while let Ok(next) = self.orders.try_recv() {
                         change = change.max(self.take(next));
@@ -142,7 +94,7 @@ impl Workshop {
     }
 
     fn tell(&self, news: News) {
-        // Where the window is gone, so is the one who would be told.
+        // If the window is gone, the news is of no use.
         let _ = self.news.send(news);
         self.window.request_repaint();
     }
@@ -151,7 +103,7 @@ impl Workshop {
         self.tell(News::Event(Event::Failed(what)));
     }
 
-    /// Does what is ordered, up to the yarns.
+    /// Carries out an order, except for the yarns and the scene. Returns what has to be made again.
     fn take(&mut self, order: Order) -> Change {
         match order {
             Order::Lift { end, pick, up } => {
@@ -218,8 +170,8 @@ impl Workshop {
         }
     }
 
-    /// Writes the design as it is now beside the one that it was read from. No file that is there
-    /// is replaced.
+    /// Writes the design as it is now beside the file that it was read from. No existing file is
+    /// replaced.
     fn save(&self) -> Result<Event, String> {
         let mut design = self.design.clone();
         if let Structure::Woven(woven) = &mut design.structure {
@@ -233,8 +185,7 @@ impl Workshop {
         Ok(Event::Saved { path, left_out })
     }
 
-    /// Reads the design again where one of its files has changed. One that is broken changes
-    /// nothing.
+    /// Reads the design again if one of its files has changed. A broken file changes nothing.
     fn reload(&mut self) -> Change {
         if !self.watch.changed() {
             return Change::Nothing;
@@ -261,8 +212,8 @@ impl Workshop {
         }
     }
 
-    /// Makes the yarns and shows them, and again when they have settled, if they do. Gives an order
-    /// that came meanwhile.
+    /// Makes the yarns and shows them, and shows them again once they have settled. Returns an
+    /// order that came meanwhile.
     fn weave(&mut self) -> Option<Order> {
         let placed = self.design.yarns();
         match placed.and_then(|yarns| Ok(yarns.with_tension(self.view.tension)?)) {
@@ -285,10 +236,10 @@ impl Workshop {
                 }
                 self.tell(News::Settled(said));
             }
-            // It was stopped, for there is something else to be done.
+            // It was stopped for an order or a changed file.
             Err(_) if order.is_some() || self.watch.is_stale() => self.tell(News::Settled(String::new())),
             Err(error) => {
-                // It may be gone.
+                // The device may be lost.
                 self.settler = None;
                 self.tell(News::Settled(said(&error)));
             }
@@ -306,7 +257,7 @@ impl Workshop {
             Some(device) => device,
             None => settler.insert(texere::open(&view.device).map_err(FinishError::from)?),
         };
-        // Moved in, for a receiver can be sent to other threads but not shared with them.
+        // The closure owns these: a receiver can be sent to other threads but not shared with them.
         let progress = move |share| {
             let is_open = news.send(News::Settling(share)).is_ok() && !is_closing.load(Ordering::Relaxed);
             window.request_repaint();
@@ -329,8 +280,8 @@ impl Workshop {
         self.show();
     }
 
-    /// Gives the yarns the colours that were chosen, if any were: that copies yarns which the
-    /// window still shows.
+    /// Gives the yarns the colours that were chosen, if any. Yarns that the window still shows are
+    /// copied for it.
     fn paint(&mut self) {
         let Some((yarns, _)) = self.yarns.as_mut().filter(|_| !self.colors.is_empty()) else { return };
         let mut materials = yarns.materials().to_vec();
@@ -378,7 +329,7 @@ impl Workshop {
     }
 }
 
-/// `cloth-edited.toml` for `cloth.wif`, or with a number where that is there already.
+/// `cloth-edited.toml` for `cloth.wif`, with a number if that file exists already.
 fn free_beside(design: &Path) -> PathBuf {
     let named = |number: u32| {
         let mut name = design.file_stem().unwrap_or_default().to_owned();
@@ -389,8 +340,8 @@ fn free_beside(design: &Path) -> PathBuf {
     first_free.unwrap_or_else(|| named(u32::MAX))
 }
 
-/// A scene that is ready to be drawn: what only its first picture takes is done, so that the window
-/// need not wait for it.
+/// A scene that is ready to be drawn. A small first picture does the work of any first picture, so
+/// that the window need not wait for it.
 fn scene(renderer: &Renderer, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
     let mut scene = renderer.scene(yarns, settings)?;
     let camera = Camera::face(scene.extent(), [8, 8]);

@@ -1,4 +1,4 @@
-//! A few numbers that come back from the device after its work.
+//! Answers: a few numbers that a device returns after its work.
 
 use bytemuck::Pod;
 use texere_core::BackendError;
@@ -7,7 +7,7 @@ use wgpu::{BufferUsages, CommandEncoder, MapMode};
 use crate::gpu::Gpu;
 use crate::mapped::Mapped;
 
-/// A small buffer that the host reads.
+/// A small buffer through which the host reads.
 #[derive(Debug)]
 pub(crate) struct Answer {
     buffer: wgpu::Buffer,
@@ -19,8 +19,8 @@ impl Answer {
         Ok(Self { buffer: gpu.buffer("readback", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)? })
     }
 
-    /// Hands over what `record` records, and waits for `count` numbers of `source` from number
-    /// `first` on, as they are after that.
+    /// Submits what `record` records, and waits. Returns `count` numbers of `source` from number
+    /// `first` on, as they are after that work.
     pub(crate) fn after<T: Pod>(
         &self,
         gpu: &Gpu,

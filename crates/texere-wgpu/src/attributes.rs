@@ -4,7 +4,7 @@ use texere_core::BackendError;
 use texere_shaders::{ATTRIBUTES_OF_CAPS, ATTRIBUTES_OF_TUBES, BLOCK_LENGTHS, YARN_LENGTHS};
 
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 /// The compiled shaders that make attributes.
 #[derive(Debug)]
@@ -18,7 +18,7 @@ pub(crate) struct AttributeKernels {
 impl AttributeKernels {
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
-        // They do not depend on sizes.
+        // Attributes do not depend on sizes.
         let kernel = |shader| Kernel::new(gpu, shader, false);
         Ok(Self {
             block_lengths: kernel(&BLOCK_LENGTHS)?,

@@ -5,14 +5,14 @@ use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
 
-/// Device memory that grows with what it has to hold.
+/// A buffer in device memory that grows with what it has to hold.
 #[derive(Debug)]
 pub(crate) struct Buffer {
     what: &'static str,
     usage: BufferUsages,
     buffer: wgpu::Buffer,
-    /// Whether anything was ever kept here: there is a `wgpu::Buffer` even before, since an empty
-    /// one can't be bound.
+    /// Whether it has ever held anything. There is a `wgpu::Buffer` even before, since wgpu can't
+    /// bind an empty one.
     used: bool,
 }
 
@@ -21,7 +21,7 @@ impl Buffer {
         Ok(Self { what, usage, buffer: gpu.buffer(what, 0, usage)?, used: false })
     }
 
-    /// Makes it at least `bytes` long; where that takes a new buffer, what it held is lost.
+    /// Makes it at least `bytes` long. What it held is lost where it has to grow.
     pub(crate) fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<&wgpu::Buffer, BackendError> {
         self.used |= bytes > 0;
         if self.buffer.size() < bytes {

@@ -1,4 +1,4 @@
-//! Device memory of a chunk in flight: its tables and its results.
+//! The device memory of a chunk in flight: its tables and its results.
 
 use std::ops::Range;
 
@@ -13,12 +13,13 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::tables::Tables;
 
-/// Memory of a chunk in flight. The next chunk but one uses it again.
+/// The memory of a chunk in flight. The next chunk but one takes it again.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,
     window: Range<u64>,
-    /// Rows of the block table, one a workgroup or, per yarn, a lane.
+    /// Rows of the block table. A row is the work of a workgroup or, in the schedule per-yarn, of a
+    /// lane.
     pub(crate) rows: u32,
     /// Vertices of all caps.
     pub(crate) cap_vertices: u32,
@@ -28,9 +29,9 @@ pub(crate) struct ChunkMemory {
     pub(crate) rings: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
-    /// Empty until they are asked for.
+    /// Empty until attributes are asked for.
     pub(crate) attributes: Buffer,
-    /// Likewise.
+    /// Empty until packed vertices are asked for.
     pub(crate) packed: Buffer,
 }
 
@@ -107,8 +108,7 @@ impl ChunkMemory {
         Ok(())
     }
 
-    /// What a shader that works on this chunk sees as `resource`; nothing where that is none of a
-    /// mesh.
+    /// The binding of `resource` for this chunk. None for a resource that is not of a mesh.
     pub(crate) fn resource<'a>(
         &'a self,
         tables: &'a Tables,

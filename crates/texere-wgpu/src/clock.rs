@@ -1,4 +1,4 @@
-//! How long each stage took, by the device's own clock where it lets it be read.
+//! The time of each stage, by the device's own clock where it can be read.
 
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
@@ -9,9 +9,9 @@ use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, Submissi
 
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
-/// Whether a device with `features` lets its clock be read. Without, the time of a launch is the
-/// host's: from handing the work over, or seeing the launch before it done where that is later, to
-/// seeing it done. The times of upload and readback are always the host's.
+/// Whether a device with `features` lets its clock be read. Without it the host times a launch,
+/// from its submission to its end as the host sees it. If the launch before ends later than that
+/// submission, the time begins there. Uploads and readbacks are always timed by the host.
 pub(crate) fn has_clock(features: Features) -> bool {
     features.contains(Features::TIMESTAMP_QUERY)
 }
@@ -24,7 +24,7 @@ pub(crate) enum Timed {
     Mesh,
 }
 
-/// Launches that can be timed at once; one more waits for the first of them.
+/// Launches that can be timed at once. One more waits for the first of them.
 const STAMPS: u32 = 16;
 
 /// Bytes of a stamp: the two ticks at which a launch began and ended.
@@ -35,12 +35,12 @@ const STAMP_BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
 pub(crate) struct Clock {
     stamps: Option<Stamps>,
     pending: Vec<Pending>,
-    /// When the last launch timed by the host was seen done.
+    /// The moment when the host saw the last launch done.
     seen: Option<Instant>,
     totals: StageTimings,
 }
 
-/// A launch that has not been seen done. `done` brings the moment when it was.
+/// A launch that the host has not yet seen done. `done` brings the moment when it is.
 #[derive(Debug)]
 struct Pending {
     timed: Timed,
@@ -56,7 +56,7 @@ struct Stamps {
     queries: wgpu::QuerySet,
     /// Ticks as queries resolve to them, one stamp each [`wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT`].
     resolved: wgpu::Buffer,
-    /// One a stamp, since a buffer that is mapped can't be copied to.
+    /// A buffer for each stamp, since a mapped buffer can't be copied to.
     mapped: Vec<wgpu::Buffer>,
     free: Vec<u32>,
     nanoseconds_per_tick: f64,
@@ -126,18 +126,18 @@ impl Clock {
     /// Waits for a launch, and takes its time.
     fn finish(&mut self, gpu: &Gpu, launch: Pending) -> Result<(), BackendError> {
         let waited = gpu.wait(launch.submission.clone());
-        // Another thread's poll may have found the work done, and be about to say so.
+        // Another thread's poll may have found the work done, and be about to report it.
         let done = if waited.is_ok() { launch.done.recv_timeout(WAIT_LIMIT).ok() } else { None };
         self.add(gpu, &launch, done);
         waited
     }
 
-    /// Adds the time of a launch that was seen done, or will never be.
+    /// Adds the time of a launch that was seen done, or that never will be.
     fn add(&mut self, gpu: &Gpu, launch: &Pending, done: Option<Instant>) {
         let time = match (&mut self.stamps, launch.stamp, done) {
             (Some(stamps), Some(stamp), _) => stamps.take(gpu, stamp),
             (_, _, Some(done)) => {
-                // One after the other on the queue, so that no moment counts for two.
+                // Launches follow one another on the queue, so no moment counts for two.
                 let started = self.seen.map_or(launch.launched, |seen| seen.max(launch.launched));
                 self.seen = Some(done);
                 done.saturating_duration_since(started)
@@ -152,7 +152,7 @@ impl Clock {
         *total += time;
     }
 
-    /// The times of all launches, which are waited for. Where the device is lost, those of the
+    /// Waits for all launches, and returns their times. Where the device is lost, the times of the
     /// launches before.
     pub(crate) fn totals(&mut self, gpu: &Gpu) -> StageTimings {
         for launch in std::mem::take(&mut self.pending) {
@@ -205,7 +205,7 @@ impl Stamps {
         }
     }
 
-    /// The time of a stamp whose buffer is mapped, none where the device is lost; the stamp is free
+    /// The time of a stamp whose buffer is mapped; zero where the device is lost. The stamp is free
     /// again.
     fn take(&mut self, gpu: &Gpu, stamp: u32) -> Duration {
         self.free.push(stamp);
@@ -215,7 +215,7 @@ impl Stamps {
             let tick = |bytes: &[u8]| bytes.try_into().map(u64::from_ne_bytes).ok();
             tick(end)?.checked_sub(tick(start)?)
         });
-        // Nobody is left to hear of an error; one outside a scope would panic.
+        // An error here has no one to go to. Without the scope it would panic.
         let _ = gpu.caught(|| buffer.unmap());
         Duration::from_nanos((ticks.unwrap_or(0) as f64 * self.nanoseconds_per_tick) as u64)
     }

@@ -1,243 +1,32 @@
-//! Devices: which there are, and how one is opened.
+//! The devices that there are, and what each can hold.
 
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
-use texere_core::backend::{Engine, Plan, Session};
-use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
-use texere_core::settling::{Settler, SettlingPlan};
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits};
-use texere_gpu::{capabilities, device_name};
+use texere_core::backend::Schedule;
+use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
+use texere_gpu::capabilities;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
-use crate::Schedule;
-use crate::clock::has_clock;
-use crate::crossings::WgpuCrossings;
-use crate::engine::WgpuEngine;
-use crate::gpu::Gpu;
-use crate::kernels::Opened;
-use crate::session::WgpuSession;
-use crate::settling::WgpuSettler;
-
-/// Most blocks of a launch, unless a caller says otherwise: some 16 million rings, so that none
-/// takes long enough for a watchdog to end it, even on a software device.
+/// The default limit of the blocks of a launch: some 16 million rings. So no launch takes long
+/// enough for a watchdog to end it, even on a software device.
 pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
-/// Features with which a picture finds depth and triangle of a sample at once; without them it
-/// takes two rounds.
+/// Features with which a picture finds the depth and the triangle of a sample at once. Without them
+/// it goes through all triangles twice.
 pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
 
-/// A wgpu device that is open and can start sessions.
-///
-/// ```no_run
-/// use texere_core::Backend;
-/// use texere_wgpu::{Schedule, WgpuBackend};
-/// for device in WgpuBackend::devices()? {
-///     println!("{}: {} ({})", device.name, device.device, device.kind);
-/// }
-/// let backend = WgpuBackend::open_named("llvmpipe", Schedule::PerRing)?;
-/// assert!(backend.info().device.contains("llvmpipe"));
-/// # Ok::<(), texere_core::BackendError>(())
-/// ```
-///
-/// Its clones are the same open device.
-#[derive(Debug, Clone)]
-pub struct WgpuBackend {
-    info: DeviceInfo,
-    pub(crate) opened: Arc<Opened>,
-}
-
-impl WgpuBackend {
-    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on.
-    /// Drivers are asked once in a process.
-    ///
-    /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
-    pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
-        let described = Self::describe(adapters());
-        if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
-    }
-
-    /// What [`WgpuBackend::devices`] says of these adapters: of a program's own, which draws into a
-    /// window.
-    #[must_use]
-    pub fn describe(adapters: &[wgpu::Adapter]) -> Vec<DeviceInfo> {
-        let describe = |(index, adapter): (usize, &wgpu::Adapter)| {
-            let name = device_name("wgpu", Some(index), Schedule::PerRing);
-            let timed = has_clock(adapter.features());
-            describe(name, &adapter.get_info(), &adapter.limits(), timed, Schedule::PerRing)
-        };
-        adapters.iter().enumerate().map(describe).collect()
-    }
-
-    /// What [`WgpuBackend::open`] asks of an adapter: its limits, its timestamp queries, and
-    /// [`LONG_ATOMICS`] if it has them. For a program that opens a device itself and gives it to
-    /// [`WgpuBackend::from_device`].
-    #[must_use]
-    pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
-        wgpu::DeviceDescriptor {
-            label: Some("texere"),
-            required_features: adapter.features() & Features::TIMESTAMP_QUERY.union(LONG_ATOMICS),
-            required_limits: adapter.limits(),
-            ..Default::default()
-        }
-    }
-
-    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries and
-    /// [`LONG_ATOMICS`] if it has them.
-    ///
-    /// **Errors**: [`BackendError::NoDevice`], which lists those there are;
-    /// [`BackendError::Driver`] where the device can't be opened; [`BackendError::Compile`];
-    /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
-    pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
-        let adapters = adapters();
-        let adapter =
-            adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), adapters))?;
-        // One after the other, as drivers are asked.
-        static OPENING: Mutex<()> = Mutex::new(());
-        let opening = OPENING.lock().unwrap_or_else(PoisonError::into_inner);
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&Self::descriptor(adapter))).map_err(|source| {
-                BackendError::Driver { call: "Adapter::request_device", source: source.into() }
-            })?;
-        drop(opening);
-        Self::new(Gpu::owned(device_name("wgpu", Some(index), schedule), device, queue), schedule)
-    }
-
-    /// Opens the first device whose maker's name contains `part`, in whatever case.
-    ///
-    /// **Errors**: those of [`WgpuBackend::open`].
-    pub fn open_named(part: &str, schedule: Schedule) -> Result<Self, BackendError> {
-        let (adapters, wanted) = (adapters(), part.to_lowercase());
-        let index = adapters
-            .iter()
-            .position(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
-            .ok_or_else(|| none(part.into(), adapters))?;
-        Self::open(index, schedule)
-    }
-
-    /// Works on a device of the caller's, such as a viewer's, under the name `wgpu`.
-    ///
-    /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no
-    /// feature; `TIMESTAMP_QUERY` makes timings exact, [`LONG_ATOMICS`] make pictures faster. With
-    /// wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the
-    /// fast one, which does all that there is; the other is the paper's, to compare with.
-    ///
-    /// ```no_run
-    /// use texere_wgpu::{Schedule, WgpuBackend, wgpu};
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// # pollster::block_on(async {
-    /// let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    /// let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await?;
-    /// let (device, queue) = adapter.request_device(&wgpu::DeviceDescriptor::default()).await?;
-    /// let backend = WgpuBackend::from_device(device.clone(), queue.clone(), Schedule::PerRing)?;
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// # })?;
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// **Errors**: [`BackendError::Compile`], also where its limits are below WebGPU's defaults.
-    pub fn from_device(
-        device: wgpu::Device,
-        queue: wgpu::Queue,
-        schedule: Schedule,
-    ) -> Result<Self, BackendError> {
-        Self::new(Gpu::borrowed(device_name("wgpu", None, schedule), device, queue), schedule)
-    }
-
-    fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
-        let (adapter, timed) = (gpu.device.adapter_info(), has_clock(gpu.device.features()));
-        let info = describe(gpu.name.clone(), &adapter, &gpu.device.limits(), timed, schedule);
-        Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
-    }
-
-    /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than
-    /// its bindings could hold, or to test with many small chunks.
-    #[must_use]
-    pub fn with_limits(self, limits: Limits) -> Self {
-        let info = DeviceInfo { limits: self.info.limits.min(&limits), ..self.info };
-        Self { info, ..self }
-    }
-
-    /// Starts work on a plan in a session that lends its buffers.
-    ///
-    /// **Errors**: those of [`Backend::engine`].
-    pub fn lending_session(&self, plan: Arc<Plan>) -> Result<WgpuSession, BackendError> {
-        let engine = WgpuEngine::new(self.opened.clone(), plan.clone())?;
-        Ok(WgpuSession(Session::with_engine(Box::new(engine), self.info.limits, plan)))
-    }
-
-    /// The device, for buffers and pipelines that work with a session's.
-    #[must_use]
-    pub fn device(&self) -> &wgpu::Device {
-        &self.opened.gpu.device
-    }
-
-    /// The queue that sessions hand their work to.
-    #[must_use]
-    pub fn queue(&self) -> &wgpu::Queue {
-        &self.opened.gpu.queue
-    }
-
-    /// Runs `work`, a caller's own calls on the device and its queue, so that what goes wrong in
-    /// them is an error and not a panic; `call` names it.
-    ///
-    /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
-    pub fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
-        self.opened.gpu.scoped(call, work)
-    }
-
-    /// A buffer of at least `bytes`, a multiple of 16 and never empty, since an empty one can't be
-    /// bound.
-    ///
-    /// **Errors**: [`BackendError::OutOfMemory`], and those of [`WgpuBackend::scoped`].
-    pub fn buffer(
-        &self,
-        what: &'static str,
-        bytes: u64,
-        usage: wgpu::BufferUsages,
-    ) -> Result<wgpu::Buffer, BackendError> {
-        self.opened.gpu.buffer(what, bytes, usage)
-    }
-
-    /// Waits until `submission` is done, and runs the callbacks of all that is.
-    ///
-    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
-    pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), BackendError> {
-        self.opened.gpu.wait(submission)
-    }
-}
-
-impl Backend for WgpuBackend {
-    fn info(&self) -> &DeviceInfo {
-        &self.info
-    }
-
-    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
-        Ok(Box::new(WgpuEngine::new(self.opened.clone(), plan)?))
-    }
-
-    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
-        Ok(Box::new(WgpuSettler::new(self.opened.clone(), &self.info.limits, plan)?))
-    }
-
-    fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
-        Ok(Box::new(WgpuCrossings::new(self.opened.clone(), &self.info.limits, plan)?))
-    }
-}
-
-/// All adapters that can compute. Drivers are asked once and stay loaded until the process ends.
+/// All adapters that can compute. Drivers are asked once, and stay loaded until the process ends.
 ///
 /// NVIDIA's crashes where adapters are listed, or its libEGL is unloaded, while another thread does
 /// so: devices that `tests/leaning.rs` opened and dropped side by side ended it in four of six
 /// runs.
-fn adapters() -> &'static [wgpu::Adapter] {
+pub(crate) fn adapters() -> &'static [wgpu::Adapter] {
     static ADAPTERS: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
     let (_, adapters) = ADAPTERS.get_or_init(|| {
         let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
         let instance = wgpu::Instance::new(InstanceDescriptor {
             backends,
-            // No validation layer of the driver's, also in a debug build, unless the environment
-            // asks for it.
+            // No validation layer, not even in a debug build, unless the environment asks for it.
             flags: InstanceFlags::empty().with_env(),
             ..InstanceDescriptor::new_without_display_handle()
         });
@@ -250,13 +39,13 @@ fn adapters() -> &'static [wgpu::Adapter] {
     adapters
 }
 
-fn none(wanted: String, adapters: &[wgpu::Adapter]) -> BackendError {
+pub(crate) fn none(wanted: String, adapters: &[wgpu::Adapter]) -> BackendError {
     let found = adapters.iter().enumerate();
     let found = found.map(|(index, adapter)| format!("wgpu:{index} ({})", adapter.get_info().name)).collect();
     BackendError::NoDevice { wanted, found }
 }
 
-fn describe(
+pub(crate) fn describe(
     name: String,
     adapter: &wgpu::AdapterInfo,
     limits: &wgpu::Limits,
@@ -278,8 +67,7 @@ fn describe(
         // wgpu does not say.
         memory_bytes: None,
         limits: Limits {
-            // Buffers are rounded up to multiples of 16 bytes, which must not take them past the
-            // limit.
+            // Buffers are rounded up to multiples of 16 bytes, and must stay within the limit then.
             binding_bytes: binding_bytes / 16 * 16,
             blocks: LAUNCH_BLOCKS,
             ..Limits::NONE

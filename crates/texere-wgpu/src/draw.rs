@@ -1,4 +1,4 @@
-//! Drawing a live mesh in a render pass of the caller's.
+//! Drawing a live mesh in a caller's render pass.
 
 use texere_core::backend::{LiveMesh, Slot};
 use texere_core::{Attribute, PackedVertex, Topology, Vertex};
@@ -30,14 +30,13 @@ pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferL
     attributes: &wgpu::vertex_attr_array![0 => Uint32x2, 1 => Snorm16x2],
 };
 
-/// Draws a whole live mesh in `pass`, whose pipeline is the caller's: sets its vertices as vertex
-/// buffer 0 ([`VERTEX_LAYOUT`]), its attributes, where it [keeps](LiveMesh::keep_attributes) any,
-/// as buffer 1 ([`ATTRIBUTE_LAYOUT`]) and its indices as index buffer, and draws yarn after yarn.
-/// Where one yarn takes several draws, or none, is the mesh's:
-/// [`texere_core::backend::Plan::chunk_draws`] says.
+/// Draws a whole live mesh in `pass`, with the pipeline that the caller has set. Vertices are
+/// vertex buffer 0 ([`VERTEX_LAYOUT`]), and attributes, where the mesh
+/// [keeps](LiveMesh::keep_attributes) any, vertex buffer 1 ([`ATTRIBUTE_LAYOUT`]). Yarns are drawn
+/// one after the other, with the draws of [`texere_core::backend::Plan::chunk_draws`].
 ///
-/// None, and nothing is drawn, where the mesh is on no device of wgpu, was never
-/// [updated](LiveMesh::update), or is of another topology than [`Topology::Indexed`].
+/// Returns none and draws nothing where the mesh is not on a wgpu device, was never
+/// [updated](LiveMesh::update), or has a topology other than [`Topology::Indexed`].
 ///
 /// ```no_run
 /// # fn example(mesh: &texere_core::backend::LiveMesh, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {

@@ -1,4 +1,4 @@
-//! The work on a plan on a wgpu device: memory, launches and reading.
+//! The engine on a wgpu device: it holds memory, launches the schedule's kernels and reads results.
 
 use std::any::Any;
 use std::ops::{ControlFlow, Range};
@@ -18,7 +18,9 @@ use wgpu::BindingResource;
 
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
-use crate::kernels::{Kernel, Kernels, Opened};
+use crate::kernel::Kernel;
+use crate::kernels::Kernels;
+use crate::opened::Opened;
 use crate::per_yarn;
 use crate::readback::Readback;
 use crate::settling::WgpuSettler;
@@ -33,7 +35,7 @@ pub struct WgpuEngine {
     plan: Arc<Plan>,
     ends: YarnEnds,
     tables: Tables,
-    /// One for each [`Slot`].
+    /// The memory of each [`Slot`].
     memory: Vec<ChunkMemory>,
     outbox: Outbox,
     readback: Readback,
@@ -46,8 +48,8 @@ impl WgpuEngine {
         let gpu = &opened.gpu;
         check_schedule(opened.schedule, &plan, &gpu.name)?;
         gpu.probe()?;
-        // Tables first: a device that can't hold the points says so before the host makes room for
-        // them.
+        // Tables come first: a device that can't hold the points says so before the host takes
+        // memory for them.
         let tables = Tables::new(gpu, &plan)?;
         Ok(Self {
             ends: YarnEnds::new(&plan)?,
@@ -68,29 +70,30 @@ impl WgpuEngine {
         &self.memory[slot.index()]
     }
 
-    /// What a shader that works on the chunk in `slot` sees as `resource`.
+    /// The binding of `resource` for the chunk in `slot`.
     pub(crate) fn resource(&self, slot: Slot, resource: Resource) -> Option<BindingResource<'_>> {
         self.memory(slot).resource(&self.tables, resource)
     }
 
-    /// Whether a control point that is not round was uploaded.
+    /// Whether a flattened control point was ever uploaded.
     pub(crate) fn is_flattened(&self) -> bool {
         self.ends.flattened()
     }
 
-    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in
-    /// `slot`.
+    /// Checks that `chunk` is of the plan, and that its tables are in `slot`, or else returns
+    /// [`BackendError::NotLoaded`].
     fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
-    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its buffers; none where
-    /// that is on no device of wgpu. [`draw`](fn@crate::draw) draws them all.
+    /// The engine behind a [`LiveMesh`](texere_core::backend::LiveMesh), which lends the mesh's
+    /// buffers. None where the mesh is not on a wgpu device. [`draw`](fn@crate::draw) draws the
+    /// whole mesh.
     ///
-    /// Between the yarns of a live mesh there is room, in which triangles of earlier edits may lie.
-    /// So draw only what [`Plan::chunk_draws`] says of the mesh's plan as it is now, and no chunk
-    /// from its first to its last index.
+    /// A live mesh has room between its yarns, in which triangles of earlier edits may lie. So draw
+    /// what [`Plan::chunk_draws`] says of the mesh's current plan, and never a chunk from its first
+    /// to its last index.
     ///
     /// ```no_run
     /// # fn example(mesh: &texere_core::backend::LiveMesh, pass: &mut wgpu::RenderPass<'_>) -> Option<()> {
@@ -114,16 +117,16 @@ impl WgpuEngine {
     }
 
     /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal,
-    /// at the start of the buffer, which may be longer. None where nothing was made yet. Its usages
-    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// from the start of the buffer, which may be longer. None where nothing was made yet. Its
+    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn vertex_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.vertices.buffer())
     }
 
-    /// The indices of the chunk in `slot`, likewise: [`Chunk::indices`] of four bytes; with another
-    /// topology than [`Indexed`](texere_core::Topology::Indexed) there are none in it. Its usages
-    /// are `INDEX`, `STORAGE` and `COPY_SRC`.
+    /// The indices of the chunk in `slot`, likewise: [`Chunk::indices`] of four bytes. A topology
+    /// other than [`Indexed`](texere_core::Topology::Indexed) has none. Its usages are `INDEX`,
+    /// `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn index_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.indices.buffer())
@@ -143,12 +146,12 @@ impl WgpuEngine {
         Some(self.memory.get(slot.index())?.packed.buffer())
     }
 
-    /// Bytes of device memory that it holds.
+    /// Bytes of device memory that the engine holds.
     pub(crate) fn device_bytes(&self) -> u64 {
         self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Takes the kernels for all yarns where one is not round.
+    /// Changes to the kernels for all yarns once a yarn is flattened.
     fn choose_kernels(&mut self) -> Result<(), BackendError> {
         if self.ends.flattened() {
             self.kernels = self.opened.flattened()?;
@@ -156,8 +159,8 @@ impl WgpuEngine {
         Ok(())
     }
 
-    /// Reads yarns' ends from the device where an upload of so many points needs some that never
-    /// were here.
+    /// Reads the ends of yarns from the device, where an upload of `count` points needs some that
+    /// the host does not have.
     fn find_ends(&mut self, first: u64, count: usize) -> Result<(), BackendError> {
         if self.ends.are_missing(&self.plan, first, count) {
             let total = self.plan.padded_offsets().last().copied().unwrap_or(0);
@@ -184,8 +187,8 @@ impl WgpuEngine {
         gpu.probe()
     }
 
-    /// Runs `of_blocks` with a workgroup for each block of `chunks`, then `of_yarns` with one for
-    /// each of their yarns.
+    /// Runs `of_blocks` with a workgroup for each block of `chunks`, then `of_yarns` with a
+    /// workgroup for each of their yarns.
     fn run_over(
         &mut self,
         chunks: ScanChunks<'_>,
@@ -198,8 +201,8 @@ impl WgpuEngine {
                 self.load(slot, &chunk)?;
             }
             self.check_loaded(slot, &chunk)?;
-            // A repeated ring has no step, and its block is written by the next chunk, which comes
-            // after.
+            // A repeated ring has no step. Its block is written by the next chunk, which comes
+            // later.
             self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
             last = Some((slot, chunk));
         }
@@ -209,8 +212,8 @@ impl WgpuEngine {
         }
     }
 
-    /// Runs `kernel` with a workgroup for each of `yarns`, whose blocks `chunk`, the one in `slot`,
-    /// is the last to have some of.
+    /// Runs `kernel` with a workgroup for each of `yarns`. `chunk`, the one in `slot`, is the last
+    /// with blocks of them.
     fn run_for_yarns(
         &mut self,
         slot: Slot,
@@ -238,8 +241,7 @@ impl Engine for WgpuEngine {
         let upload = self.ends.upload(&self.plan, first, points);
         let gpu = &self.opened.gpu;
         let sent = self.outbox.send(gpu, &self.tables.points, &upload)?;
-        // Hands a small copy over now, so that wgpu's own copy of the points does not wait until
-        // the first launch.
+        // Submits now, so that wgpu's own copy of the points does not wait until the first launch.
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
         self.ends.keep(&upload);
@@ -262,7 +264,7 @@ impl Engine for WgpuEngine {
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let kernels = self.kernels.clone();
-        // A plan with rolls is refused by the other schedule.
+        // The other schedule refuses plans with rolls.
         let Kernels::PerRing(kernels) = &*kernels else { return Ok(()) };
         self.run_over(chunks, &kernels.block_turns, &kernels.yarn_rolls)
     }
@@ -324,7 +326,8 @@ impl Engine for WgpuEngine {
         let rows = YarnRow::of(&plan, yarns.clone());
         self.opened.gpu.write(self.tables.yarns.buffer(), first as u64, bytemuck::cast_slice(&rows))?;
         self.tables.reserve_rolls(&self.opened.gpu, &plan)?;
-        // Room for leans is made with the first yarn that leans, and holds nothing then.
+        // Room for leans is taken with the first yarn that leans. It is empty then, so all leans
+        // are sent.
         let all = 0..plan.layout().yarns().len();
         let leaning = if self.plan.layout().leans() { yarns } else { all };
         self.tables.set_leans(&self.opened.gpu, &plan, leaning)?;

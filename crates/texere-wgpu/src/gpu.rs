@@ -1,5 +1,5 @@
-//! An open device: calls into wgpu with their errors mapped, so that nothing in it can panic or
-//! hang.
+//! A device with its queue. All calls into wgpu go through it, with their errors mapped, so that
+//! none can panic or hang.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,22 +8,22 @@ use std::time::Duration;
 use texere_core::{BackendError, OutOfMemory};
 use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 
-/// How long a submission may take before the wait for it is given up. A chunk takes milliseconds on
-/// a GPU and seconds on a software device; whatever takes two minutes will not come back.
+/// The time after which the wait for a submission is given up. A chunk takes milliseconds on a GPU
+/// and seconds on a software device; one that takes two minutes will not come back.
 pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
 
-/// Every buffer is a multiple of this long, bytes: the widest element of a shader's array.
+/// Every buffer's length is a multiple of this, bytes: the widest element of a shader's array.
 const BUFFER_STEP: u64 = 16;
 
 /// A device and its queue.
 #[derive(Debug)]
 pub(crate) struct Gpu {
-    /// What `DeviceInfo` calls it.
+    /// Its name in `DeviceInfo`.
     pub(crate) name: String,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    /// Why the device was lost, where it was. Stays empty on a caller's device, whose callbacks are
-    /// the caller's.
+    /// Why the device was lost, where it was. On a caller's device it stays empty, for the
+    /// callbacks are the caller's.
     lost: Arc<Mutex<Option<String>>>,
 }
 
@@ -33,7 +33,8 @@ impl Gpu {
         Self { name, device, queue, lost: Arc::default() }
     }
 
-    /// Takes a device of our own: errors outside a scope no longer panic, and its loss is noted.
+    /// Takes a device that this crate has opened. Errors outside a scope no longer panic, and its
+    /// loss is noted.
     pub(crate) fn owned(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let gpu = Self::borrowed(name, device, queue);
         let note = |lost: &Mutex<Option<String>>, reason: String| {
@@ -42,7 +43,7 @@ impl Gpu {
         let lost = gpu.lost.clone();
         gpu.device.set_device_lost_callback(move |_, reason| note(&lost, reason));
         let lost = gpu.lost.clone();
-        // Every call of ours is in a scope; what comes outside comes from the device itself.
+        // Every call here is in a scope, so an error outside one comes from the device itself.
         gpu.device.on_uncaptured_error(Arc::new(move |error| note(&lost, error.to_string())));
         gpu
     }
@@ -55,8 +56,8 @@ impl Gpu {
         }
     }
 
-    /// Asks the device whether it is still there. wgpu lets a lost device take any call and says
-    /// nothing, but it can't make a buffer.
+    /// Asks the device whether it is still there. A lost device takes any call of wgpu in silence,
+    /// but it can't map a new buffer.
     ///
     /// **Errors**: [`BackendError::DeviceLost`].
     pub(crate) fn probe(&self) -> Result<(), BackendError> {
@@ -80,13 +81,14 @@ impl Gpu {
         BackendError::DeviceLost { device: self.name.clone(), source: Some(source.into()) }
     }
 
-    /// Runs `work` within error scopes, and gives back the error that it raised; lack of memory
-    /// before what followed from it.
+    /// Runs `work` within error scopes. Of several errors it returns lack of memory before what
+    /// followed from it.
     pub(crate) fn caught<T>(&self, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
         let scopes = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory]
             .map(|filter| self.device.push_error_scope(filter));
         let result = work();
-        // Innermost first. On every platform but the web the answer is there at once.
+        // The innermost scope ends first. On every platform but the web its answer is there at
+        // once.
         let errors = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop()));
         errors.reduce(|first, _| first).map_or(Ok(result), Err)
     }
@@ -105,8 +107,8 @@ impl Gpu {
         })
     }
 
-    /// A buffer of at least `bytes`, a multiple of [`BUFFER_STEP`] and never empty, since an empty
-    /// one can't be bound.
+    /// A buffer of at least `bytes`, rounded up to a multiple of [`BUFFER_STEP`]. It is never
+    /// empty, since wgpu can't bind an empty buffer.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`] also for more than the device's largest buffer,
     /// or, for a storage buffer that is bound whole, its largest binding.
@@ -130,7 +132,7 @@ impl Gpu {
         buffer
     }
 
-    /// Sends `bytes` to `buffer`; it is there before any later launch.
+    /// Sends `bytes` to `buffer`. They are there before any later launch.
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
         if bytes.is_empty() {
             return Ok(());
@@ -138,14 +140,14 @@ impl Gpu {
         self.scoped("Queue::write_buffer", || self.queue.write_buffer(buffer, offset, bytes))
     }
 
-    /// Waits until `submission` is done, and runs the callbacks of all that is.
+    /// Waits until `submission` is done, and runs the callbacks of all submissions that are.
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub(crate) fn wait(&self, submission: SubmissionIndex) -> Result<(), BackendError> {
         self.check_alive()?;
         let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(WAIT_LIMIT) };
-        // wgpu 30 panics in `poll` where the driver reports that the device is gone; there is no
-        // other way to wait.
+        // wgpu 30 panics in `poll` where the driver reports that the device is gone, and there is
+        // no other way to wait.
         let answer = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
         self.check_alive()?;
         match answer {
@@ -153,8 +155,7 @@ impl Gpu {
             Ok(Err(source @ PollError::Timeout)) => {
                 Err(BackendError::Driver { call: "Device::poll", source: source.into() })
             }
-            // A submission that the device never took: the submit before it failed for no other
-            // reason.
+            // The device never took the submission: the submit failed because it was lost.
             Ok(Err(source)) => Err(self.lost(source)),
             Err(_) => Err(self.lost("the driver reported it while its work was waited for")),
         }

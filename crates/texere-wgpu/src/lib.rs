@@ -11,24 +11,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A viewer that has a wgpu device of its own gives it to [`WgpuBackend::from_device`] and draws
-//! from the very buffers that the mesh was written to: those of a
-//! [`LiveMesh`](texere_core::backend::LiveMesh), which keeps all of it, with [`draw`](fn@draw), or
-//! chunk by chunk those of a [`WgpuSession`](WgpuBackend::lending_session).
+//! A viewer with a wgpu device of its own gives it to [`WgpuBackend::from_device`], and draws from
+//! the very buffers that the mesh was written to. [`draw`](fn@draw) draws a
+//! [`LiveMesh`](texere_core::backend::LiveMesh), which keeps all of its mesh; a
+//! [`WgpuSession`](WgpuBackend::lending_session) lends buffers chunk by chunk.
 //!
-//! What is worth knowing:
+//! Properties of wgpu that show:
 //!
-//! - A fresh buffer is cleared by wgpu before its first use, so the first chunk of a session takes
-//!   longer than those after it, which use its memory again.
-//! - wgpu does not say how much memory a device has, so chunks are cut to what one binding may
-//!   hold. Where that is more than the memory, give stricter limits: [`WgpuBackend::with_limits`].
-//! - A software device such as llvmpipe silently ends a lane that loops for long. There
+//! - wgpu clears a fresh buffer before its first use. So the first chunks of a session take longer
+//!   than later ones, which take their memory again.
+//! - wgpu does not report a device's memory, so chunks are cut to what one binding may hold. Where
+//!   that is more than the memory, set stricter limits with [`WgpuBackend::with_limits`].
+//! - A software device such as llvmpipe silently ends a lane that loops for long. On such a device
 //!   [`Schedule::PerYarn`] gives a long yarn to several lanes.
-//! - The shaders run without bounds checks. What they index by comes from a plan and the chunks
-//!   that it was cut into, and a session takes no other plan's chunks.
+//! - Shaders run without bounds checks. Their indices come from a plan and its chunks, and a
+//!   session refuses the chunks of any other plan.
 
 mod answer;
 mod attributes;
+mod backend;
 mod buffer;
 mod chunk_memory;
 mod clock;
@@ -37,9 +38,12 @@ mod device;
 mod draw;
 mod engine;
 mod gpu;
+mod kernel;
 mod kernels;
 mod mapped;
+mod opened;
 mod packed;
+mod per_ring;
 mod per_yarn;
 mod readback;
 mod room;
@@ -48,12 +52,13 @@ mod settling;
 mod tables;
 mod upload;
 
-pub use device::{LAUNCH_BLOCKS, LONG_ATOMICS, WgpuBackend};
+pub use backend::WgpuBackend;
+pub use device::{LAUNCH_BLOCKS, LONG_ATOMICS};
 pub use draw::{ATTRIBUTE_LAYOUT, PACKED_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};
 pub use texere_core::backend::Schedule;
 pub use texere_shaders::UNPACK;
-/// The wgpu that devices and buffers are of, version 30: a program that gives texere its device
-/// makes that with this one. A new major version of it is a new minor version of texere.
+/// The wgpu of these devices and buffers, version 30. A program that gives texere its device must
+/// use this one. A new major version of wgpu makes a new minor version of texere.
 pub use wgpu;

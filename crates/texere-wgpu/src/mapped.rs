@@ -1,4 +1,4 @@
-//! Mapped buffers: work that fills or empties one, and the wait until the host may have it.
+//! Mapped buffers: work that fills or empties one, and the wait until the host may use it.
 
 use std::sync::mpsc::{Receiver, sync_channel};
 
@@ -7,7 +7,7 @@ use wgpu::{BufferAsyncError, CommandEncoder, MapMode, SubmissionIndex};
 
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
-/// Work under way after which the start of a buffer is mapped.
+/// A submission under way, after which the start of a buffer is mapped.
 #[derive(Debug)]
 pub(crate) struct Mapped {
     submission: SubmissionIndex,
@@ -15,8 +15,8 @@ pub(crate) struct Mapped {
 }
 
 impl Mapped {
-    /// Hands over what `record` records, and asks for `bytes` of `buffer` to be mapped once that is
-    /// done.
+    /// Submits what `record` records, and asks for the first `bytes` of `buffer` to be mapped once
+    /// that is done.
     pub(crate) fn submit(
         gpu: &Gpu,
         buffer: &wgpu::Buffer,
@@ -40,11 +40,10 @@ impl Mapped {
     /// Waits until the buffer is mapped.
     pub(crate) fn wait(&self, gpu: &Gpu) -> Result<(), BackendError> {
         gpu.wait(self.submission.clone())?;
-        // Another thread's poll may have found the work done, and be about to say so.
+        // Another thread's poll may have found the work done, and be about to report it.
         match self.answer.recv_timeout(WAIT_LIMIT) {
             Ok(Ok(())) => Ok(()),
-            // The buffer is sound and its work done, so it is the device that is not there to map
-            // it.
+            // The buffer is sound and its work is done, so the device must be lost.
             Ok(Err(source)) => Err(gpu.lost(source)),
             Err(source) => {
                 Err(BackendError::Driver { call: "BufferSlice::map_async", source: source.into() })

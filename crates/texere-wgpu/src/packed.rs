@@ -4,7 +4,7 @@ use texere_core::BackendError;
 use texere_shaders::{PACKED, PACKED_CAPS, PACKED_ODD};
 
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 /// The compiled shaders that pack vertices.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub(crate) struct PackedKernels {
 }
 
 impl PackedKernels {
-    /// Those for round yarns alone, or for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {

@@ -1,17 +1,39 @@
-//! The schedule per-yarn: how long a lane may take.
+//! The schedule per-yarn, the paper's: a lane makes a yarn, or as much of it as a device lets it.
+
+use texere_core::BackendError;
+use texere_shaders::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
 use crate::gpu::Gpu;
+use crate::kernel::Kernel;
 
-/// Rounds that all loops of a lane together may make on a software device: after so many llvmpipe
-/// ends them, and says nothing.
+/// The most rounds of all loops of a lane on a software device. llvmpipe ends longer loops silently.
 const SOFTWARE_ROUNDS: u32 = 65_535;
 
-/// Most rings of a lane: a whole part, as the paper has it, wherever the device lets a lane take
-/// that long.
+/// The compiled shaders of the schedule.
+#[derive(Debug)]
+pub(crate) struct PerYarn {
+    pub(crate) trajectory: Kernel,
+    pub(crate) mesh: Kernel,
+}
+
+impl PerYarn {
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
+        Ok(Self {
+            trajectory: Kernel::new(gpu, &TRAJECTORY_PER_YARN, flattened)?,
+            mesh: Kernel::new(gpu, &MESH_PER_YARN, flattened)?,
+        })
+    }
+}
+
+/// The most rings that a lane makes. The paper gives a lane a whole yarn, and so does this where
+/// the device lets a lane run that long.
 pub(crate) fn lane_rings(gpu: &Gpu, sides: u32) -> u32 {
     match gpu.device.adapter_info().device_type {
-        // For each ring `mesh_per_yarn` goes round once a vertex, three times for its components,
-        // six times for its indices, and once more to leave each loop.
+        // For each ring `mesh_per_yarn` makes a round for each vertex, three for its components,
+        // six for its indices, and one more to leave each loop.
         wgpu::DeviceType::Cpu => SOFTWARE_ROUNDS / (12 * (sides + 1)),
         _ => u32::MAX,
     }

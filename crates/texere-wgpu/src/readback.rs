@@ -1,5 +1,5 @@
-//! Results to the host: piece by piece through two mapped buffers, one of which is filled while the
-//! other is lent.
+//! Results to the host, piece by piece through two mapped buffers. One is filled while the other is
+//! lent.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -11,12 +11,12 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::mapped::Mapped;
 
-/// Most bytes of a piece: large enough that the pause between two submissions does not count (at 24
-/// MB the bus stands still a fifth of the time), small enough that a host has it to spare. A
-/// multiple of the size of a vertex, a ring and an index.
+/// Most bytes of a piece. It is a multiple of the sizes of a vertex, a ring and an index. Larger
+/// pieces cost host memory; with smaller ones the pause between two submissions counts: at 24 MB
+/// the bus stood still for a fifth of the time.
 const PIECE_BYTES: u64 = 96 << 20;
 
-/// Where results are copied to, and what that has cost so far.
+/// The two buffers, and the cost of all copies so far.
 #[derive(Debug)]
 pub(crate) struct Readback {
     sides: [Buffer; 2],
@@ -26,7 +26,7 @@ pub(crate) struct Readback {
     pub(crate) bytes: u64,
 }
 
-/// A copy under way; its buffer is mapped, or going to be, and unmapped when this goes.
+/// A copy under way. Its buffer is mapped, or will be, and is unmapped when the copy is dropped.
 struct Copy<'a> {
     gpu: &'a Gpu,
     buffer: wgpu::Buffer,
@@ -40,7 +40,8 @@ impl Readback {
         Ok(Self { sides: [side()?, side()?], waited: Duration::ZERO, bytes: 0 })
     }
 
-    /// Lends `count` values of `source` in pieces, each with the number of its first.
+    /// Lends `count` values of `source` to `sink` in pieces, each with the number of its first
+    /// value.
     pub(crate) fn lend<T: bytemuck::AnyBitPattern>(
         &mut self,
         gpu: &Gpu,
@@ -75,7 +76,7 @@ impl Readback {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Sends for the piece at `offset`, and takes the other side next time.
+    /// Starts the copy of the piece at `offset`. The next piece takes the other buffer.
     fn start<'a>(
         &mut self,
         gpu: &'a Gpu,
@@ -105,7 +106,7 @@ impl Copy<'_> {
 
 impl Drop for Copy<'_> {
     fn drop(&mut self) {
-        // Nobody is left to hear of an error; one outside a scope would panic.
+        // An error here has no one to go to. Without the scope it would panic.
         let _ = self.gpu.caught(|| self.buffer.unmap());
     }
 }

@@ -1,4 +1,4 @@
-//! What may still be taken of a device's memory.
+//! The memory of a device that may still be taken.
 
 use bytemuck::Pod;
 use texere_core::{BackendError, Limits, OutOfMemory};
@@ -6,7 +6,7 @@ use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
 
-/// What a device may still be asked for.
+/// The memory that a settler may still take of a device.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Room {
     pub(crate) binding_bytes: u64,
@@ -19,10 +19,10 @@ impl Room {
         Self { binding_bytes: limits.binding_bytes.min(binding_bytes), memory_bytes: limits.memory_bytes }
     }
 
-    /// Takes `bytes` for `what` off it.
+    /// Takes a buffer of `bytes` for `what`.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
-    /// them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
+    /// may have.
     pub(crate) fn take(
         &mut self,
         gpu: &Gpu,
@@ -36,7 +36,7 @@ impl Room {
         gpu.buffer(what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
     }
 
-    /// Memory that holds `data`, likewise.
+    /// Takes a buffer that holds `data`, likewise.
     pub(crate) fn holding<T: Pod>(
         &mut self,
         gpu: &Gpu,

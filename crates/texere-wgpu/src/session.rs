@@ -1,4 +1,4 @@
-//! A session that lends its buffers on the device.
+//! A session that lends its device buffers.
 
 use std::ops::{Deref, DerefMut};
 
@@ -7,7 +7,7 @@ use texere_shaders::Resource;
 
 use crate::engine::WgpuEngine;
 
-/// A [`Session`] that lends its buffers.
+/// A [`Session`] that lends its device buffers.
 ///
 /// ```no_run
 /// # use std::sync::Arc;
@@ -31,9 +31,9 @@ use crate::engine::WgpuEngine;
 pub struct WgpuSession(pub(crate) Session<WgpuEngine>);
 
 impl WgpuSession {
-    /// The vertices of `chunk`, which [`Session::mesh`] has been called for: [`Chunk::vertices`] of
-    /// 24 bytes, position and normal, at the start of the buffer. It may be longer, and is used
-    /// again for the next chunk but one.
+    /// The vertices of `chunk`, after [`Session::mesh`]: [`Chunk::vertices`] of 24 bytes, position
+    /// and normal, from the start of the buffer. The buffer may be longer, and the next chunk but
+    /// one takes it again.
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -43,18 +43,18 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).vertices.buffer())
     }
 
-    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. With another topology
-    /// than [`Indexed`](texere_core::Topology::Indexed) there are none in it.
+    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. A topology other than
+    /// [`Indexed`](texere_core::Topology::Indexed) has none.
     ///
     /// Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
     ///
-    /// **Errors**: those of [`WgpuSession::vertex_buffer`].
+    /// **Errors**: the errors of [`WgpuSession::vertex_buffer`].
     pub fn index_buffer(&self, chunk: &Chunk) -> Result<&wgpu::Buffer, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
         Ok(self.0.engine().memory(slot).indices.buffer())
     }
 
-    /// The attributes of `chunk`, which [`Session::attributes`] has been called for, likewise: an
+    /// The attributes of `chunk`, after [`Session::attributes`]: an
     /// [`Attribute`](texere_core::Attribute) of 24 bytes for each vertex.
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
@@ -66,7 +66,7 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).attributes.buffer())
     }
 
-    /// The packed vertices of `chunk`, which [`Session::packed`] has been called for, likewise: a
+    /// The packed vertices of `chunk`, after [`Session::packed`]: a
     /// [`PackedVertex`](texere_core::PackedVertex) of 12 bytes for each vertex, in the layout
     /// [`PACKED_LAYOUT`](crate::PACKED_LAYOUT).
     ///
@@ -79,25 +79,26 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).packed.buffer())
     }
 
-    /// The control points and tables that shaders make `chunk` from, for shaders of the caller's.
-    /// No stage is run, and no memory is taken for its results.
+    /// The control points and tables of `chunk`, for a caller's own shaders. No stage is run, and
+    /// no memory is taken for results.
     ///
-    /// **Errors**: those of [`Session::trajectory`].
+    /// **Errors**: the errors of [`Session::trajectory`].
     pub fn chunk_tables(&mut self, chunk: &Chunk) -> Result<ChunkTables<'_>, SessionError> {
         let slot = self.0.slot_of_tables(chunk)?;
         Ok(ChunkTables { engine: self.0.engine(), slot })
     }
 
-    /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`device_buffers`](texere_gpu::device_buffers), each a multiple of 16 bytes, and the rings
-    /// where [`Session::trajectory`] was called. Not what wgpu maps to send and read through.
+    /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
+    /// of [`device_buffers`](texere_gpu::device_buffers), each rounded up to a multiple of 16
+    /// bytes, and the rings where [`Session::trajectory`] was called. Memory that wgpu maps to send
+    /// and read through is not counted.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()
     }
 }
 
-/// What shaders make a chunk from, on the device.
+/// The control points and tables of a chunk on the device.
 #[derive(Debug, Clone, Copy)]
 pub struct ChunkTables<'a> {
     engine: &'a WgpuEngine,
@@ -105,14 +106,13 @@ pub struct ChunkTables<'a> {
 }
 
 impl<'a> ChunkTables<'a> {
-    /// The binding of `resource`; none for what is not of a mesh.
+    /// The binding of `resource`. None for a resource that is not of a mesh.
     #[must_use]
     pub fn resource(&self, resource: Resource) -> Option<wgpu::BindingResource<'a>> {
         self.engine.resource(self.slot, resource)
     }
 
-    /// Whether yarns may be wider than high somewhere, which is what the constant FLATTENED of
-    /// shaders says.
+    /// Whether any yarn may be flattened: the value for the shaders' constant `FLATTENED`.
     #[must_use]
     pub fn are_flattened(&self) -> bool {
         self.engine.is_flattened()

@@ -1,4 +1,4 @@
-//! What stays on the device for as long as its engine: control points, the plan's tables and the
+//! Memory that stays on the device as long as its engine: control points, the plan's tables and the
 //! rolls.
 
 use std::ops::Range;
@@ -19,12 +19,12 @@ pub(crate) struct Tables {
     pub(crate) points: wgpu::Buffer,
     pub(crate) yarns: Buffer,
     pub(crate) rolls: Buffer,
-    /// How long its yarn is at each block's start. Empty until it is asked for.
+    /// The length of its yarn up to each block's start. Empty until attributes are asked for.
     pub(crate) lengths: Buffer,
     pub(crate) outlines: Buffer,
     pub(crate) pattern: Buffer,
     pub(crate) cap_pattern: Buffer,
-    /// Parameters of the launch that makes rolls, or measures yarns.
+    /// Parameters of the launches over yarns, which make rolls or measure yarns.
     pub(crate) of_yarns: Buffer,
 }
 
@@ -40,7 +40,7 @@ impl Tables {
             Ok::<_, BackendError>(table)
         };
         let mut tables = Self {
-            // Read where a part of settled points is edited.
+            // It is read where a part of settled points is edited.
             points: gpu.buffer("control points", plan.resident_bytes(), input | BufferUsages::COPY_SRC)?,
             yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
             rolls: Buffer::new(gpu, "rolls", input)?,
@@ -64,7 +64,7 @@ impl Tables {
         Ok(())
     }
 
-    /// Sends how the outlines of `yarns` lean.
+    /// Sends the leans of `yarns`.
     pub(crate) fn set_leans(&self, gpu: &Gpu, plan: &Plan, yarns: Range<usize>) -> Result<(), BackendError> {
         let (first, leans) = lean_rows(plan, yarns);
         if leans.is_empty() {
@@ -74,7 +74,7 @@ impl Tables {
         gpu.write(self.rolls.buffer(), place, bytemuck::cast_slice(&leans))
     }
 
-    /// Whole turns of yarns and rolls of blocks.
+    /// The number of values before the leans: whole turns of yarns and rolls of blocks.
     fn rolls_before_leans(plan: &Plan) -> u64 {
         plan.layout().yarns().len() as u64 + plan.block_count()
     }
@@ -85,14 +85,14 @@ impl Tables {
         Ok(())
     }
 
-    /// Says which yarns the next rolls are made of.
+    /// Sets the yarns of the next launch over yarns.
     pub(crate) fn set_yarns(&mut self, gpu: &Gpu, params: &Params) -> Result<(), BackendError> {
         self.of_yarns.write(gpu, bytemuck::bytes_of(params))
     }
 }
 
 impl Tables {
-    /// Bytes of all of them.
+    /// Bytes of all tables.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { points, yarns, rolls, lengths, outlines, pattern, cap_pattern, of_yarns: _ } = self;
         points.size()

@@ -1,5 +1,5 @@
-//! Control points to the device: all cores pad them into mapped buffers, piece by piece, while the
-//! piece before is copied.
+//! Control points to the device, piece by piece. All cores pad a piece into a mapped buffer, while
+//! the device copies the piece before.
 
 use std::ops::Range;
 
@@ -13,26 +13,26 @@ use crate::mapped::Mapped;
 
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
-/// Up to so many points, such as an edited yarn's, go through wgpu's own staging. For more it would
-/// make a buffer as large as all of them, and to have that much memory mapped takes several times
-/// as long as to fill and copy it.
+/// The most points that go through wgpu's own staging, such as an edited yarn's. For more, wgpu
+/// would make a buffer as large as all of them, and mapping that much memory takes several times as
+/// long as filling and copying it.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// Bytes of a piece: so few that filling one and copying the other overlap from early on.
+/// Bytes of a piece. It is small, so that filling and copying overlap from early on.
 const PIECE_BYTES: u64 = 8 << 20;
 
-/// Bytes that a core pads at a time. A multiple of them is a piece.
+/// Bytes that a core pads at a time. A piece is a multiple of them.
 const PART_BYTES: usize = 64 << 10;
 
-/// Two mapped buffers that control points are sent from, made for the first upload of more than a
-/// few points and kept for the next.
+/// The two mapped buffers that control points are sent from. They are made for the first upload of
+/// more than a few points, and kept.
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     sides: Vec<Side>,
 }
 
 impl Outbox {
-    /// Sends `upload` to `target`: it is there before any later launch. Gives back the bytes of it.
+    /// Sends `upload` to `target`, where it is before any later launch. Returns its bytes.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,
@@ -43,10 +43,10 @@ impl Outbox {
         for range in upload.ranges() {
             let count = range.end - range.start;
             if count > FEW_POINTS {
-                // On one of the pool's threads, which need not be woken by another one for each
-                // piece.
+                // This runs on one of the pool's threads, which then need not be woken from outside
+                // for each piece.
                 let pieces = rayon::scope(|_| self.send_pieces(gpu, target, upload, range));
-                // A side that was left in between is not to be used again.
+                // A buffer that an error left half done must not be used again.
                 pieces.inspect_err(|_| self.sides.clear())?;
             } else {
                 let offset = range.start * POINT_BYTES;
@@ -79,7 +79,7 @@ impl Outbox {
 #[derive(Debug)]
 struct Side {
     buffer: wgpu::Buffer,
-    /// Work after which it is mapped; none where it is.
+    /// The submission after which it is mapped; none where it is mapped now.
     mapped: Option<Mapped>,
 }
 
@@ -118,10 +118,10 @@ impl Side {
     }
 }
 
-/// Writes the padded points of `piece` to the start of `view`, by all cores.
+/// Writes the padded points of `piece` to the start of `view`, on all cores.
 fn pad(upload: &PaddedUpload<'_>, piece: &Range<u64>, view: &mut BufferViewMut) {
     const PART_POINTS: u64 = PART_BYTES as u64 / POINT_BYTES;
-    // Arrays, since wgpu lets no other thread have a slice.
+    // The parts are arrays, since wgpu's slices can't be sent to other threads.
     let parts: Vec<_> = view.slice(..).into_chunks::<PART_BYTES>().0.into_iter().collect();
     parts.into_par_iter().enumerate().for_each(|(number, part)| {
         let first = piece.start + number as u64 * PART_POINTS;

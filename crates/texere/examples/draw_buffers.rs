@@ -19,7 +19,7 @@ struct Corner { @builtin(position) at: vec4<f32>, @location(0) normal: vec3<f32>
 }";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // What is texere's: a fabric on a device, which may as well be the program's own
+    // texere's part: a fabric on a device, which may also be the program's own
     // (WgpuBackend::from_device).
     let design = texere::read("designs/herringbone.wif")?;
     let backend = Arc::new(WgpuBackend::open(0, Schedule::PerRing)?);
@@ -81,7 +81,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A pipeline whose vertices are texere's.
+/// A pipeline that takes texere's vertices.
 fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let source = wgpu::ShaderSource::Wgsl(SHADER.into());
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });

@@ -1,4 +1,4 @@
-//! Says what lies under a grid of points, seen from above: `cargo run --example picker [DESIGN]`.
+//! Prints the yarns under a grid of points, seen from above: `cargo run --example picker [DESIGN]`.
 
 use std::sync::Arc;
 

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
             MeshPiece::Indices { indices, .. } => {
                 for corners in indices.chunks_exact(3) {
-                    // A normal of zero: who reads it works it out.
+                    // A normal of zero asks readers to work it out.
                     let mut facet = [0; 50];
                     let at = corners.iter().flat_map(|corner| places[*corner as usize]);
                     for (bytes, value) in facet[12..48].chunks_exact_mut(4).zip(at) {

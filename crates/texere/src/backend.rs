@@ -1,4 +1,4 @@
-//! What it takes to write a backend, and to drive one chunk by chunk.
+//! Everything to write a backend with, and to drive one chunk by chunk.
 //!
 //! ```text
 //! Yarns ──> Plan ──> Session ──> Engine, chunk by chunk ──> MeshMut
@@ -7,8 +7,8 @@
 //! | to | take |
 //! |---|---|
 //! | write a backend | [`Backend`](crate::Backend), [`Engine`], [`NullBackend`] as the smallest example |
-//! | have the tables of every yarn, block and chunk | [`Plan`], [`Block`], [`Chunk`] |
-//! | compute as all backends do: splines, frames, sections | [`definitions`] |
+//! | read the tables of every yarn, block and chunk | [`Plan`], [`Block`], [`Chunk`] |
+//! | compute splines, frames and sections as all backends do | [`definitions`] |
 //! | settle on a device | [`settling`], [`crossings`] |
 //! | drive a backend chunk by chunk | [`Session`], [`Slot`], [`StageTimings`] |
 //! | keep a mesh on a device, and edit it without a structure | [`LiveMesh`], [`Edits`] |

@@ -1,11 +1,11 @@
-//! What is wrong with a cloth, and what a designer measures in it.
+//! Faults of a cloth, and the measures that a designer takes of it.
 //!
 //! | to | take |
 //! |---|---|
 //! | know what is wrong with a structure, and which single change would cure it | [`Diagnosis`], [`Faults`], [`Cure`] |
 //! | know whether yarns pierce one another, and where | [`clearance()`], which gives a [`Clearance`]; [`ClothClearance`] names threads |
 //! | know whether yarns have passed through one another when they were moved | [`linking()`], which gives a [`Linking`] |
-//! | know whether a mesh is wrung, and how many rings would help | [`drawn()`], [`finer`] |
+//! | know whether tubes of a mesh are wrung, and how many rings would help | [`drawn()`], [`finer`] |
 //! | know weight, thickness, cover, crimp and yarn consumption | [`Measures`], [`KnitMeasures`] |
 //!
 //! ```

@@ -6,13 +6,13 @@ use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// A family of devices behind one programming interface.
 struct Family {
-    /// What its devices' names start with.
+    /// The start of its devices' names.
     name: &'static str,
     list: fn() -> Result<Vec<DeviceInfo>, BackendError>,
     open: fn(index: usize, schedule: Schedule) -> Result<Box<dyn Backend>, BackendError>,
 }
 
-/// The families that this build has, the one to prefer first.
+/// The families of this build, in the order of preference.
 const FAMILIES: &[Family] = &[
     #[cfg(feature = "wgpu")]
     Family {
@@ -28,13 +28,13 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
-/// Families that a build may lack, and the features that bring them.
+/// Families that a build may leave out. The feature that brings one has its name.
 const FEATURES: [&str; 2] = ["wgpu", "opencl"];
 
-/// The schedule that a name may end in: the paper's mapping, kept as the yardstick.
+/// The end of a name that asks for the paper's schedule, a lane a yarn.
 const PER_YARN: &str = "/per-yarn";
 
-/// The devices of this machine, and the families of which it has none.
+/// The devices of this machine, and the families without one.
 #[derive(Debug)]
 pub struct Devices {
     /// All devices that can be opened; the CPU's come last.
@@ -44,11 +44,10 @@ pub struct Devices {
 }
 
 impl Devices {
-    /// The device that `auto` stands for, and why: a discrete GPU before an integrated one before
-    /// the CPU.
+    /// The name of the device that `auto` stands for, and the reason in words. A discrete GPU comes
+    /// before an integrated one, and that before the CPU.
     ///
-    /// A GPU interface that runs on the CPU is never chosen: texere's own CPU backend is faster
-    /// there.
+    /// A GPU interface that runs on the CPU is never chosen, as texere's own CPU backend is faster.
     #[must_use]
     pub fn auto(&self) -> (&str, &'static str) {
         let first =
@@ -63,7 +62,7 @@ impl Devices {
     }
 }
 
-/// Looks for all devices that this build can use.
+/// Finds all devices that this build can use.
 ///
 /// ```
 /// let devices = texere::devices();
@@ -92,8 +91,9 @@ pub fn devices() -> Devices {
 ///
 /// | name | device |
 /// |---|---|
-/// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says; what does not open is passed over |
-/// | `cpu`, `cpu-serial` | all cores, with the vectors that `TEXERE_SIMD` names, if it is set; the serial reference |
+/// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says. A GPU that does not open is passed over |
+/// | `cpu` | all cores, with the vectors that the environment variable `TEXERE_SIMD` names, if it is set |
+/// | `cpu-serial` | the serial reference |
 /// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
 /// | `opencl`, `opencl:1`, `opencl:nvidia` | likewise (feature `opencl`) |
 /// | `opencl:0/per-yarn` | the same device with the paper's mapping, one thread a yarn |
@@ -107,7 +107,8 @@ pub fn devices() -> Devices {
 ///
 /// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked;
 /// [`BackendError::NoFeature`] for a family that this build lacks;
-/// [`BackendError::NoInstructionSet`] of `cpu`; and what the device says when it is opened.
+/// [`BackendError::NoInstructionSet`] for a `TEXERE_SIMD` that this processor lacks; and the errors
+/// of the driver.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     match name {
         "auto" => open_gpu().map_or_else(open_cpu, Ok),
@@ -121,8 +122,8 @@ fn open_cpu() -> Result<Box<dyn Backend>, BackendError> {
     Ok(Box::new(ParallelBackend::open()?))
 }
 
-/// The GPU that `auto` stands for, if there is one that opens. No family is asked for its devices
-/// after one has a discrete GPU, since asking loads drivers.
+/// The GPU that `auto` stands for, if one opens. After a discrete GPU no further family is asked
+/// for its devices, since that would load its drivers.
 fn open_gpu() -> Option<Box<dyn Backend>> {
     let mut integrated = Vec::new();
     for family in FAMILIES {
@@ -159,18 +160,20 @@ fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     }
 }
 
-/// The device of `list` that `which` stands for: its number, or part of its maker's name.
+/// Index of the device of `list` that `which` names: by its number, or by part of its maker's name.
 fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
     if which.bytes().all(|byte| byte.is_ascii_digit()) {
-        // An empty name stands for nothing, though it is part of every name.
+        // An empty `which` comes here, too, and parses as no number.
         return which.parse().ok().filter(|index| *index < list.len());
     }
     let which = which.to_lowercase();
     list.iter().position(|device| device.device.to_lowercase().contains(&which))
 }
 
-/// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia`, or `auto`, a discrete
-/// GPU, else an integrated one, else whatever there is, since pictures need a GPU's interface.
+/// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia` or `auto`.
+///
+/// `auto` is a discrete GPU, else an integrated one, else any device of `wgpu`: pictures need that
+/// interface, even where it runs on a CPU.
 ///
 /// ```no_run
 /// let design = texere::read("designs/herringbone.wif")?;
@@ -182,15 +185,16 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Errors**: those of [`open`].
+/// **Errors**: [`BackendError::NoDevice`], and the errors of the driver.
 #[cfg(feature = "render")]
 pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError> {
     let index = picture_device(name, &texere_wgpu::WgpuBackend::devices()?)?;
     texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
 }
 
-/// Which device of `list` [`open_renderer`] would open by that name: for a program that opens
-/// devices itself, since they have to draw into its window.
+/// Index in `list` of the device that [`open_renderer`] opens by that name.
+///
+/// A program that opens devices itself, such as one that draws into its own window, chooses by it.
 ///
 /// **Errors**: [`BackendError::NoDevice`], also where the list is empty.
 #[cfg(feature = "render")]
@@ -254,7 +258,7 @@ mod tests {
         }
     }
 
-    /// What says that it draws opens for pictures, and nothing else does.
+    /// Exactly the devices whose capabilities have `draw` open for pictures.
     #[cfg(feature = "render")]
     #[test]
     fn the_devices_that_draw_are_those_that_open_for_pictures() {

@@ -1,5 +1,5 @@
-//! What becomes of a file whose format this build was made without. Other packages of the same
-//! build may have asked for more formats than this one has.
+//! Files whose format this build leaves out are refused by the name of its feature. Another package
+//! of the same build may turn on more formats than this one asks for.
 
 use std::io::Cursor;
 

@@ -23,15 +23,15 @@
 //! # }
 //! ```
 //!
-//! [`Design::yarns`] are where the structure places them, about where they belong. [`Design::rest`]
-//! lets them come to rest, as the design's [`Finish`](rest::Finish) says:
+//! [`Design::yarns`] gives the yarns as the structure places them. They may pierce one another
+//! there. [`Design::rest`] lets them come to rest, as the design's [`Finish`](rest::Finish) says:
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let folder = std::env::temp_dir().join(format!("texere-doc-poplin-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
 //! # let design_path = folder.join("poplin.toml");
-//! // Poplin: as round yarns its ends would pierce one another.
+//! // Poplin: round yarns would pierce one another at this sett.
 //! std::fs::write(&design_path, "weave = { notation = \"plain\", ends = 6, picks = 6 }\n\
 //!     yarns.white.diameter_mm = 0.143\n\
 //!     warp = { yarns = [\"white\"], spacing_mm = 0.19 }\n\
@@ -49,26 +49,26 @@
 //! # }
 //! ```
 //!
-//! # What for what
+//! # What to take
 //!
 //! | to | take |
 //! |---|---|
-//! | read a design from a file, or from memory with whatever it names | [`read()`], [`read_from`] |
+//! | read a design from a file, or from memory with the files that it names | [`read()`], [`read_from`] |
 //! | make a design in code | [`woven`], [`weft`], [`warp`], [`Design::of`] |
 //! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`]; [`yarn`] |
 //! | let cloth come to rest | [`Design::rest`]; [`rest`] |
 //! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
-//! | save cloth at rest, and have it again without settling | [`write::yarns`], [`read::yarns`] |
+//! | save cloth at rest, and read it again without settling | [`write::yarns`], [`read::yarns`] |
 //! | write a mesh larger than memory, or a format of your own | [`write::stream`], [`Pipeline::stream`] |
-//! | have only what lies in a rectangle | [`Pipeline::within`] |
+//! | have a mesh of only what lies in a rectangle | [`Pipeline::within`] |
 //! | edit a cloth and keep its mesh on a device | [`Live`] |
 //! | draw with a pipeline of your own, on your own device | [`Live`]; `gpu` (feature `wgpu`) |
-//! | know what lies under the mouse | [`Live::pick`] or [`Picker`]; [`YarnPlace::at`], [`Structure::place`] and [`Design::named`] say it in words |
+//! | know what lies under the mouse | [`Live::pick`] or [`Picker`]; its name in a weaver's words: [`YarnPlace::at`], then [`Design::named`] |
 //! | have vertices in half the memory, 12 bytes each | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
 //! | make pictures | `picture` (feature `render`) |
 //! | know how many rings twist needs | [`Settings::of`], [`Pipeline::undersampled`] |
-//! | say what is wrong with a cloth | [`check`] |
+//! | know what is wrong with a cloth | [`check`] |
 //! | write a backend | [`mod@backend`] |
 //!
 //! [`YarnPlace::at`]: yarn::YarnPlace::at
@@ -77,7 +77,7 @@
 //!
 //! # Rooms
 //!
-//! What every program needs is here; the rest is in modules, each name in one of them.
+//! The root has what every program needs. The rest is in modules, and each name is in one of them.
 //!
 //! | module | holds |
 //! |---|---|
@@ -95,23 +95,25 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `toml`, `wif`, `knitout` | texere's own design files, which brings `wif`; WIF drafts; programs of knitting machines, alone and in design files |
+//! | `toml` | texere's own design files; brings `wif` |
+//! | `wif` | WIF drafts |
+//! | `knitout` | programs of knitting machines, alone and in design files |
 //! | `glb`, `ply` | meshes as glTF 2.0 binary and as binary PLY |
-//! | `opencl`, `wgpu` | GPU backends; without them the CPU does the work alone |
+//! | `opencl`, `wgpu` | GPU backends |
 //! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
 //! | `pictures` | PNG files of drafts and pictures |
 //! | `images` | point paper in design files |
 //!
-//! `toml`, `glb` and `ply` are there unless `default-features = false`. What a build leaves out it
-//! refuses by name: [`ReadError::Feature`], [`WriteError::Feature`].
+//! `toml`, `glb` and `ply` are there unless `default-features = false`. A file whose format the
+//! build leaves out is refused by name: [`ReadError::Feature`], [`WriteError::Feature`].
 //!
 //! # Threads
 //!
-//! What texere does on the CPU it does in the [rayon](https://docs.rs/rayon) pool of the thread
-//! that calls it, and it starts no thread of its own: in the global pool, or in one of yours where
-//! you call it from there. That holds for all calls, also for uploads to a GPU. Open devices there,
-//! too: `cpu` tells how many threads it has found. Closures that report progress are called from
-//! threads of that pool.
+//! texere works in the [rayon](https://docs.rs/rayon) pool of the calling thread, and starts no
+//! threads of its own. That is the global pool, or a pool of yours if you call from inside it. It
+//! holds for every call, uploads to a GPU too. Open devices inside the pool as well: the device
+//! `cpu` counts its threads when it is opened. Closures that report progress run on threads of the
+//! pool.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
@@ -129,7 +131,7 @@
 //! # }
 //! ```
 //!
-//! # Words
+//! # Units and words
 //!
 //! Lengths are in mm, angles in radians, twist in rad/mm
 //! ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y
@@ -139,18 +141,19 @@
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height.
 //!   *Interval* j of the spline runs from point j to the next.
-//! - *Ring*: a cross-section of the mesh; there are K + 1 of them an interval
-//!   ([`Settings::subdivisions`] is the paper's K). Its corners are its *sides*
-//!   ([`Settings::sides`], the paper's nc).
-//! - *Roll*: how far a ring is turned about the centreline. A *scan* works out rolls along yarns.
-//! - *Block*: up to 64 rings of one yarn. *Chunk*: blocks that are worked on, read and drawn
-//!   together, cut to what a device can hold. *Slot*: a place for a chunk in a device's memory. A
-//!   chunk is *in flight* from its first stage until another takes its slot.
-//! - *Room*: memory between the yarns of a [`Live`] mesh, so that one may get longer without the
-//!   others moving.
+//! - *Ring*: a cross-section of the mesh. An interval has K + 1 rings: [`Settings::subdivisions`]
+//!   is K. A ring has as many corners as [`Settings::sides`] says.
+//! - *Roll*: how far a ring is turned about the centreline. A *scan* adds up rolls along yarns.
+//! - *Block*: up to 64 rings of one yarn.
+//! - *Chunk*: blocks that are worked on, read and drawn together, few enough for the device's
+//!   memory.
+//! - *Slot*: a place for a chunk in a device's memory. A chunk is *in flight* from its first stage
+//!   until another chunk takes its slot.
+//! - *Room*: memory between the yarns of a [`Live`] mesh, so that a yarn may get longer without
+//!   moving the others.
 //!
-//! Errors say what happened in one line; where a driver or a file system has more to say it is
-//! their [`source`](std::error::Error::source).
+//! An error's message is one line. The message of a driver or a file system below it is its
+//! [`source`](std::error::Error::source).
 
 pub mod backend;
 pub mod check;

@@ -10,20 +10,22 @@ use glam::Vec3;
 use texere_core::backend::{LiveMesh, Plan, SessionError};
 use texere_core::{Backend, Change, ControlPoint, Material, Ray, Settings, Yarn, Yarns};
 use texere_cpu::{Hit, Picker};
-use texere_fabric::{Loom, Structure};
+use texere_fabric::{Loom, Structure, Woven};
 
 pub use self::error::LiveError;
 
 /// A fabric that is being edited, and its whole mesh on a device.
 ///
-/// Lifts, yarns, control points and colours change one by one, and [`Live::update`] makes again
-/// what has changed and no more. Each ends as if the fabric had been made anew; to undo is to set
-/// the old value again. Yarns lie as they are woven or knitted, at once and not at rest:
-/// [`Live::set_rest`] takes those that have come to rest since, and what is edited then lies as it
-/// is woven among them, until the next.
+/// Lifts, yarns, control points and colours change one by one. [`Live::update`] makes again what
+/// has changed and no more; the mesh is then that of the edited fabric made from scratch. To undo
+/// an edit, set the old value again.
 ///
-/// The first update makes the whole mesh. Where a later one says that it is [`anew`](Update::anew),
-/// take the mesh's buffers again.
+/// Yarns lie as they are woven or knitted, not at rest. [`Live::set_rest`] takes yarns that have
+/// come to rest in the meantime. A yarn that is edited later lies as it is woven, among those at
+/// rest.
+///
+/// The first update makes the whole mesh. After an update that is [`anew`](Update::anew), ask for
+/// the mesh's buffers again.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -51,30 +53,30 @@ pub struct Live {
     device: Arc<dyn Backend>,
     settings: Settings,
     source: Source,
-    /// Yarns that were set, one by one, to others than the source's.
+    /// Yarns that were set one by one, by number, in place of the source's.
     set: BTreeMap<usize, SetYarn>,
     materials: Vec<Material>,
     mesh: LiveMesh,
-    /// Whether the mesh is another one since the last update.
+    /// Whether another mesh has begun since the last update.
     anew: bool,
-    /// What picks, from the first ray on, until the mesh is another one.
+    /// Made for the first ray, dropped when another mesh begins.
     picker: Option<Picker>,
 }
 
-/// A yarn that lies otherwise than the source's.
+/// A yarn in place of the source's.
 #[derive(Debug)]
 struct SetYarn {
     what: Yarn,
     points: Vec<ControlPoint>,
-    /// Where its control points come from, where it was said.
+    /// Its sources, where they were given.
     sources: Option<Vec<u32>>,
-    /// Where its height points at each control point, where it was said.
+    /// Its up direction at each control point, where they were given.
     ups: Option<Vec<Vec3>>,
-    /// What the source's yarn was before.
+    /// The source's yarn.
     before: Yarn,
 }
 
-/// Where yarns come from.
+/// The origin of the yarns.
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "a fabric has one source")]
 enum Source {
@@ -82,12 +84,13 @@ enum Source {
     Given(Yarns),
 }
 
-/// What [`Live::update`] has done.
+/// The parts of a mesh that [`Live::update`] made again.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Update {
     /// The vertices and indices that were made again, chunk by chunk.
     pub changes: Vec<Change>,
-    /// Whether all memory is new, with other chunks: a yarn had outgrown its room.
+    /// Whether the mesh was begun again, in other buffers and with other chunks: a yarn had
+    /// outgrown its room, for example.
     pub anew: bool,
 }
 
@@ -96,19 +99,16 @@ impl Live {
     ///
     /// **Errors**: [`LiveError::Fabric`] where its yarns can't be made, [`LiveError::Session`]
     /// where the mesh can't be planned or has no room on the device.
-    pub fn weave(
-        device: Arc<dyn Backend>,
-        cloth: texere_fabric::Woven,
-        settings: Settings,
-    ) -> Result<Self, LiveError> {
+    pub fn weave(device: Arc<dyn Backend>, cloth: Woven, settings: Settings) -> Result<Self, LiveError> {
         let yarns = cloth.yarns()?;
         let mesh = start(&*device, &yarns, settings)?;
         Ok(Self::of(device, settings, mesh, yarns.materials().to_vec(), Source::Loom(Loom::new(cloth))))
     }
 
-    /// Any structure: woven cloth as [`Live::weave`] takes it, knits by their yarns.
+    /// Any structure, its mesh on `device`: woven cloth by [`Live::weave`], knits by
+    /// [`Live::given`].
     ///
-    /// **Errors**: those of [`Live::weave`].
+    /// **Errors**: the errors of [`Live::weave`].
     pub fn new(
         device: Arc<dyn Backend>,
         structure: &Structure,
@@ -120,7 +120,7 @@ impl Live {
         }
     }
 
-    /// Yarns of any origin.
+    /// Yarns of any origin, their mesh on `device`.
     ///
     /// **Errors**: [`LiveError::Session`] where the mesh can't be planned or has no room on the
     /// device.
@@ -140,29 +140,29 @@ impl Live {
         Self { device, settings, source, set, materials, mesh, anew: false, picker: None }
     }
 
-    /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are in it
-    /// with their material, section and twist, but lie as they are woven.
+    /// The cloth as it is now, if the fabric is woven. Yarns that were [set](Live::set_yarn) have
+    /// their new material, section and twist in it, but lie as they are woven.
     #[must_use]
-    pub const fn woven(&self) -> Option<&texere_fabric::Woven> {
+    pub const fn woven(&self) -> Option<&Woven> {
         match &self.source {
             Source::Loom(loom) => Some(loom.cloth()),
             Source::Given(_) => None,
         }
     }
 
-    /// The mesh: its plan, its chunks, and how to read it. It is that of the last [`Live::update`].
+    /// The mesh as of the last [`Live::update`]: its plan and its chunks.
     #[must_use]
     pub const fn mesh(&self) -> &LiveMesh {
         &self.mesh
     }
 
-    /// The same, to be read.
+    /// The mesh as of the last [`Live::update`], to read it.
     pub const fn mesh_mut(&mut self) -> &mut LiveMesh {
         &mut self.mesh
     }
 
-    /// Tension of the splines of all yarns. What is edited has it, too; [`Live::set_tension`]
-    /// changes it.
+    /// Tension of the splines of all yarns, from 0 to below 1. Yarns that are edited keep it;
+    /// [`Live::set_tension`] changes it.
     #[must_use]
     pub fn tension(&self) -> f32 {
         self.mesh.plan().layout().tension()
@@ -174,27 +174,28 @@ impl Live {
         &self.materials
     }
 
-    /// Makes again what has changed since the last time. May return before it is done: what is read
-    /// or drawn later has it.
+    /// Makes the parts of the mesh again that have changed since the last update. It may return
+    /// before the device is done; later reads and draws wait for the device.
     ///
-    /// **Errors**: [`LiveError::Session`] of the device; what was to be made again still is.
+    /// **Errors**: [`LiveError::Session`] of the device; the next update makes the same parts
+    /// again.
     pub fn update(&mut self) -> Result<Update, LiveError> {
         let changes = self.mesh.update()?;
         Ok(Update { changes, anew: std::mem::take(&mut self.anew) })
     }
 
-    /// Makes what shaders and textures ask of vertices beside the mesh from the next update on:
-    /// [`Attribute`](texere_core::Attribute)s, which [`LiveMesh::read_attributes`] reads and
-    /// backends lend.
+    /// Makes an [`Attribute`](crate::mesh::Attribute) for each vertex from the next update on, for
+    /// shaders and textures. [`LiveMesh::read_attributes`] reads them, and GPU backends lend their
+    /// buffers.
     pub fn keep_attributes(&mut self) {
         self.mesh.keep_attributes();
     }
 
-    /// The first triangle that `ray` hits, of all yarns as they are now, updated or not; none where
-    /// it hits nothing. The first ray makes boxes round all yarns ([`Picker`]); edits keep them up.
+    /// The first triangle that `ray` hits, or none. Edits count at once, before an update. The
+    /// first ray makes a [`Picker`], which edits then keep up to date.
     ///
-    /// **Errors**: those of [`Live::yarns`], and [`LiveError::Pick`] where there is no memory for
-    /// it.
+    /// **Errors**: the errors of [`Live::yarns`], and [`LiveError::Pick`] where there is no memory
+    /// for the picker.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -232,9 +233,9 @@ impl Live {
         Ok(self.picker.insert(picker).pick(ray))
     }
 
-    /// All yarns as they are now, with their [sources](Yarns::sources). Of a yarn that was
-    /// [set](Live::set_yarn) to other control points they are those of the points that these stand
-    /// for, as far along it.
+    /// All yarns as they are now, with their [sources](Yarns::sources). Each control point of a
+    /// yarn that was [set](Live::set_yarn) has the source of the old point at the same share of the
+    /// yarn.
     ///
     /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] where they can't be made.
     pub fn yarns(&self) -> Result<Yarns, LiveError> {
@@ -267,10 +268,10 @@ impl Live {
         Ok(all.with_ups(ups)?)
     }
 
-    /// Yarn number `yarn`, from 0, alone as it is now, with its sources: what a place on it is
-    /// called needs no other yarn.
+    /// Yarn number `yarn`, from 0, alone as it is now, with its sources. That is enough to name a
+    /// place on it.
     ///
-    /// **Errors**: [`LiveError::NoYarn`], and those of [`Live::yarns`].
+    /// **Errors**: [`LiveError::NoYarn`], and the errors of [`Live::yarns`].
     pub fn only(&self, yarn: usize) -> Result<Yarns, LiveError> {
         let layout = self.mesh.plan().layout();
         if yarn >= layout.yarns().len() {
@@ -298,8 +299,8 @@ impl Live {
         Ok(only.with_ups(ups)?)
     }
 
-    /// Adds to `sources` where the control points of yarn number `yarn`, `count` as it is now, come
-    /// from. `told` is where those of the source's yarn do.
+    /// Adds the sources of yarn number `yarn`, which has `count` control points now, to `sources`.
+    /// `told` holds the sources of the yarn that it has in the source.
     fn tell(&self, yarn: usize, told: Option<&[u32]>, count: usize, sources: &mut Vec<u32>) {
         match (told, self.set.get(&yarn)) {
             (_, Some(SetYarn { sources: Some(said), .. })) => sources.extend_from_slice(said),
@@ -308,7 +309,7 @@ impl Live {
         }
     }
 
-    /// What yarn number `yarn` is.
+    /// Material, section, twist and origin of yarn number `yarn`.
     fn yarn(&self, yarn: usize) -> Yarn {
         match (self.set.get(&yarn), &self.source) {
             (Some(set), _) => set.what,
@@ -317,7 +318,7 @@ impl Live {
         }
     }
 
-    /// The control points of yarn number `yarn`, into `points`.
+    /// Writes the control points of yarn number `yarn` into `points`.
     fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
         points.clear();
         match (self.set.get(&yarn), &self.source) {
@@ -329,7 +330,7 @@ impl Live {
         }
     }
 
-    /// Where the height of yarn number `yarn` points at each control point, where it says so.
+    /// Up directions of yarn number `yarn`, one for each control point, if it has any of its own.
     fn ups(&self, yarn: usize) -> Option<&[Vec3]> {
         match (self.set.get(&yarn), &self.source) {
             (Some(set), _) => set.ups.as_deref(),
@@ -338,15 +339,15 @@ impl Live {
         }
     }
 
-    /// The same for each of its control points, which are those of yarn number `number` of `yarns`:
-    /// where it does not say so, what those stand by, and else along z.
+    /// Up directions of yarn number `yarn`, which is yarn number `number` of `yarns`: its own, else
+    /// those that the layout of `yarns` gives it, else along z.
     fn standing_ups(&self, yarn: usize, yarns: &Yarns, number: usize) -> Vec<[f32; 3]> {
         let count = yarns.range(number).unwrap_or_default().len();
         let ups = self.ups(yarn).or_else(|| yarns.layout().ups(number));
         ups.map_or_else(|| vec![Vec3::Z.to_array(); count], |ups| ups.iter().map(Vec3::to_array).collect())
     }
 
-    /// A mesh of other yarns, with attributes where this one has them.
+    /// A new mesh of `yarns`, with attributes where the present one keeps them.
     fn another(&self, yarns: &Yarns) -> Result<LiveMesh, LiveError> {
         let mut mesh = start(&*self.device, yarns, self.settings)?;
         if self.mesh.keeps_attributes() {
@@ -356,7 +357,7 @@ impl Live {
     }
 }
 
-/// A mesh of `yarns` with room for more control points: an eighth of what each yarn has, and a few.
+/// A mesh of `yarns`, each with room for an eighth more control points, and sixteen.
 fn start(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> Result<LiveMesh, LiveError> {
     let offsets = yarns.layout().offsets();
     let room = |yarn: usize| {

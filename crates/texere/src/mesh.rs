@@ -1,11 +1,11 @@
-//! Meshes: what a pipeline is asked for, what it gives, and what is edited and picked.
+//! Choices of a mesh, its pieces, its vertices, its edits, and rays to pick with.
 //!
 //! | to | take |
 //! |---|---|
 //! | choose how rings turn, and how triangles are indexed | [`Frame`], [`Topology`] |
 //! | bound the memory that a device takes | [`Limits`] |
 //! | know how many vertices and triangles there will be | [`Counts`] |
-//! | have only what lies in a rectangle | [`Bounds`] |
+//! | have a mesh of only what lies in a rectangle | [`Bounds`] |
 //! | read a mesh piece by piece | [`MeshPiece`], [`Progress`] |
 //! | have vertices of 12 bytes | [`PackedVertex`], [`Quantum`] |
 //! | know where on its yarn a vertex lies | [`Attribute`], [`ArcLength`] |

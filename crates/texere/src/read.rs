@@ -1,7 +1,7 @@
-//! What readers say beside the design: where a file is wrong, and what a place in a cloth is
-//! called.
+//! Readers of saved yarns, and what readers report: where a file is wrong, and what a place in a
+//! cloth is called.
 //!
-//! [`texere::read`](fn@crate::read) reads a file and all that it names;
+//! [`texere::read`](fn@crate::read) reads a design's file and the files that it names;
 //! [`read_from`](crate::read_from) takes them from memory.
 //!
 //! | to | take |
@@ -9,8 +9,8 @@
 //! | read yarns that were saved, without settling them again | [`yarns`], [`yarns_from`], which give [`SavedYarns`] |
 //! | know file, line and field of an error | [`FilePlace`] |
 //! | know why a whole design is refused | [`Refusal`] |
-//! | know what a knitting machine could not do | [`MachineFault`] |
+//! | know which steps a knitting machine could not do | [`MachineFault`] |
 //! | say in words where a yarn was picked | [`Design::named`](crate::Design::named), which gives a [`NamedPlace`] |
 
 pub use texere_formats::read::{SavedYarns, yarns, yarns_from};
-pub use texere_formats::{FilePlace, MachineFault, NamedPlace, Refusal, Told};
+pub use texere_formats::{FilePlace, MachineFault, NamedPlace, ProgramPlace, Refusal};

@@ -1,12 +1,12 @@
-//! Cloth at rest: what is asked for, what comes of it, and settling of single pieces.
+//! Cloth at rest: its finish, its report, and the settling of single pieces.
 //!
-//! [`Design::rest`](crate::Design::rest) lets a design come to rest as its [`Finish`] says; its
-//! [`RestReport`] says what became of it.
+//! [`Design::rest`](crate::Design::rest) lets the yarns of a design come to rest as its [`Finish`]
+//! says. The [`RestReport`] of the cloth says whether they did.
 //!
 //! | to | take |
 //! |---|---|
 //! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Press`] |
-//! | follow a design to rest, and know what became of it | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
+//! | follow a design to rest, and know how it ended | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
 //! | settle yarns of any origin | [`Piece`], [`settle`], [`Settled`] |
 //! | settle one repeat, and copy it | [`Repeat`] |
 //!

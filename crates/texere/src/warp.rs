@@ -20,6 +20,6 @@
 //! ```
 
 pub use texere_fabric::warp::{
-    Bar, CHAIN_COURSES, Chain, ChainError, Displacements, LAPPINGS, Laid, Lap, LapKind, NEEDLES_MOST, RunIn,
-    SPACE_MAX, Threading, WarpError, WarpKnitted,
+    Bar, CHAIN_COURSES, Chain, ChainError, Displacements, LAPPINGS, Lap, LapKind, NEEDLES_MOST, PlacedLap,
+    RunIn, SPACE_MAX, Threading, WarpError, WarpKnitted,
 };

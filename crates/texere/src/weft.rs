@@ -4,7 +4,7 @@
 //! |---|---|
 //! | write stitches in symbols, or make them one by one | [`Chart`], [`Cell`] |
 //! | say what a machine does, needle by needle | [`Program`], [`Instruction`] |
-//! | know what the machine makes of a program, and what is wrong with it | [`Machine`], [`Knit`], [`Fault`] |
+//! | run a program on a knitting machine, and know its faults | [`Machine`], [`Knit`], [`Fault`] |
 //! | know which loop is drawn through which | [`Stitches`] |
 //! | have a cloth | [`Knitted`], with a [`Gauge`] and a [`KnitYarn`] for each carrier |
 //!
@@ -20,8 +20,7 @@
 //! ```
 
 pub use texere_fabric::weft::{
-    Backing, Bed, Beds, CHART_CELLS_MAX, CHART_MOVED_MAX, CHART_SIDE_MAX, CHART_YARNS_MAX, CarrierSet, Cell,
-    Cells, Chart, ChartError, Direction, FAULTS_LISTED, Fate, Fault, FaultKind, Gauge, Head, Instruction,
-    Knit, KnitYarn, Knitted, LOOPS_MAX, LoopKind, LoopRef, Machine, NEEDLE_MAX, Needle, Operation, Parent,
-    Program, STACK_MAX, Step, Stitch, Stitches, Strand, Visit, WeftError,
+    Backing, Bed, Beds, CarrierSet, Cell, Cells, Chart, ChartError, Direction, Fate, Fault, FaultKind, Gauge,
+    Head, Instruction, Knit, KnitYarn, Knitted, LoopKind, LoopRef, Machine, NEEDLE_MAX, Needle, Operation,
+    Parent, Program, STACK_MAX, Step, Stitch, Stitches, Strand, Visit, WeftError,
 };

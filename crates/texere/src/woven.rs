@@ -7,6 +7,7 @@
 //! | say which thread lies on top at each crossing | [`Drawdown`] |
 //! | say what threads are like, and how close they lie | [`Thread`], [`Pitch`] |
 //! | have a cloth | [`Woven`]; [`WovenDesign`] adds how it comes to rest |
+//! | read what warp and weft each have | [`BySet`], [`Set`] |
 //! | know whether threads have room | [`JamReport`], [`Sett`], [`Relief`], [`Tightness`] |
 //! | place single ends and picks anew | [`Loom`] |
 //!
@@ -20,7 +21,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub use texere_core::crossings::Set;
 pub use texere_fabric::{
-    Crimp, Draft, Drawdown, JamReport, Loom, NO_CROSSING, Pitch, Relief, Sett, Shape, Shedding, Stretch,
-    Thread, ThreadError, Tightness, Weave, Woven, WovenDesign, WovenError,
+    BySet, Crimp, Draft, Drawdown, JamReport, Loom, NO_CROSSING, Pitch, Relief, Sett, Shape, Shedding,
+    Stretch, Thread, ThreadError, Tightness, Weave, Woven, WovenDesign, WovenError,
 };

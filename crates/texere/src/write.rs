@@ -1,7 +1,7 @@
 //! Files: meshes in pieces, pictures, drafts and designs.
 //!
 //! [`texere::write`](fn@crate::write) writes a whole mesh. Each function but [`file()`] has a twin
-//! whose name ends in `_to`: it writes the same bytes to a writer of the caller's.
+//! whose name ends in `_to`. The twin writes the same bytes to a writer of the caller's.
 //!
 //! | to | take |
 //! |---|---|
@@ -11,8 +11,8 @@
 //! | write a design that is read again | `wif`, `toml` (features of these names) |
 //! | write a draft as a picture | `draft`, `knit_draft`, `warp_draft` (feature `pictures`) |
 //! | write a picture | `picture` (feature `pictures`) |
-//! | write any file so that it is there whole or not at all | [`file()`] |
-//! | know that no file is replaced that was read | [`Output`] |
+//! | write any file so that it appears whole or not at all | [`file()`] |
+//! | make sure that no file is replaced that was read | [`Output`] |
 //!
 //! ```
 //! use std::io::Cursor;

@@ -1,15 +1,15 @@
-//! Yarns: what they are made of, how thick they are, where they go on, and how long they are.
+//! Yarns: material, section, thickness, how they end, and how long they are.
 //!
 //! | to | take |
 //! |---|---|
 //! | build yarns of any origin | [`Yarns::builder`](crate::Yarns::builder), which gives a [`YarnsBuilder`] |
 //! | say what a yarn is made of, and what its section is | [`Material`], [`Section`] |
-//! | say how a yarn's ends and a fabric's edges go on | [`Ends`], [`Boundary`] |
+//! | say how a yarn ends, and whether a fabric goes on beyond its edges | [`Ends`], [`Boundary`] |
 //! | know which thread of a design a yarn is | [`Origin`] |
 //! | turn a yarn count into a diameter, turns per metre into twist | [`diameter_mm`], [`tex_from_cotton_count`] and the like, [`twist_from_turns_per_m`] |
 //! | know how long yarns are | [`length_mm`], [`lengths_mm`] |
 //! | know which yarns lie under a point of the cloth | [`yarns_under`], which gives a [`YarnPlace`] for each |
-//! | know what numbers a control point and a yarn may have | [`COORDINATE_LIMIT`], [`RADIUS_MIN`], [`RADIUS_MAX`], [`TWIST_LIMIT`], [`HAIRINESS_LIMIT`] |
+//! | know the limits of control points and yarns | [`COORDINATE_LIMIT`], [`RADIUS_MIN`], [`RADIUS_MAX`], [`TWIST_LIMIT`], [`HAIRINESS_LIMIT`] |
 //!
 //! ```
 //! use texere::yarn::twist_from_turns_per_m;

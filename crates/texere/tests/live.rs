@@ -1,5 +1,4 @@
-//! A fabric that is edited: how often its mesh is planned, and what is still known of it
-//! afterwards.
+//! A fabric that is edited: how often its mesh is planned, and whether its sources stay known.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
@@ -44,7 +43,7 @@ fn cloth() -> Woven {
     Woven::new(plain, threads(40), threads(36), materials, sections).unwrap()
 }
 
-/// The same yarns with `times` as many intervals, and the sources of the points before.
+/// `yarns` with `times` as many intervals, each new point with the source of the point before it.
 fn finer(yarns: &Yarns, times: usize) -> Yarns {
     let (mut all, mut sources): (YarnsBuilder, Vec<u32>) = (Yarns::builder(), Vec::new());
     yarns.materials().iter().for_each(|material| _ = all.material(material.clone()));
@@ -82,7 +81,7 @@ fn yarns_that_outgrow_their_room_take_one_mesh_together() {
     live.set_yarns(finer(&yarns, 7)).unwrap();
     assert_eq!(meshes(), 3, "others");
     assert!(live.update().unwrap().anew);
-    // Where all have room there is no other mesh.
+    // The mesh stays where all yarns have room.
     live.set_yarns(finer(&yarns, 6)).unwrap();
     assert_eq!(meshes(), 3, "shorter ones");
     assert!(!live.update().unwrap().anew);
@@ -98,7 +97,7 @@ fn sources_stay_when_yarns_are_set() {
     let rest = finer(&yarns, 3);
     live.set_rest(&rest).unwrap();
     assert_eq!(live.yarns().unwrap().sources(), rest.sources());
-    // One yarn is moved, as a caller does who knows nothing of sources.
+    // One yarn is moved without sources.
     let (number, up) = (40 + 30, 0.05);
     let moved: Vec<_> = (rest.yarn_points(number).unwrap().iter())
         .map(|point| ControlPoint::new(point.x, point.y, point.z + up, 0.1))
@@ -109,7 +108,7 @@ fn sources_stay_when_yarns_are_set() {
         let range = rest.range(end).unwrap();
         assert_eq!(now.sources().unwrap()[range.clone()], rest.sources().unwrap()[range], "end {end}");
     }
-    // What a weaver calls the middle of its crossings: with all yarns, and with that yarn alone.
+    // Names of the middles of its crossings, with all yarns and with that yarn alone.
     let intervals = yarns.yarn_points(number).unwrap().len();
     let mut crossings = 0;
     for interval in 0..intervals {
@@ -151,7 +150,7 @@ fn what_is_set_reaches_the_cloth() {
     assert_eq!(woven.materials()[1], red);
     assert_eq!((woven.warp()[5].material, woven.warp()[5].section), (1, 1));
     assert_eq!((woven.warp()[4].material, woven.warp()[4].section), (0, 0));
-    // The cloth's own yarns say so, too, and lie as before.
+    // The cloth's own yarns have the new section, too, and lie as before.
     assert_eq!(woven.yarns().unwrap().layout().yarns()[5], what);
     // A yarn that is lifted is that of the weave again.
     live.set_lift(5, 0, !live.woven().unwrap().drawdown().up(5, 0)).unwrap();
@@ -166,7 +165,7 @@ fn ribbons() -> Woven {
     Woven::new(plain, threads(5), threads(4), vec![Material::default()], vec![Section::Circle]).unwrap()
 }
 
-/// The same points, but the height of the yarns that `turn` says is turned about the y axis,
+/// `yarns` with up directions. Those of the yarns that `turn` selects are turned about the y axis,
 /// further along x by more.
 fn turned(yarns: &Yarns, turn: impl Fn(usize) -> bool) -> Yarns {
     let mut ups = Vec::new();
@@ -179,8 +178,8 @@ fn turned(yarns: &Yarns, turn: impl Fn(usize) -> bool) -> Yarns {
     yarns.clone().with_ups(ups).unwrap()
 }
 
-/// Asserts that the live mesh is that of `yarns` made anew, to the bit, and that it knows them by
-/// the same ups.
+/// Asserts that the live mesh equals that of `yarns` made anew, to the bit, and has the same up
+/// directions.
 fn assert_fresh(live: &mut Live, yarns: &Yarns, what: &str) {
     live.update().unwrap();
     let now = live.yarns().unwrap();
@@ -233,7 +232,7 @@ fn yarns_that_differ_in_their_ups_alone_are_made_again() {
             assert_eq!(only.ups().map(<[_]>::to_vec), ups_of(yarns, yarn), "{what}: yarn {yarn} alone");
         }
     }
-    // What stays as it is is not made again.
+    // Yarns that stay the same are not made again.
     given.set_yarns(moved.clone()).unwrap();
     woven.set_rest(&moved).unwrap();
     for live in [&mut given, &mut woven] {
@@ -242,8 +241,8 @@ fn yarns_that_differ_in_their_ups_alone_are_made_again() {
     }
 }
 
-/// A yarn that is moved keeps its ups, one of other points stands along z, and one that is lifted
-/// does, too.
+/// A yarn that is moved keeps its up directions. A yarn with other points, or one that is lifted,
+/// stands along z.
 #[test]
 fn ups_stay_when_yarns_are_set() {
     let (cloth, flat) = (ribbons(), ribbons().yarns().unwrap());

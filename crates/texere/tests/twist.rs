@@ -1,4 +1,4 @@
-//! Meshes have rings enough for the twist of their yarns, or say that they do not.
+//! Meshes have enough rings for the twist of their yarns, or there is a warning.
 #![cfg(feature = "toml")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -49,9 +49,9 @@ fn unit(a: Vector) -> Vector {
     a.map(|each| each / dot(a, a).sqrt())
 }
 
-/// The signed turns, in degrees, from each ring of a yarn to the next as the mesh has them: the
-/// first corner of one ring is carried to the next by the smallest turn from plane to plane. With
-/// them the way from first ring to last, mm.
+/// The signed turns of the mesh from each ring of a yarn to the next, in degrees, and the length
+/// from first ring to last, mm. The first corner of one ring is carried to the next by the smallest
+/// turn from plane to plane.
 fn turns(mesh: &Mesh, yarn: usize) -> (Vec<f64>, f64) {
     let sides = mesh.plan.settings().sides as usize;
     let offsets = mesh.plan.ring_offsets();
@@ -81,8 +81,8 @@ fn turns(mesh: &Mesh, yarn: usize) -> (Vec<f64>, f64) {
     (turns.collect(), length)
 }
 
-/// No ring of the mesh is turned by more than 30 degrees, and all together turn as far as the twist
-/// asks.
+/// No ring of the mesh is turned by more than 30 degrees, and all turns together are those of the
+/// twist.
 fn follows(mesh: &Mesh, what: &str) {
     for (number, yarn) in mesh.plan.layout().yarns().iter().enumerate() {
         let (turns, length) = turns(mesh, number);
@@ -140,8 +140,8 @@ fn rings_follow_the_twist_of_every_section_and_way() {
     }
 }
 
-/// The warning names what there is and what helps: the number that it names does, one less does
-/// not, and the mesh agrees.
+/// The warning names the present subdivisions and a number that helps. That number shows the twist,
+/// one less does not, and the mesh agrees.
 #[test]
 fn subdivisions_that_are_fixed_are_warned_of() {
     let yarns = yarns_of(TWEED, "fixed");
@@ -151,7 +151,7 @@ fn subdivisions_that_are_fixed_are_warned_of() {
     assert!(found.to_string().ends_with(&format!("{needed} subdivisions do")), "{found}");
     assert!(Pipeline::new(&yarns).subdivisions(needed - 1).undersampled().is_some());
     assert_eq!(Pipeline::new(&yarns).subdivisions(needed).undersampled(), None);
-    // What it says of a step is what the mesh has, within the half turn that a mesh can show.
+    // The warning's step is that of the mesh, within the half turn that a mesh can show.
     let few = Pipeline::new(&yarns).subdivisions(needed - 2);
     let said = few.undersampled().unwrap().step.to_degrees();
     let (turns, _) = turns(&mesh(few), found.yarn);
@@ -159,8 +159,8 @@ fn subdivisions_that_are_fixed_are_warned_of() {
     assert!((said - most).abs() < 0.05 * said, "{said} for {most}");
 }
 
-/// Twist that no mesh of usual size shows ends in a bound and a warning, of one yarn and of a whole
-/// cloth.
+/// Twist that no mesh of usual size shows ends in a bound and a warning, for one yarn and for a
+/// whole cloth.
 #[test]
 fn hostile_twist_makes_no_giant() {
     for (threads, rings_max) in [(1, 64 * 1_000), (100, 1 << 21), (3_000, 1 << 21)] {
@@ -182,8 +182,8 @@ fn hostile_twist_makes_no_giant() {
     }
 }
 
-/// Yarns without twist, whatever their section, and round ones of usual twist are drawn with the
-/// paper's rings.
+/// Yarns without twist, of any section, and round yarns of usual twist are drawn with the paper's
+/// rings.
 #[test]
 fn what_shows_no_twist_has_no_more_rings() {
     let plain = TWEED.replace("twist_per_m = 340\n", "");

@@ -1,9 +1,9 @@
 // Rings in screen space. After fabric.wgsl and cover.wgsl.
 
-// The roll and the lean of each ring of the chunk, for what is seen of it.
+// The roll and the lean of each ring of the chunk, for `resolve`.
 @group(1) @binding(5) var<storage, read_write> ring_rolls: array<vec2<u32>>;
 
-// What a section is in screen space: its centre, and what its x and its y are there.
+// A section in screen space: its centre, and the directions of its x and its y.
 struct Axes {
     centre: vec4<f32>,
     x: vec4<f32>,

@@ -1,5 +1,5 @@
-// The rings of a block of yarns that nowhere turn, in screen space in workgroup memory. After
-// axes.wgsl; the twin of axes_rolled.wgsl.
+// A block's rings in screen space, in workgroup memory, for fabrics in which no section turns.
+// After axes.wgsl; the twin of axes_rolled.wgsl.
 
 var<workgroup> held: array<Axes, BLOCK_RINGS + 1u>;
 
@@ -7,8 +7,8 @@ fn held_axes(ring: u32) -> Axes {
     return held[ring];
 }
 
-// Puts the rings of a block there: a lane a ring, which it gives. A barrier must come before others
-// are read.
+// Writes the rings of a block: a lane for each ring, which it also returns. A barrier must come
+// before other lanes' rings are read.
 fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     if lane <= block.quads {

@@ -1,12 +1,12 @@
-// The rings of a block in screen space in workgroup memory, in the place of their stances. After
-// axes.wgsl and rings.wgsl; the twin of axes_level.wgsl, which takes less memory.
+// A block's rings in screen space, in workgroup memory, in place of their stances. After axes.wgsl
+// and rings.wgsl; the twin of axes_level.wgsl, which takes less memory.
 
 fn held_axes(ring: u32) -> Axes {
     return Axes(standing.centre[ring], standing.tangent[ring], standing.side[ring]);
 }
 
-// Puts the rings of a block there: a lane a ring, which it gives. Every lane must come here, and a
-// barrier before others are read.
+// Writes the rings of a block: a lane for each ring, which it also returns. Every lane must call
+// it, and a barrier must come before other lanes' rings are read.
 fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     block_rings(yarns[block.yarn], block, lane);

@@ -1,9 +1,10 @@
-// Where corners lie on the screen, and the samples that a quad may have. After fabric.wgsl and one
-// of keys_64.wgsl and keys_32.wgsl.
+// Corners on the screen, and the samples that a quad may cover. After fabric.wgsl and one of
+// keys_64.wgsl and keys_32.wgsl.
 
 const SUBPIXELS = 256.0;
 
-// Corners at most this far from the screen's middle, 1/256 pixels: edges are exact up to there.
+// The greatest distance of a corner from the screen's middle, 1/256 pixels. Edges are exact up to
+// there.
 const REACHED = 4194304.0;
 
 // A quad of fewer 1/256 pixels across takes edges of 32 bits.
@@ -17,11 +18,11 @@ struct Corner {
     // 1/256 pixels right of the middle and below it.
     place: vec2<i32>,
     depth: f32,
-    // The sides of the view that it lies beyond, a bit each, and BEYOND.
+    // The sides of the view beyond which it lies, a bit for each, and BEYOND.
     sides: u32,
 }
 
-// Marks a corner that lies behind the eye or too far aside to have a place.
+// Marks a corner without a place, behind the eye or too far aside.
 const BEYOND = 64u;
 
 // A point in screen space is one of clip space whose x and y are 1/256 pixels from the middle, y
@@ -34,8 +35,8 @@ fn screen_scale() -> vec4<f32> {
     return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
-// Next to 3 * 2^22 floats lie 1 apart, and their last bits count them: so a sum rounds. A
-// conversion takes a GPU eight times as long.
+// Near 3 * 2^22 floats lie 1 apart, and their last bits count them. So a sum rounds to whole
+// numbers. A conversion takes a GPU eight times as long.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
 
@@ -44,14 +45,14 @@ fn rounded(place: vec2<f32>) -> vec2<i32> {
     return bitcast<vec2<i32>>(place + ROUNDER) - ROUNDER_BITS;
 }
 
-// Where that is on the screen, in whole numbers.
+// The corner of a point in screen space, in whole numbers.
 fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
     // In a parallel view w is 1 everywhere.
     if view.eye.w == 0.0 {
         return (xy + ROUNDER) - ROUNDER;
     }
-    // A sum might be fused with the product in one place and not in another, and round otherwise
-    // there.
+    // A compiler might fuse this sum with the product in one place and not in another, and round
+    // differently there.
     return round(xy * (1.0 / w));
 }
 
@@ -71,35 +72,35 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
         return;
     }
     let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-    // Complements: the greatest key is that of the nearest triangle, and of those as near of the
-    // first one.
+    // Keys are complements. The greatest belongs to the nearest triangle, and of several as near to
+    // the first.
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// How many samples a quad may have, a bit for each answer: NONE; SMALL, those of at most two by two
-// pixels; FEW, those of some pixels more; or MANY, as one that lies partly beyond what is reached
-// may have.
+// The size of a quad, a bit for each answer: NONE, no samples; SMALL, those of at most two by two
+// pixels; FEW, those of some pixels more; MANY, any number, also for a quad with a corner beyond
+// REACHED.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
 const MANY = 4u;
 
-// Whether an outside, or an inside where that may be seen, shows: from a triangle's area on the
-// screen, twice. Outsides are counter-clockwise as seen with y up: their areas are below 0.
+// Whether a triangle shows, from twice its area on the screen: its outside, or its inside where
+// that may be seen. Outsides are counter-clockwise with y up, so their areas are below 0.
 fn is_seen(area: f32) -> bool {
     return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
 }
 
-// That area. Only its sign is wanted, which rounding does not change but where edges are as long as
-// the screen.
+// Twice the area of a triangle on the screen. Only the sign matters, and rounding does not change
+// it except where edges are as long as the screen.
 fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
     return pq.x * pr.y - pq.y * pr.x;
 }
 
-// The same of corners less than EXTENT apart, by an area that is wrong by less than 256: whether a
-// triangle may show. Smaller ones may.
+// Whether a triangle of corners less than EXTENT apart may show. Its area is wrong by less than
+// 256, so triangles smaller than that may.
 fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
     let pq = q - p;
     let pr = r - p;
@@ -138,8 +139,8 @@ fn highest(quad: Quad) -> vec2<i32> {
     return max(max(quad.p.place, quad.q.place), max(quad.r.place, quad.s.place));
 }
 
-// The box round a quad on the screen, 1/256 pixels from its upper left corner, and the pixels of
-// the band in it: none where it does not show.
+// The box round a quad, 1/256 pixels from the screen's upper left corner, and the band's pixels in
+// it. There are none where the quad does not show.
 struct QuadBox {
     least: vec2<i32>,
     most: vec2<i32>,
@@ -147,24 +148,24 @@ struct QuadBox {
     last: vec2<i32>,
 }
 
-// That of a quad whose corners all have a place and lie less than EXTENT apart.
+// The box of a quad whose corners all have a place and lie less than EXTENT apart.
 fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBox {
     if !(near_may_show(p, q, r) | near_may_show(q, s, r) | (view.sees_inside != 0u)) {
         return QuadBox(vec2(0), vec2(0), vec2(0), vec2(-1));
     }
-    // One more each way, in case that a compiler rounds otherwise where it is drawn.
+    // One more each way, for a compiler may round differently where the quad is drawn.
     let least = rounded(min(min(p, q), min(r, s))) + (middle() - 1);
     let most = rounded(max(max(p, q), max(r, s))) + (middle() + 1);
     return QuadBox(least, most, first_pixel(least), last_pixel(most));
 }
 
-// The same with one more each way, for a pass that must have no fewer quads than another one has
-// left it: twice does no harm, and a compiler may round otherwise there.
+// A box with one more each way, for a pass that must find every quad that another pass has left to
+// it. A compiler may round differently there, and drawing a quad twice does no harm.
 fn wider(box: QuadBox) -> QuadBox {
     return QuadBox(box.least, box.most, first_pixel(box.least - 1), last_pixel(box.most + 1));
 }
 
-// How many samples it may have, where up to `alone` are few.
+// The size of a quad with this box, where up to `alone` samples are FEW.
 fn size_of(box: QuadBox, alone: i32) -> u32 {
     let across = box.last - box.first;
     if min(across.x, across.y) < 0 {
@@ -176,8 +177,8 @@ fn size_of(box: QuadBox, alone: i32) -> u32 {
     return select(MANY, FEW, 4 * (across.x + 1) * (across.y + 1) <= alone);
 }
 
-// Which samples it has where it is SMALL, a bit each, four for a pixel, from the pixel of the least
-// x and y on, row by row. Most quads lie between samples.
+// The samples in the box of a SMALL quad, a bit for each, four for a pixel, from the pixel of the
+// least x and y on, row by row. Most quads lie between samples.
 fn samples_of(box: QuadBox) -> u32 {
     let first = box.first;
     let last = box.last;
@@ -199,12 +200,12 @@ fn first_pixel(least: vec2<i32>) -> vec2<i32> {
     return max(least >> vec2(8u), vec2(0, i32(sweep.first_row)));
 }
 
-// The last one up to `most`.
+// The last pixel of the band up to `most`, likewise.
 fn last_pixel(most: vec2<i32>) -> vec2<i32> {
     return min(most >> vec2(8u), vec2(i32(view.size.x) - 1, i32(sweep.first_row + sweep.rows) - 1));
 }
 
-// The samples of a pixel that lie between `least` and `most`, likewise, a bit each.
+// The samples of a pixel that lie between `least` and `most`, a bit for each.
 fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
     let low = least - pixel * 256;
     let high = most - pixel * 256;

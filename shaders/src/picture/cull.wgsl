@@ -2,12 +2,12 @@
 
 const CULL_GROUP = 64u;
 
-// Slack of the boxes, as a share of the largest coordinate, and of what is added to them.
+// Slack of the boxes, as a share of the largest coordinate and of the reach that is added to them.
 const BOX_SLACK = 1e-5;
 
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
-// Workgroups of the dispatches that go through the blocks: through all, those that have quads of a
-// few samples, those that have some of many.
+// Workgroups of the three dispatches over blocks: all listed blocks, those with quads of a few
+// samples, and those with quads of many.
 @group(1) @binding(3) var<storage, read_write> groups: array<array<u32, 3>, 3>;
 
 struct Box {
@@ -15,16 +15,16 @@ struct Box {
     high: vec3<f32>,
 }
 
-// Lanes that share a block: so they read points that lie side by side.
+// Lanes that share a block, so that they read points side by side.
 const BLOCK_LANES = 8u;
 
-// What each lane has found of its block: the box of its intervals' Bezier hulls, and the largest
-// half width or half height.
+// What each lane has found of its block: the box round the Bezier hulls of its intervals, and the
+// largest half width or half height.
 var<workgroup> lows: array<vec3<f32>, CULL_GROUP>;
 var<workgroup> highs: array<vec3<f32>, CULL_GROUP>;
 var<workgroup> sizes: array<f32, CULL_GROUP>;
 
-// Finds that for lane `part` of those of a block.
+// Finds it, for lane `part` of the block's lanes.
 fn find_hull(block: Block, lane: u32, part: u32) {
     let per_interval = params.subdivisions + 1u;
     let last = block.first_ring % per_interval + block.quads;
@@ -74,7 +74,7 @@ fn box_of(first: u32) -> Box {
 
 // Whether all of the box lies beyond one side of the view.
 fn is_outside(bounds: Box) -> bool {
-    // Pixels of slack, for what corners are moved by.
+    // Slack, pixels: corners are rounded.
     let spare = 4.0 / view.size;
     let top = 1.0 - 2.0 * f32(sweep.first_row) / view.size.y + spare.y;
     let bottom = 1.0 - 2.0 * f32(sweep.first_row + sweep.rows) / view.size.y - spare.y;
@@ -116,8 +116,8 @@ fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     }
 }
 
-// A lane a row, for a view that shows all of the fabric: to find out takes as long as a tenth of
-// drawing.
+// Lists all blocks, for a view that shows all of the fabric: a lane for each row. Culling would
+// take a tenth of the time of drawing.
 @compute @workgroup_size(CULL_GROUP)
 fn list_all(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
             @builtin(local_invocation_index) lane: u32) {
@@ -135,7 +135,7 @@ fn groups_of(count: u32) -> array<u32, 3> {
     return array((count + max(rows, 1u) - 1u) / max(rows, 1u), rows, 1u);
 }
 
-// A single lane: what the list takes, in columns and rows, before any block is left.
+// The workgroups for all listed blocks, in columns and rows: a single lane.
 @compute @workgroup_size(1)
 fn count_listed() {
     atomicStore(&listed.few_count, 0u);
@@ -143,7 +143,7 @@ fn count_listed() {
     groups[0] = groups_of(atomicLoad(&listed.count));
 }
 
-// The same for those that were left.
+// The workgroups for blocks that were left for later, likewise.
 @compute @workgroup_size(1)
 fn count_left() {
     groups[1] = groups_of(atomicLoad(&listed.few_count));

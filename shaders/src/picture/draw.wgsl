@@ -1,15 +1,15 @@
-// Draws quads and triangles in their samples. After cover.wgsl and weights.wgsl.
+// Draws quads and triangles into their samples. After cover.wgsl and weights.wgsl.
 //
-// The rules are those of any rasteriser, so that triangles with a common edge leave no sample out
-// and have none twice: corners are rounded to 1/256 of a pixel, edges are tested in whole numbers,
-// and a sample on an edge belongs to the triangle whose top or left edge that is.
+// The rules are those of any rasteriser: corners are rounded to 1/256 of a pixel, edges are tested
+// in whole numbers, and a sample on an edge belongs to the triangle whose top or left edge it is.
+// So triangles with a common edge leave no sample out, and cover none twice.
 
 fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;
 }
 
-// The samples of a triangle's box, or some more where pixels have shifts: rows of samples, and
-// pixels.
+// The samples in a triangle's box, as rows of samples and columns of pixels. Where pixels have
+// shifts there may be some more.
 struct Span {
     first: vec2<i32>,
     last: vec2<i32>,
@@ -21,7 +21,7 @@ fn span_of(low: vec2<i32>, high: vec2<i32>) -> Span {
     let most = high + middle() + slack;
     let first_row = max((least.y - FIRST_SAMPLE_Y + SAMPLE_ROW - 1) >> 6u, i32(4u * sweep.first_row));
     let last_row = min((most.y - FIRST_SAMPLE_Y) >> 6u, i32(4u * (sweep.first_row + sweep.rows)) - 1);
-    // The sample of a pixel that lies farthest left is at 32, the one farthest right at 224.
+    // A pixel's leftmost sample lies at 32, its rightmost at 224.
     let first_x = max((least.x - 224 + 255) >> 8u, 0);
     let last_x = min((most.x - 32) >> 8u, i32(view.size.x) - 1);
     return Span(vec2(first_x, first_row), vec2(last_x, last_row));
@@ -53,7 +53,7 @@ struct Coverage {
     depth: f32,
 }
 
-// The depth where the shares of q and r in the triangle's area are these, all twice.
+// The depth at a point, from twice the areas of q and r and of the whole triangle.
 fn depth_of(turned: Turned, over_q: f32, over_r: f32, area: f32) -> f32 {
     let share = 1.0 / area;
     return turned.p.depth
@@ -67,14 +67,14 @@ fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     let over_r = cross_of(pq, place - turned.p.place);
     let over_p = cross_of(qr, place - turned.q.place);
     let over_q = cross_of(rp, place - turned.r.place);
-    // All three can be inside only where the edges go round clockwise.
+    // A sample is inside all three only where the edges go round clockwise.
     let is_covered =
         (over_r + edge_bias(pq) >= 0) & (over_p + edge_bias(qr) >= 0) & (over_q + edge_bias(rp) >= 0);
     return Coverage(is_covered, depth_of(turned, f32(over_q), f32(over_r), f32(over_r + over_p + over_q)));
 }
 
-// Twice the area between `edge` and `to`, and its sign, exact for differences of 24 bits: in parts
-// of 12 bits.
+// Twice the area between `edge` and `to`, with its sign. It is exact for differences of 24 bits,
+// since it is worked out in parts of 12 bits.
 struct Area {
     sign: i32,
     value: f32,
@@ -105,8 +105,7 @@ fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
     return Coverage(is_covered, depth_of(turned, over_q.value, over_r.value, long_cross(pq, -rp).value));
 }
 
-// Draws a SMALL quad, whose first triangle is number `triangle`, in those of its samples that it
-// covers.
+// Draws a SMALL quad into the samples that it covers. Its first triangle is number `triangle`.
 fn draw_small(quad: Quad, samples: u32, triangle: u32) {
     // The pixel that `samples_of` has begun at.
     let first = first_pixel(lowest(quad) + (middle() - 1));
@@ -124,17 +123,17 @@ fn edge_of(start: vec2<i32>, end: vec2<i32>, origin: vec2<i32>) -> vec3<i32> {
     return vec3(edge, edge_bias(edge) - cross_of(edge, start - origin));
 }
 
-// That sum at four places. Its parts may wrap round, the sum is exact: places lie within a box of
-// ALONE samples.
+// The sum of an edge at four places. Parts of it may wrap, but the sum is exact, since places lie
+// within a box of ALONE samples.
 fn sums_at(edge: vec3<i32>, places: Four) -> vec4<i32> {
     return edge.x * places.y - edge.y * places.x + edge.z;
 }
 
-// Draws a quad that has few samples: four by two pixels at a time, first which of their samples it
-// covers, then those.
+// Draws a FEW quad, four by two pixels at a time. It first finds the samples that the quad covers,
+// and then draws them.
 fn draw_few(quad: Quad, triangle: u32) {
     if view.sees_inside != 0u {
-        // One that is folded may show both its triangles in a sample.
+        // A folded quad may show both its triangles in a sample.
         draw_together(quad.p, quad.q, quad.r, triangle, Lanes(0, 0, 1, 1));
         draw_together(quad.s, quad.r, quad.q, triangle + 1u, Lanes(0, 0, 1, 1));
         return;
@@ -172,12 +171,11 @@ fn draw_few(quad: Quad, triangle: u32) {
     }
 }
 
-// Draws a quad in a sample: that of its triangles which lies on the sample's side of the diagonal
-// between q and r.
+// Draws a quad into a sample: the triangle on the sample's side of the diagonal between q and r.
 fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     let place = sample_place(x, row);
     if view.sees_inside != 0u {
-        // A quad that is folded may show both.
+        // A folded quad may show both triangles.
         offer_covered(turned(quad.p, quad.q, quad.r), place, x, row, triangle);
         offer_covered(turned(quad.s, quad.r, quad.q), place, x, row, triangle + 1u);
         return;
@@ -191,7 +189,7 @@ fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     offer_covered(seen, place, x, row, select(triangle + 1u, triangle, is_first));
 }
 
-// Offers a triangle in a sample that lies at `place`, where it covers it.
+// Offers a triangle in the sample at `place`, if it covers that.
 fn offer_covered(turned: Turned, place: vec2<i32>, x: i32, row: i32, triangle: u32) {
     let coverage = coverage_of(turned, place);
     if turned.is_seen && coverage.is_covered {
@@ -199,7 +197,7 @@ fn offer_covered(turned: Turned, place: vec2<i32>, x: i32, row: i32, triangle: u
     }
 }
 
-// A lane of some that share a triangle's samples, in so many columns and rows.
+// A lane of several that share a triangle's samples, arranged in columns and rows.
 struct Lanes {
     column: i32,
     row: i32,
@@ -207,8 +205,8 @@ struct Lanes {
     rows: i32,
 }
 
-// How far a row of samples may lie inside of a triangle, 1/256 pixels right of the screen's middle:
-// before `x` and behind `y` it does not.
+// The part of a row of samples that may lie inside a triangle: from `x` to `y`, 1/256 pixels right
+// of the screen's middle.
 fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     // Samples that have shifts lie anywhere in the row.
     let is_shifted = view.spread > 0.0;
@@ -219,12 +217,12 @@ fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     let q = vec2<f32>(turned.q.place);
     let r = vec2<f32>(turned.r.place);
     let reach = reach_beside(reach_beside(reach_beside(vec2(-REACHED, REACHED), p, q, rows), q, r, rows), r, p, rows);
-    // What floats leave out.
+    // Slack for the rounding of floats.
     return clamp(reach + vec2(-16.0, 16.0), vec2(-REACHED), vec2(REACHED));
 }
 
-// What an edge leaves of a reach. One that leads down has the triangle on its left, one that leads
-// up on its right.
+// The part of a reach that an edge leaves. An edge that leads down has the triangle on its left,
+// one that leads up on its right.
 fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f32>) -> vec2<f32> {
     let edge = end - start;
     let at = start.x + edge.x / edge.y * (rows - start.y);
@@ -232,7 +230,7 @@ fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f
                 select(reach.y, min(reach.y, max(at.x, at.y)), edge.y > 0.0));
 }
 
-// Draws a triangle: a lane its share of the samples.
+// Draws a triangle: each lane draws its share of the samples.
 fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
     let turned = turned(p, q, r);
     let low = min(p.place, min(q.place, r.place));
@@ -259,7 +257,7 @@ fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
     }
 }
 
-// Draws a triangle that lies partly behind the eye, or far aside: the whole screen against its
+// Draws a triangle that lies partly behind the eye, or far aside. It tests the whole screen against
 // edges in homogeneous coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
 // homogeneous coordinates").
 fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u32, lanes: u32) {
@@ -271,8 +269,8 @@ fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u3
         let weights = weights_at(p, q, r, sample_place(x, sample_row));
         let determinant = dot(weights, vec3(p.w, q.w, r.w));
         let is_front = determinant > 0.0;
-        // All of one sign: else the place lies outside, or the line of sight meets the triangle
-        // behind the eye.
+        // All must have one sign. Otherwise the place lies outside, or the line of sight meets the
+        // triangle behind the eye.
         let inside = select(-weights, weights, is_front);
         if determinant != 0.0 && (is_front || view.sees_inside != 0u) && all(inside >= vec3(0.0)) {
             let clip = p * weights.x + q * weights.y + r * weights.z;

@@ -1,8 +1,7 @@
-// A chunk of the fabric as it is drawn without a mesh: from control points. After common.wgsl and
-// view.wgsl.
+// A chunk of the fabric, drawn from control points without a mesh. After common.wgsl and view.wgsl.
 //
-// Group 0 holds what a session keeps of the chunk, each resource at its own number; group 1 what
-// pictures add.
+// Group 0 holds the session's tables of the chunk, each resource at its own number. Group 1 holds
+// what pictures add.
 
 // Rust: texere_render's Sweep, 32 bytes: one go through the chunk's blocks.
 struct Sweep {
@@ -19,9 +18,9 @@ struct Sweep {
     hair_reach: f32,
 }
 
-// Blocks of the chunk that the view may show: numbers of rows. From params.blocks on those that
-// have quads of a few samples, from twice as many on those that have some of many: these are left
-// for later.
+// Three lists of row numbers. First the blocks that the view may show; from params.blocks on,
+// blocks with quads of a few samples; from twice params.blocks on, blocks with quads of many. The
+// latter two are left for later passes.
 struct Listed {
     count: atomic<u32>,
     few_count: atomic<u32>,
@@ -37,7 +36,7 @@ fn numbers_of_block() -> u32 {
     return 2u * BLOCK_RINGS * params.sides;
 }
 
-// A quad of rings of quads, by its number: its ring, its side and the one beside it.
+// A quad of a block, from its number: its ring, its side and the next side.
 fn quad_at(number: u32) -> vec3<u32> {
     let ring = quotient(number, params.sides);
     let side = number - ring * params.sides;
@@ -59,12 +58,13 @@ fn sample_place(x: i32, row: i32) -> vec2<i32> {
     return pixel * 256 + sample_in(pixel, row & 3) - middle();
 }
 
-// The key of a sample of the pixel at `x` and so many rows below the first one that has keys.
+// The index of a sample's key, for the pixel at `x` and `row` rows below the first with keys.
 fn key_at(x: u32, row: u32, sample: u32) -> u32 {
     return (row * u32(view.size.x) + x) * 4u + sample;
 }
 
-// How the section stands at the end that `cap` closes, whose ring has this roll and this lean.
+// How the section stands at the end that `cap` closes, with the roll and the lean of the ring
+// there.
 fn cap_stance(cap: CapRow, roll: vec2<u32>) -> Stance {
     let segment = segment_new(cap.first_point, params.s);
     let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));

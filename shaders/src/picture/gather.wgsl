@@ -1,10 +1,10 @@
-// The picture's pixels, from the samples that lie in and about each. After view.wgsl and lit.wgsl.
+// The pixels of the picture, from the samples in and about each. After view.wgsl and lit.wgsl.
 //
-// A pixel that is the mean of what lies in it lets through what is finer than pixels: threads of
-// two thirds of a pixel come out as waves of two pixels, a fifth as strong as the threads. More
-// samples don't change that, for it is the mean itself. So where threads are finer than pixels each
-// is a mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines: a
-// perfect fit for signal and image processing"), and a tenth as much is left of such waves.
+// The plain mean of the samples in a pixel shows false waves where threads are finer than pixels:
+// threads of two thirds of a pixel come out as waves of two pixels, a fifth as strong as the
+// threads. More samples don't help, for the mean itself does it. So on such threads each pixel is a
+// mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines: a perfect
+// fit for signal and image processing"). It leaves a tenth of those waves.
 
 @group(1) @binding(1) var lit_samples: texture_2d<u32>;
 // Red, green, blue and alpha, sRGB.
@@ -49,7 +49,7 @@ fn gather(@builtin(global_invocation_id) place: vec3<u32>) {
     if any(corner > last) {
         return;
     }
-    // A pixel more each way where there is any of the wide mean.
+    // One pixel more each way, where the wide mean counts at all.
     let margin = select(0, factor, view.spread > 0.0);
     let low = max(corner - margin, vec2(0));
     let high = min(corner + factor + margin - 1, last);

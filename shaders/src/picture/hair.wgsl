@@ -1,14 +1,14 @@
-// What a fibre that stands off its yarn is like. After fabric.wgsl.
+// Hairs: fibres that stand off their yarns. After fabric.wgsl.
 //
-// Each gap between two rings has hairs of its own, by a hash of its yarn, its ring and the hair's
-// number: so they are the same however the fabric is cut into chunks, and whoever asks.
+// Each gap between two rings has its own hairs, from a hash of its yarn, its ring and the hair's
+// number. So they are the same however the fabric is cut into chunks, and in every shader.
 
 // Hairs of a gap at most, and straight parts of each. Rust: texere_render's hairs.rs, with the next
 // one.
 const HAIRS_OF_GAP = 16u;
 const HAIR_PARTS = 16u;
 
-// A hair's length is cut off at so many times the scale of its distribution.
+// Lengths are cut off at this many times the scale of their distribution.
 const HAIR_LONGEST = 4.0;
 
 // Lengths are distributed exponentially (Barella and Manich 1993, "The hair-length distribution of
@@ -33,7 +33,7 @@ struct Hair {
     turns: vec3<f32>,
 }
 
-// A number that looks nothing like `x`: the last steps of MurmurHash3 (Appleby 2011).
+// A hash of `x`: the last steps of MurmurHash3 (Appleby 2011).
 fn scrambled(x: u32) -> u32 {
     var mixed = (x ^ (x >> 16u)) * 2246822507u;
     mixed = (mixed ^ (mixed >> 13u)) * 3266489909u;
@@ -45,15 +45,14 @@ fn drawn(seed: u32, draw: u32) -> f32 {
     return f32(scrambled(seed + draw * 2654435769u) >> 8u) / 16777216.0;
 }
 
-// What all draws of a hair of a gap follow from. `ring`: the one before the gap, counted in the
-// whole yarn.
+// The seed of a hair's draws. `ring`: the ring before the gap, counted in the whole yarn.
 fn seed_of(yarn: u32, ring: u32, hair: u32) -> u32 {
     return scrambled(scrambled(yarn * 2246822519u + ring) + hair * 3266489917u);
 }
 
-// The hair of that seed between two rings. It starts on the surface that is drawn there and leaves
-// it by its fibres' direction, which has the twist, forward or backward; then it bends at random
-// and lies down. It never leads back through the plane that it left.
+// The hair of a seed, between two rings. It starts on the drawn surface, and leaves it along the
+// direction of its fibres, which has the twist, forward or backward. Then it bends at random and
+// lies down. It never leads back through the plane that it left.
 fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     let side = min(u32(drawn(seed, 0u) * f32(params.sides)), params.sides - 1u);
     let beside = side_beside(side);
@@ -74,7 +73,7 @@ fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     return Hair(mix(start, end, drawn(seed, 10u)), HAIR_SCALE * scales / f32(HAIR_PARTS), normal, along, rises, turns);
 }
 
-// Where its part number `part` leads: rise and turn are quadratic Bezier curves of the way to its
+// The direction of part number `part`. Rise and turn are quadratic Bezier curves of the way to the
 // tip.
 fn hair_direction(hair: Hair, part: u32) -> vec3<f32> {
     let share = (f32(part) + 0.5) / f32(HAIR_PARTS);

@@ -1,8 +1,9 @@
 // Draws the fibres that stand off the yarns of a chunk. After rings.wgsl, fabric.wgsl, cover.wgsl
 // and hair.wgsl.
 //
-// A fibre is a ribbon that faces the eye, as wide as it is: where that is less than the distance of
-// samples it covers as few of them as its area does, so that it comes out fainter and not thicker.
+// A fibre is drawn as a ribbon that faces the eye, at its true width. Where that is less than the
+// distance of samples, it covers as few samples as its area does. So thin fibres come out fainter,
+// not thicker.
 
 const HAIR_GROUP = 128u;
 
@@ -17,8 +18,8 @@ const DEEPEST = 0.99999994;
 var<workgroup> block_hairs: array<u32, BLOCK_RINGS * HAIRS_OF_GAP>;
 var<workgroup> hair_count: atomic<u32>;
 
-// Notes the hairs of the gap behind ring `ring` of the block: as many as its length has, with the
-// fraction by chance.
+// Notes the hairs of the gap behind ring `ring` of the block. Their number follows from the gap's
+// length; its fraction is left to chance.
 fn note_hairs(block: Block, ring: u32) {
     let length = distance(standing.centre[ring].xyz, standing.centre[ring + 1u].xyz);
     let chance = drawn(seed_of(block.yarn, block.first_ring + ring, HAIRS_OF_GAP), 0u);
@@ -29,7 +30,7 @@ fn note_hairs(block: Block, ring: u32) {
     }
 }
 
-// 1/256 pixels that half a fibre's width takes at such a depth of clip space.
+// Half a fibre's width at a depth of clip space, 1/256 pixels.
 fn half_width_at(w: f32) -> f32 {
     let rows = view.clip_from_local;
     let pixels_of_mm = 0.5 * view.size.y * length(vec3(rows[0].y, rows[1].y, rows[2].y)) / w;
@@ -45,13 +46,12 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     if ((p.sides | q.sides) & BEYOND) != 0u {
         return;
     }
-    // Not just before the eye, where it would hide the cloth.
+    // A hair just before the eye would hide the cloth, so it is left out.
     let plane = 1.0 / (view.local_from_clip * vec4(0.0, 0.0, 0.0, 1.0)).w;
     if min(start_clip.w, end_clip.w) < 0.5 * plane {
         return;
     }
-    // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is
-    // drawn there.
+    // The view's depth is that of the yarns. Parts of hairs beyond its ends are drawn at the ends.
     let depths = clamp(vec2(p.depth, q.depth), vec2(0.0), vec2(DEEPEST));
     let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));
     let base = vec2<f32>(p.place);
@@ -63,7 +63,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     let first_row = max(i32(ceil((low - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * sweep.first_row));
     let end_row = min(i32(floor((high - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * (sweep.first_row + sweep.rows)) - 1);
     for (var row = first_row; row <= end_row; row++) {
-        // What of the part lies near the row.
+        // The stretch of the part that lies near the row.
         let down = f32(sample_place(0, row).y) - base.y;
         let shares = select(vec2(0.0, 1.0), (vec2(down) + vec2(-reach, reach)) / way.y, abs(way.y) > 1.0);
         let ends = way.x * clamp(shares, vec2(0.0), vec2(1.0));

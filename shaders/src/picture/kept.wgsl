@@ -1,4 +1,4 @@
-// What is kept of a sample until it is lit. After view.wgsl.
+// The encoding of a sample until it is lit. After view.wgsl.
 
 const TAU = 6.2831853;
 

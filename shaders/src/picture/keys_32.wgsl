@@ -1,4 +1,4 @@
-// What is nearest in each sample, in two numbers of 32 bits, which take two rounds. Before
+// The nearest triangle in each sample, in two numbers of 32 bits, which take two rounds. Before
 // cover.wgsl. In memory they are the number of keys_64.wgsl.
 
 struct Key {

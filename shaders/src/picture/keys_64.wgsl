@@ -1,4 +1,4 @@
-// What is nearest in each sample, in one number of 64 bits. Before cover.wgsl.
+// The nearest triangle in each sample, in one number of 64 bits. Before cover.wgsl.
 
 // Nearness, then the triangle.
 @group(1) @binding(4) var<storage, read_write> keys: array<atomic<u64>>;

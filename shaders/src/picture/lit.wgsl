@@ -1,5 +1,5 @@
-// What is kept of a sample that is lit: ten bits each of the square roots of red, green and blue,
-// which share them out about as an eye does, and two of alpha.
+// The encoding of a lit sample: ten bits for the square root of each of red, green and blue, and
+// two bits for alpha. Square roots spread the bits roughly as an eye sees steps.
 
 fn lit_of(color: vec4<f32>) -> u32 {
     let steps = vec4<u32>(round(vec4(sqrt(clamp(color.rgb, vec3(0.0), vec3(1.0))), color.a) * vec4(vec3(1023.0), 3.0)));

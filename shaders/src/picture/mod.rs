@@ -21,25 +21,25 @@
 //! | `lit.wgsl` | | what is kept of a sample that is lit |
 //! | `gather.wgsl` | `gather` | the picture's own pixels, from the samples in and about each |
 
-/// What stands before any shader that writes samples: the view, and what is kept of them.
+/// Source before all shaders that write samples: the view, and the encoding of samples.
 pub const KEPT: &str = concat!(include_str!("view.wgsl"), include_str!("kept.wgsl"));
 
-/// What stands before shaders that draw without a mesh.
+/// Source before all shaders that draw without a mesh.
 macro_rules! fabric {
     () => {
         concat!(include_str!("../common.wgsl"), include_str!("view.wgsl"), include_str!("fabric.wgsl"))
     };
 }
 
-/// What draws with a kind of keys.
+/// Source that draws with one kind of keys.
 macro_rules! drawing {
     ($keys:literal, $($own:expr),+) => {
         concat!(fabric!(), include_str!($keys), include_str!("cover.wgsl"), $($own),+)
     };
 }
 
-/// `raster`, `raster_few`, `raster_many` and `raster_caps` with a kind of keys, where nothing turns
-/// and where something does.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps` with one kind of keys: first for fabrics
+/// in which no section turns, then for all.
 macro_rules! raster {
     ($keys:literal) => {
         [
@@ -64,29 +64,29 @@ macro_rules! raster {
     };
 }
 
-/// A block's rings, and the one after them.
+/// A block's rings, and the ring after them.
 macro_rules! rings {
     () => {
         concat!("const RINGS_BEYOND = 1u;\n", include_str!("../rings.wgsl"))
     };
 }
 
-/// `cull`, `list_all`, `count_listed` and `count_left`. This one and the next five stand after
-/// `texere_gpu::prelude`.
+/// `cull`, `list_all`, `count_listed` and `count_left`. Like the next five, it needs
+/// `texere_gpu::prelude` before it.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
-/// `raster`, `raster_few`, `raster_many` and `raster_caps`, for devices with atomics of 64 bits:
-/// where nothing turns, and where something does.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps` for devices with atomics of 64 bits:
+/// first for fabrics in which no section turns, then for all.
 pub const RASTER: [&str; 2] = raster!("keys_64.wgsl");
 
-/// The same for any device.
+/// [`RASTER`] for any device.
 pub const RASTER_IN_ROUNDS: [&str; 2] = raster!("keys_32.wgsl");
 
 /// `hairs`, for devices with atomics of 64 bits.
 pub const HAIRS: &str =
     drawing!("keys_64.wgsl", rings!(), include_str!("hair.wgsl"), include_str!("hairs.wgsl"));
 
-/// The same for any device.
+/// [`HAIRS`] for any device.
 pub const HAIRS_IN_ROUNDS: &str =
     drawing!("keys_32.wgsl", rings!(), include_str!("hair.wgsl"), include_str!("hairs.wgsl"));
 
@@ -99,7 +99,7 @@ pub const RESOLVE: &str = concat!(
     include_str!("resolve.wgsl")
 );
 
-/// What stands before [`RESOLVE`]: whether any yarn has fibres that stand off.
+/// Source before [`RESOLVE`]: whether any yarn has fibres that stand off.
 #[must_use]
 pub const fn hairy(hairs: bool) -> &'static str {
     if hairs { "const HAIRY = true;\n" } else { "const HAIRY = false;\n" }
@@ -117,8 +117,8 @@ pub const SHADE: &str = concat!(
     include_str!("shade.wgsl")
 );
 
-/// What stands before [`SHADE`]: whether the picture does without `visibility`, since all that
-/// takes light from a place lies too near it on the screen.
+/// Source before [`SHADE`]: whether the picture has no `visibility`, since everything that could
+/// take light from a place lies too close to it on the screen.
 #[must_use]
 pub const fn far(far: bool) -> &'static str {
     if far { "const FAR = true;\n" } else { "const FAR = false;\n" }

@@ -1,17 +1,16 @@
 // Draws a chunk of the fabric from its control points: no mesh is written. After draw.wgsl, and
 // axes_level.wgsl or axes_rolled.wgsl.
 //
-// Drawing in compute (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute shaders
-// and vertex order optimization"; Karis et al. 2021, "Nanite"): yarns have several triangles for
-// each sample, which a rasteriser made for large ones spends its time on. Here a triangle that has
-// no sample costs no more than finding that out, and one that has some costs an atomic maximum in
-// each.
+// Compute shaders draw (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute
+// shaders and vertex order optimization"; Karis et al. 2021, "Nanite"), since yarns have several
+// triangles for each sample, and rasterisers are made for large triangles. Here a triangle without
+// samples costs only the test for it, and one with samples an atomic maximum in each.
 
-// A lane for each ring of a block and the one after it, in eights for the scan of rolls. The less
-// memory a workgroup takes, the more of them run at a time.
+// A lane for each ring of a block and for the ring after it, in whole eights for the scan of rolls.
+// The less memory a workgroup takes, the more workgroups run at a time.
 const RASTER_GROUP = BLOCK_RINGS + 8u;
-// Lanes of that group that draw what has been found: GPUs run 32 in step, and the few beyond would
-// keep others waiting in each round.
+// Lanes of the workgroup that draw the quads found. GPUs run 32 lanes in step, and the few beyond
+// would keep others waiting in each round.
 const DRAWING_LANES = 64u;
 const MANY_GROUP = 128u;
 const CAP_GROUP = 64u;
@@ -23,8 +22,8 @@ const SIDES_LOOKED = 6u;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// Quads of the block that are to be drawn: their numbers, and above FOUND_SHIFT the samples that
-// SMALL ones may have. In `raster_many` sides of the ring.
+// Quads of the block to draw: their numbers, and above FOUND_SHIFT the samples that SMALL quads may
+// have. In `raster_many` sides of the ring.
 const FOUND_SHIFT = 16u;
 const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
 var<workgroup> found: array<u32, FOUND_MOST>;
@@ -34,22 +33,22 @@ const_assert BLOCK_RINGS * 256u <= 1u << FOUND_SHIFT && FOUND_MOST >= 256u && SI
 // Sizes of the quads that `raster` leaves to other passes.
 var<workgroup> other_sizes: atomic<u32>;
 
-// Where the corner at a section's `point` lies in screen space.
+// The corner at a section's `point`, in screen space.
 fn tube_at(axes: Axes, point: vec2<f32>) -> vec4<f32> {
     return axes.centre + (axes.x * point.x + axes.y * point.y);
 }
 
-// The same in clip space, of a ring.
+// The corner of a ring in clip space.
 fn tube_clip(ring: u32, point: vec2<f32>) -> vec4<f32> {
     return tube_at(held_axes(ring), point) / screen_scale();
 }
 
-// Of so many lanes that draw a triangle together, in eight columns.
+// One of `lanes` lanes that draw a triangle together, in eight columns.
 fn lanes_of(lane: u32, lanes: u32) -> Lanes {
     return Lanes(i32(lane % 8u), i32(lane / 8u), 8, i32(lanes / 8u));
 }
 
-// A ring on the screen: where its middle is, and how far its corners lie from there at most.
+// A ring on the screen: its middle, and the greatest distance of its corners from there.
 struct Disc {
     place: vec2<f32>,
     reach: f32,
@@ -71,7 +70,7 @@ fn are_near(one: Disc, other: Disc) -> bool {
     return max(farthest.x, farthest.y) + reach < REACHED && max(apart.x, apart.y) + reach < f32(EXTENT) - 2.0;
 }
 
-// Where a corner is, in whole numbers.
+// A corner in whole numbers.
 fn near_place(axes: Axes, point: vec2<f32>) -> vec2<f32> {
     let xyw = axes.centre.xyw + (axes.x.xyw * point.x + axes.y.xyw * point.y);
     return place_of(xyw.xy, xyw.z);
@@ -86,8 +85,8 @@ fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {
                 corner_of(tube_at(next, other)));
 }
 
-// Notes those quads of some sides of a ring that are SMALL and have samples, or those that have
-// FEW, and the sizes of others. `here` are the ring's axes.
+// Notes the quads of some sides of a ring that are SMALL and have samples, or those that are FEW,
+// and the sizes of all others. `here` are the ring's axes.
 fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axes, size: u32) {
     if first_side >= end_side {
         return;
@@ -97,8 +96,8 @@ fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axe
         atomicOr(&other_sizes, MANY);
         return;
     }
-    // What has been found: 16 bits for each side, two sides in a number, and a bit for each that is
-    // noted.
+    // The samples found, 16 bits for each side, two sides in a number; and a bit for each side that
+    // is noted.
     var samples = vec3(0u);
     var noted = 0u;
     var sizes = 0u;
@@ -137,7 +136,7 @@ fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axe
     }
 }
 
-// Whether a quad may have many samples. Where its rings are not near it is not known how many.
+// Whether a quad may have MANY samples. Where its rings are not near, the number is unknown.
 fn may_have_many(outline: u32, ring: u32, side: u32) -> bool {
     let here = held_axes(ring);
     let next = held_axes(ring + 1u);
@@ -151,7 +150,7 @@ fn may_have_many(outline: u32, ring: u32, side: u32) -> bool {
     return size_of(box, ALONE - 128) == MANY;
 }
 
-// Every lane must come here when it no longer wants the quads in `found`.
+// Every lane must call it once it no longer needs the quads in `found`.
 fn empty_found(lane: u32) {
     workgroupBarrier();
     if lane == 0u {
@@ -160,8 +159,8 @@ fn empty_found(lane: u32) {
     workgroupBarrier();
 }
 
-// Draws the quads of a block that are SMALL, and gives what other sizes there are; or draws those
-// that have FEW samples. A workgroup of RASTER_GROUP.
+// Draws the SMALL quads of a block and returns the other sizes that it has, or draws its FEW quads.
+// For a workgroup of RASTER_GROUP.
 fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     let own = project_block(blocks[row], lane);
     if lane == 0u {
@@ -195,7 +194,8 @@ fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     return atomicLoad(&other_sizes);
 }
 
-// A workgroup a listed block: its SMALL quads. Where it has others it is left for later.
+// Draws the SMALL quads of listed blocks: a workgroup for each block. Blocks with other quads are
+// left for later passes.
 @compute @workgroup_size(RASTER_GROUP)
 fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
           @builtin(local_invocation_index) lane: u32) {
@@ -213,7 +213,7 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     }
 }
 
-// The same for those that have some of FEW samples.
+// Draws the FEW quads of blocks that have some: a workgroup for each block.
 @compute @workgroup_size(RASTER_GROUP)
 fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
@@ -223,8 +223,8 @@ fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// A workgroup of MANY_GROUP for each ring of a block that has quads of MANY samples: all lanes draw
-// each of them together.
+// Draws the MANY quads: a workgroup of MANY_GROUP for each ring of a block that has some. All lanes
+// draw each quad together.
 @compute @workgroup_size(MANY_GROUP)
 fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
@@ -269,7 +269,7 @@ fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     }
 }
 
-// Where corner `corner` of a cap lies.
+// Corner `corner` of a cap.
 fn cap_clip(cap: CapRow, stance: Stance, corner: u32) -> vec4<f32> {
     return clip_of(position_at(stance, outlines[yarns[cap.yarn].section * params.sides + corner]));
 }
@@ -278,7 +278,7 @@ fn cap_corner(cap: CapRow, stance: Stance, corner: u32) -> Corner {
     return corner_of(screen_of(cap_clip(cap, stance, corner)));
 }
 
-// A workgroup of CAP_GROUP a cap.
+// Draws caps: a workgroup of CAP_GROUP for each.
 @compute @workgroup_size(CAP_GROUP)
 fn raster_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {

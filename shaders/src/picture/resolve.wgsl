@@ -1,10 +1,10 @@
-// What each sample shows, worked out again from the number of its triangle, or of its part of a
-// hair. After fabric.wgsl, weights.wgsl, kept.wgsl and hair.wgsl, and after HAIRY: false where no
-// yarn has hairs.
+// Works out what each sample shows, from the number of its triangle or of its part of a hair. After
+// fabric.wgsl, weights.wgsl, kept.wgsl and hair.wgsl, and after HAIRY: false where no yarn has
+// hairs.
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
-// The triangle and the nearness of each sample: complements, 0 where there is none.
+// The triangle and the nearness of each sample, as complements; 0 where there is none.
 @group(1) @binding(4) var<storage, read> keys: array<vec2<u32>>;
 @group(1) @binding(5) var<storage, read> ring_rolls: array<vec2<u32>>;
 @group(1) @binding(6) var depths: texture_storage_2d_array<r32float, read_write>;
@@ -30,14 +30,14 @@ fn roll_of(chunk_ring: u32) -> vec2<u32> {
     return ring_rolls[chunk_ring];
 }
 
-// How the section stands on ring `ring` of a block, and on the one after it.
+// How the section stands on ring `ring` of a block, and on the ring after it.
 struct Stances {
     here: Stance,
     next: Stance,
 }
 
-// Both lie in one interval, or at its ends: the spline is the same there as in the next interval,
-// but where it comes to rest and turns round.
+// Both rings lie in one interval or at its ends. At its end the spline is the same as at the next
+// interval's start, except where it comes to rest and turns round.
 fn stances_at(yarn: YarnRow, block: Block, ring: u32) -> Stances {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + ring;
@@ -57,7 +57,7 @@ fn stances_at(yarn: YarnRow, block: Block, ring: u32) -> Stances {
                    stance_of_sample(next, roll_of(block.chunk_ring + ring + 1u)));
 }
 
-// The share of each corner, and whether the triangle is seen from outside.
+// The weight of each corner, and whether the triangle is seen from outside.
 struct Shares {
     corners: vec3<f32>,
     is_front: bool,
@@ -66,8 +66,8 @@ struct Shares {
 fn shares_of(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, place: vec2<i32>) -> Shares {
     let weights = weights_at(p, q, r, place);
     let is_front = dot(weights, vec3(p.w, q.w, r.w)) > 0.0;
-    // The pixel's middle may lie outside, and what is far from a small triangle is not to be made
-    // up.
+    // The pixel's middle may lie outside. Weights are limited, so that nothing is extrapolated far
+    // beyond a small triangle.
     let inside = max(select(-weights, weights, is_front), vec3(0.0));
     let sum = inside.x + inside.y + inside.z;
     return Shares(select(vec3(1.0 / 3.0), inside / sum, sum > 0.0), is_front);
@@ -90,7 +90,8 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let own = outlines[outline + side];
     let other = outlines[outline + beside];
     let is_second = (number & 1u) != 0u;
-    // A facet's first corner, the one beside it or on the next ring, and the one over its own.
+    // A facet's first corner, the corner beside it or on the next ring, and the corner over its
+    // own.
     let first = select(side, beside, is_second);
     let p = vertex_at(stances.here, select(own, other, is_second));
     var q: Vertex;
@@ -102,7 +103,7 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let r = vertex_at(stances.next, own);
     let shares = shares_of(p.clip, q.clip, r.clip, place);
     let normal = mat3x3(p.normal, q.normal, r.normal) * shares.corners;
-    // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's
+    // The direction along the facet at its first corner. It is the fibres', since a twisted yarn's
     // corners turn with its twist.
     var fibre = r.position - p.position;
     if is_second {
@@ -128,7 +129,7 @@ fn cap_at(number: u32, triangle: u32, place: vec2<i32>) -> vec4<u32> {
     return kept_of(normal, normal, 0.0, 0.0, cap.yarn | CUT, is_front);
 }
 
-// Part number `number` of the chunk's hairs: what faces the eye of it.
+// The side of hair part number `number` of the chunk that faces the eye.
 fn hair_at(number: u32) -> vec4<u32> {
     let block = blocks[number / hairs_of_block()];
     let part = number % HAIR_PARTS;
@@ -158,8 +159,8 @@ fn kept_of_number(number: u32, place: vec2<i32>) -> vec4<u32> {
 }
 
 // The samples that a workgroup works out, each for itself and for those of its pixel that show the
-// same: fields of bits, from the lowest on the pixel's lane (6), the sample (2), a bit for each
-// sample of the pixel that shows anything (4), a bit for each that is listed (4).
+// same. An entry has fields of bits, from the lowest on: the pixel's lane (6), the sample (2), a
+// bit for each sample of the pixel that shows anything (4), a bit for each that is listed (4).
 const RESOLVE_GROUP = SCREEN_GROUP * SCREEN_GROUP;
 const SAMPLE_SHIFT = 6u;
 const SHOWN_SHIFT = 8u;
@@ -206,7 +207,7 @@ fn list_wanted(place: vec2<u32>, lane: u32) {
     }
 }
 
-// The samples that one of a list stands for, a bit each: from its own to the next that is listed.
+// The samples that an entry stands for, a bit for each: from its own to the next that is listed.
 fn alike_of(sample: u32, entry: u32) -> u32 {
     let shown = (entry >> SHOWN_SHIFT) & 15u;
     let later = (entry >> LISTED_SHIFT) & (30u << sample);
@@ -214,7 +215,8 @@ fn alike_of(sample: u32, entry: u32) -> u32 {
     return shown & before_next & (15u << sample);
 }
 
-// A lane a pixel, then a lane a sample that is worked out: many show the same as the one before.
+// First a lane for each pixel, then a lane for each sample that is worked out: many samples show
+// the same as the one before.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if lane == 0u {

@@ -1,8 +1,8 @@
-// Reads back what is nearest in each sample of the screen. After view.wgsl.
+// Reads back what each sample of the screen shows. After view.wgsl.
 
-// A layer for each sample of a pixel: depth, 1 where no yarn is; and what resolve.wgsl kept of the
-// surface, its normal and fibre, the yarn's number and the place on it: a number each, as kept.wgsl
-// has them.
+// Textures have a layer for each sample of a pixel: its depth, which is 1 where there is no yarn;
+// its normal and fibre; and the yarn's number and the place on it. All but the depth are encoded by
+// kept.wgsl.
 @group(1) @binding(1) var depths: texture_2d_array<f32>;
 @group(1) @binding(2) var directions: texture_2d_array<u32>;
 @group(1) @binding(3) var places: texture_2d_array<u32>;
@@ -26,7 +26,7 @@ fn to_eye(local: vec3<f32>) -> vec3<f32> {
     return normalize(view.eye.xyz - local * view.eye.w);
 }
 
-// What a pixel shows: a yarn, or the ground, or neither.
+// What a pixel shows: a yarn, the ground, or neither.
 struct Surface {
     local: vec3<f32>,
     normal: vec3<f32>,
@@ -55,8 +55,8 @@ fn surface_at(pixel: vec2<i32>, sample: i32) -> Surface {
     return Surface(local_at(middle, depth), normal, true, false);
 }
 
-// A number in 0 to 15 that no other pixel of the four by four about has, whichever four by four:
-// the order of Bayer 1973, so that the mean of any such square has all of them.
+// A number from 0 to 15 that differs for all pixels of any square of four by four (Bayer 1973). So
+// the mean over any such square has all of them.
 fn phase(pixel: vec2<u32>) -> u32 {
     let mixed = pixel.x ^ pixel.y;
     return (mixed & 1u) << 3u | (pixel.y & 1u) << 2u | (mixed & 2u) | (pixel.y & 2u) >> 1u;

@@ -1,19 +1,19 @@
-// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl,
-// and after FAR: true where all that takes light from a place lies within one and a half pixels of
-// it, so that there is nothing to find on the screen.
+// Lights samples, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl, and after FAR. That is
+// true where everything that could take light from a place lies within one and a half pixels of it,
+// so that the screen shows nothing of it.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
     // Linear light.
     color: vec3<f32>,
-    // Width of the highlight on a fibre's surface and of the one from within, radians.
+    // Width of the highlight on a fibre's surface, and of the highlight from within, radians.
     surface_width: f32,
     volume_width: f32,
-    // How much fibres stand out one from the other.
+    // How much single fibres stand out.
     grain: f32,
-    // The share of light from within that goes everywhere.
+    // The share of light from within that is scattered evenly.
     diffuse: f32,
-    // From ring to ring, mm.
+    // The way from ring to ring, mm.
     ring_length: f32,
 }
 
@@ -43,7 +43,7 @@ fn fresnel(cosine: f32) -> f32 {
     return straight + (1.0 - straight) * pow(1.0 - cosine, 5.0);
 }
 
-// What a fibre along `fibre` sends to `eye` of light from `light`, its cosine included: Sadeghi,
+// The light from `light` that a fibre along `fibre` sends to `eye`, with the cosine: Sadeghi,
 // Bisker, De Deken and Jensen 2013, "A practical microcylinder appearance model for cloth
 // rendering", the surface and volume terms of its section 3; a highlight along the fibre as Kajiya
 // and Kay 1989 had it, of the two lobes of Marschner et al. 2003.
@@ -85,7 +85,8 @@ fn grain(look: YarnLook, yarn: u32, angle: f32, along: f32, fade: f32) -> f32 {
     return 1.0 + look.grain * fade * (0.7 * (bright - 0.5) + 0.6 * (ridge - 0.5));
 }
 
-// Light from all round that falls on a surface: a sky above, what the ground sends back below.
+// Light from all round that falls on a surface: the sky from above, and the ground's reflection
+// from below.
 fn surroundings(normal: vec3<f32>) -> vec3<f32> {
     return mix(FLOOR, SKY, 0.5 + 0.5 * dot(normal, view.ground.xyz));
 }
@@ -106,7 +107,7 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
         // Fibres seen end on absorb the light that falls between them. Nothing stands before a
-        // cut's plane, and the depth kept is that of the yarn's far side: so occlusion does not
+        // cut's plane, and the depth kept is that of the yarn's far side, so occlusion does not
         // apply.
         let open = select(seen.x, 1.0, view.has_ground == 0u);
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
@@ -116,8 +117,8 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let share = grain(look, yarn, f32(place.x) / 65536.0, f32(place.y) * (look.ring_length / 8.0), fade);
     let color = look.color * select(share, 1.0, is_hair);
     let fill = fill_direction();
-    // The yarn's body shades its own far side, softly, since light goes through its outer fibres; a
-    // fibre that stands off it is lit all round.
+    // The yarn's body shades its own far side, softly, since light passes its outer fibres. A fibre
+    // that stands off it is lit all round.
     let facing = select(clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0), 1.0, is_hair);
     let fill_facing = select(clamp((dot(here.normal, fill) + 0.4) / 1.4, 0.0, 1.0), 1.0, is_hair);
     var light = KEY * microcylinder(look, color, fibre, view.light, eye) * (facing * seen.y);
@@ -154,11 +155,11 @@ fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
     return mix(color * (pressed / peak), vec3(pressed), pale);
 }
 
-// What is visible on yarns on the average: of all round, and of the key light.
+// The mean visibility on yarns: of the light from all round, and of the key light.
 const AVERAGE = vec2(0.8, 0.85);
 
-// Both visibilities: the mean of the four by four pixels about that lie in the surface's plane, or
-// near it.
+// Both visibilities, as means over those of the four by four pixels about that lie in or near the
+// surface's plane.
 fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     if FAR {
         return select(vec2(1.0), AVERAGE, here.is_yarn);

@@ -1,5 +1,4 @@
-// What every picture shader reads: the view, and the encoding of visible samples until they are
-// shaded.
+// What all picture shaders share: the view, the places of samples, and encodings.
 
 // Rust: texere_render's ViewUniform, 256 bytes. All positions are relative to the camera's target,
 // since f32 has no tenth of a millimetre left at ten kilometres.
@@ -10,30 +9,30 @@ struct View {
     target_point: vec3<f32>,
     // How far ambient occlusion looks, mm.
     reach: f32,
-    // Where the eye is, or with w = 0 the direction to it.
+    // The eye's position; with w = 0 the direction to it.
     eye: vec4<f32>,
     // The direction to the key light, and how far its shadows fall, mm.
     light: vec3<f32>,
     shadow: f32,
     // The ground: n . p = w.
     ground: vec4<f32>,
-    // Of the picture before it is scaled down, pixels.
+    // Size of the screen, the picture before it is scaled down, pixels.
     size: vec2<f32>,
-    // Pixels of a picture's pixel, each way.
+    // Pixels of the screen for each pixel of the picture, each way.
     supersampling: u32,
-    // Pixels that `reach` takes, at the target.
+    // The length of `reach` at the target, pixels.
     reach_pixels: f32,
-    // How thick what casts a shadow is taken to be, mm.
+    // The thickness that anything that casts a shadow is taken to have, mm.
     thickness: f32,
     // 1 where there is a ground, else 0.
     has_ground: u32,
     // 1 where yarns may be seen from inside, else 0.
     sees_inside: u32,
-    // What is seen where no yarn is: a kind, and its colour in linear light.
+    // The background: its kind, and its colour in linear light.
     background_kind: u32,
     background: vec3<f32>,
-    // How far pixels of the picture reach for their samples: 0 for those in them alone, 1 for those
-    // of a pixel about them, too.
+    // How far pixels of the picture reach for their samples: 0 for samples in them alone, 1 for
+    // samples of a pixel about them as well.
     spread: f32,
     // 1 where fibres that stand off yarns are drawn, else 0.
     has_hairs: u32,
@@ -45,22 +44,22 @@ const COLOR = 1u;
 
 @group(1) @binding(0) var<uniform> view: View;
 
-// Workgroups over the screen are squares of so many pixels.
+// Side of the squares of pixels that are workgroups over the screen.
 const SCREEN_GROUP = 8u;
 
 // Samples of a pixel of the screen. Rust: texere_render's SAMPLES.
 const SAMPLES = 4;
 
-// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in
-// 1/256 pixels, a byte each from the lowest on: 96, 224, 32, 160.
+// The place of the sample in each of a pixel's four rows: the pattern that WebGPU prescribes for
+// four samples, in 1/256 pixels, a byte for each from the lowest on: 96, 224, 32, 160.
 const SAMPLE_X = 0xa020e060u;
 const SAMPLE_ROW = 64;
 const FIRST_SAMPLE_Y = 32;
 
-// How far the pattern is shifted round in this pixel and, by itself, in each of its rows of
+// The cyclic shift of the pattern in this pixel, and the further shift in each of its rows of
 // samples, 1/256 pixels. Threads finer than pixels would beat with a pattern that is the same
-// everywhere, so there each pixel has its own shift, by a hash of its place: what is finer than
-// samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
+// everywhere. So on them each pixel has its own shift, by a hash of its place, and what is finer
+// than samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
 fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     if view.spread == 0.0 {
         return vec2(0);
@@ -70,7 +69,7 @@ fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     return vec2<i32>(vec2(hash >> 24u, (hash >> 18u) & 63u));
 }
 
-// Where sample `sample` lies in a pixel without a shift, 1/256 pixels right of the pixel's left
+// The place of sample `sample` in a pixel without a shift, 1/256 pixels right of the pixel's left
 // edge.
 fn sample_x(sample: i32) -> i32 {
     return i32((SAMPLE_X >> (8u * u32(sample))) & 255u);
@@ -82,7 +81,7 @@ fn sample_in(pixel: vec2<i32>, sample: i32) -> vec2<i32> {
     return vec2(0, sample * SAMPLE_ROW) + (place & vec2(255, SAMPLE_ROW - 1));
 }
 
-// Where a point of the fabric lies in clip space.
+// A point of the fabric in clip space.
 fn clip_of(position: vec3<f32>) -> vec4<f32> {
     return view.clip_from_local * vec4(position - view.target_point, 1.0);
 }
@@ -90,10 +89,10 @@ fn clip_of(position: vec3<f32>) -> vec4<f32> {
 // Marks the inside of a yarn, seen where the yarn is cut, in the number of a yarn.
 const CUT = 0x80000000u;
 
-// Marks a fibre that stands off a yarn, likewise.
+// Marks a fibre that stands off a yarn, in the number of a yarn.
 const HAIR = 0x40000000u;
 
-// What is left is the yarn's number.
+// The bits of a yarn's number.
 const MARKS = CUT | HAIR;
 
 // A unit vector as two numbers of 16 bits (Meyer et al. 2010, "On floating-point normal vectors":

@@ -6,14 +6,14 @@
 const OCCLUSION_TAPS = 14u;
 const SHADOW_STEPS = 18u;
 
-// The key light's radius, seen from the cloth: that of a soft box.
+// The key light's radius, as seen from the cloth: a soft box's.
 const LIGHT_RADIUS = 0.13;
 
-// Turns of the spiral that the taps lie on, prime to their number.
+// Turns of the spiral on which the taps lie; coprime to their number.
 const SPIRAL_TURNS = 9.0;
 
-// The depth of a yarn's body in a pixel, 1 where there is none. Single fibres are far thinner than
-// what is taken to lie in the way of light.
+// The depth of a yarn's body in a pixel; 1 where there is none. Single fibres don't count: they are
+// far thinner than what is taken to block light.
 fn body_depth_at(pixel: vec2<i32>) -> f32 {
     let is_hair = view.has_hairs != 0u && (textureLoad(places, pixel, 0, 0).x & HAIR) != 0u;
     return select(depth_at(pixel, 0), 1.0, is_hair);
@@ -55,7 +55,7 @@ fn lit(here: Surface, phase: f32) -> f32 {
     let last = vec2<i32>(view.size) - 1;
     for (var step = 0u; step < SHADOW_STEPS; step++) {
         let share = (f32(step) + 0.5 + fract(phase * 0.4375)) / f32(SHADOW_STEPS);
-        // Shorter steps near the start, where what casts the shadow is thin.
+        // Steps are shorter near the start, where thin things cast the shadow.
         let local = start + light * (view.shadow * share * sqrt(share));
         let clip = view.clip_from_local * vec4(local, 1.0);
         let ndc = clip.xyz / clip.w;

@@ -1,12 +1,12 @@
-//! The README's example, then every backend of the CPU, with every kind of vectors, on threads with
-//! little stack.
+//! The README's five lines with a draft, then every backend of the CPU, with every kind of vectors,
+//! on threads with little stack.
 
 use std::error::Error;
 use std::thread;
 
-use texere::{Backend, Pipeline, PipelineError, Settings, Yarns};
 use texere::mesh::{Frame, Topology};
 use texere::yarn::Section;
+use texere::{Backend, Pipeline, PipelineError, Settings, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// The least stack that a thread of a program may be expected to have, bytes.
@@ -16,15 +16,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let designs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../designs");
 
     let design = texere::read(format!("{designs}/herringbone.wif"))?;
-    let yarns = design.yarns()?;
     let device = texere::open("auto")?;
-    let mesh = Pipeline::new(&yarns).sides(6).mesh(&*device)?;
+    let cloth = design.rest(&*device).run()?;
+    let mesh = Pipeline::new(cloth.yarns()).mesh(&*device)?;
     let folder = std::env::temp_dir().join(format!("texere-consumer-{}", std::process::id()));
     std::fs::create_dir(&folder)?;
     let written = texere::write(&mesh, folder.join("herringbone.glb"));
     std::fs::remove_dir_all(&folder)?;
     written?;
-    println!("{} by {}: {} triangles", design.name, device.info().name, mesh.plan.counts().triangles);
+    let (name, device) = (&cloth.design().name, &device.info().name);
+    println!("{name} by {device}: {} triangles", mesh.plan.counts().triangles);
 
     for file in ["denim.toml", "satin.toml"] {
         let mut design = texere::read(format!("{designs}/{file}"))?;
@@ -38,8 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// All that a mesh may be asked for, called from a thread with little stack and worked on by such
-/// threads.
+/// Makes meshes of every topology and frame, called from a thread with little stack and worked on
+/// by threads with as little.
 fn on_little_stack(yarns: &Yarns, device: &dyn Backend) -> Result<(), Box<dyn Error>> {
     let name = &device.info().name;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).stack_size(STACK).build()?;

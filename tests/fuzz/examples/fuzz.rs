@@ -1,4 +1,4 @@
-//! Feeds a reader as many inputs as are wanted:
+//! Feeds a reader any number of inputs:
 //! `cargo run -p texere-fuzz --example fuzz -- --reader wif --inputs 1000000`.
 
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What inputs are made from.
+//! The corpus: sound designs from which inputs are mutated.
 
 /// Small drafts, each with something that the others lack.
 pub(crate) const WIF: &[&str] = &[
@@ -99,7 +99,7 @@ pub(crate) const NOTATIONS: &[&str] = &[
     "twill 2/1",
 ];
 
-/// A sound design in the weave `notation`, which may hold anything.
+/// A design that is sound but for its weave `notation`, which may be anything.
 pub(crate) fn design_of(notation: &str) -> String {
     let quoted: String = notation
         .chars()

@@ -1,4 +1,4 @@
-//! From a file to all that is made of it.
+//! Drives a file through everything that is made of it.
 
 use std::error::Error;
 use std::io::sink;
@@ -13,30 +13,30 @@ use texere_formats::read::{self, SavedYarns, read};
 use texere_formats::write::{self, Side};
 use texere_formats::{Cloth, Design, Refusal, RestReport, WriteError};
 
-/// The most crossings of a cloth whose yarns are made, and the most control points of one whose
-/// mesh is.
+/// The most crossings of a cloth whose yarns are made, and the most control points of a cloth whose
+/// mesh is made.
 const CROSSINGS: usize = 2_000;
 const POINTS: usize = 10_000;
 
-/// What became of a design.
+/// The outcome of an input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// It was refused: the error and its causes.
+    /// The design was refused, with this error and its causes.
     Refused(String),
-    /// It was read, but is larger than what is worked on here.
+    /// The design was read, but is too large to go on with.
     Large,
-    /// Its yarns were refused.
+    /// The yarns were refused.
     NoYarns(String),
-    /// It went all the way.
+    /// The design went all the way.
     Taken,
 }
 
-/// Reads the design in `path` and goes on as far as its size lets it.
+/// Reads the design in `path`, and goes on with it as far as its size allows.
 ///
 /// # Panics
 ///
-/// Where an error is long or would steer a terminal, a draft is not its cloth's, or a mesh has
-/// numbers that are none.
+/// If an error is long or would steer a terminal, if a draft does not give its cloth, or if a mesh
+/// has numbers that are not finite.
 #[must_use]
 pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
@@ -68,14 +68,14 @@ pub fn drive(path: &Path) -> Outcome {
     }
     sinks(&design);
     let outcome = finished(&design, cloth(&design.structure));
-    // Another section instead, and everything again where that is taken.
+    // Replace the section, and repeat everything if the new one is taken.
     if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok() {
         let _ = cloth(&design.structure);
     }
     outcome
 }
 
-/// What `convert` and `draft` write of a design: all that can be written, to nowhere.
+/// Writes all that `convert` and `draft` write of a design, to nowhere.
 fn sinks(design: &Design) {
     let told = |outcome: Result<(), WriteError>| {
         if let Err(error) = outcome {
@@ -102,20 +102,19 @@ fn sinks(design: &Design) {
     }
 }
 
-/// The most control points of a cloth that settles here, and the passes that it gets of either
-/// form.
+/// The most control points of a cloth that settles, and the passes of either form that it gets.
 const SETTLING_POINTS: usize = 300;
 const PASSES: u32 = 3;
 
-/// The passes after which stretching is broken off: to its end it settles a cloth up to 49 times,
-/// which takes seconds.
+/// Passes after which stretching is stopped. A whole stretch settles a cloth up to 49 times, which
+/// takes seconds.
 const STRETCHING: u32 = 100;
 
-/// The share of the progress at which cloth that is stretched has been.
+/// The share of the progress at which stretching is done.
 const STRETCHED: f64 = 0.5;
 
-/// `outcome`, after the cloth has begun to settle as its design says. What refuses it names the
-/// design's file.
+/// Returns `outcome` after the cloth has begun to settle as its design says. An error has to name
+/// the design's file.
 fn finished(design: &Design, outcome: Outcome) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
     if outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
@@ -142,7 +141,7 @@ fn finished(design: &Design, outcome: Outcome) -> Outcome {
     outcome
 }
 
-/// The cloth of the design, broken off where stretching takes too long.
+/// The cloth of the design. It is stopped if stretching takes too long.
 fn rested(design: Design) -> Result<Cloth, Refusal> {
     let backend = ParallelBackend::open().expect("the CPU's backend");
     let (is_stretched, mut passes) = (design.stretch.is_some(), 0..STRETCHING);
@@ -153,7 +152,7 @@ fn rested(design: Design) -> Result<Cloth, Refusal> {
     design.rest(&backend).progress(on).run()
 }
 
-/// Reads saved yarns, writes them again, and goes on to their mesh and their clearance.
+/// Reads saved yarns, writes them again, and makes their mesh and their clearance.
 fn saved(path: &Path) -> Outcome {
     let SavedYarns { yarns, boundary } = match read::yarns(path) {
         Ok(saved) => saved,
@@ -168,7 +167,7 @@ fn saved(path: &Path) -> Outcome {
     meshed(&yarns)
 }
 
-/// Yarns, mesh, measures and clearance of a small cloth.
+/// Makes yarns, mesh, measures and clearance of a small cloth.
 fn cloth(structure: &Structure) -> Outcome {
     let yarns = match structure.yarns() {
         Ok(yarns) => yarns,
@@ -185,7 +184,7 @@ fn cloth(structure: &Structure) -> Outcome {
     outcome
 }
 
-/// Mesh and clearance of a few yarns.
+/// Makes mesh and clearance of a few yarns.
 fn meshed(yarns: &Yarns) -> Outcome {
     if yarns.points().len() > POINTS {
         return Outcome::Large;
@@ -214,7 +213,7 @@ fn meshed(yarns: &Yarns) -> Outcome {
     Outcome::Taken
 }
 
-/// An error and its causes, each of which fits a line or two.
+/// An error and its causes. Checks that each fits a line or two.
 fn chain(error: &dyn Error) -> String {
     let mut chain = error.to_string();
     let mut cause = error.source();

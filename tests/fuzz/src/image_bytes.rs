@@ -1,4 +1,4 @@
-//! Mutations of image files that know their chunks and fields.
+//! Mutations of image files, which respect their chunks and fields.
 
 use std::io::Cursor;
 
@@ -7,7 +7,7 @@ use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage, Rgba, Rgb
 
 use crate::text::scrambled;
 
-/// Values of fields at which something changes.
+/// Values of fields at which readers change their ways.
 const FIELDS: &[u32] = &[
     0,
     1,
@@ -51,7 +51,8 @@ pub(crate) fn mutated(random: &mut Rng) -> Vec<u8> {
     bytes
 }
 
-/// A small picture, mutated one time in four: what is made of its colours is reached more often.
+/// A small picture, which is mutated one time in four. Code that uses its colours is then reached
+/// more often.
 pub(crate) fn plain(random: &mut Rng) -> Vec<u8> {
     if random.u8(0..4) == 0 { mutated(random) } else { seed(random).1 }
 }
@@ -74,7 +75,7 @@ fn seed(random: &mut Rng) -> (ImageFormat, Vec<u8>) {
         .into(),
     };
     let format = [ImageFormat::Png, ImageFormat::Bmp, ImageFormat::Tiff][random.usize(..3)];
-    // There are no bitmaps of 16 bits a channel.
+    // BMP has no 16 bits per channel.
     let picture = if format == ImageFormat::Bmp { picture.into_rgb8().into() } else { picture };
     let mut bytes = Cursor::new(Vec::new());
     if format == ImageFormat::Png && random.bool() {
@@ -84,7 +85,7 @@ fn seed(random: &mut Rng) -> (ImageFormat, Vec<u8>) {
     (format, bytes.into_inner())
 }
 
-/// A PNG whose pixels are numbers of colours, a few bits each.
+/// A PNG whose pixels are palette numbers of a few bits each.
 fn palette(width: u32, height: u32, random: &mut Rng) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -102,14 +103,14 @@ fn palette(width: u32, height: u32, random: &mut Rng) -> Vec<u8> {
     bytes
 }
 
-/// One field of two or four bytes, in either order, made one of [`FIELDS`].
+/// Sets one field of two or four bytes, in either order, to one of [`FIELDS`].
 pub(crate) fn field(bytes: &mut [u8], random: &mut Rng) {
     let value = FIELDS[random.usize(..FIELDS.len())];
     let wide = if random.bool() { 4 } else { 2 };
     if bytes.len() < wide {
         return;
     }
-    // Headers are where fields are.
+    // Fields lie in headers.
     let most = if random.bool() { bytes.len().min(64) } else { bytes.len() };
     let at = random.usize(..=most.max(wide) - wide);
     let written = if random.bool() { value.to_le_bytes() } else { value.to_be_bytes() };
@@ -117,7 +118,7 @@ pub(crate) fn field(bytes: &mut [u8], random: &mut Rng) {
     bytes[at..at + wide].copy_from_slice(part);
 }
 
-/// Takes a PNG apart, changes its chunks, and gives each the checksum that it then needs.
+/// Takes a PNG apart, changes its chunks, and gives each a fitting checksum.
 fn chunks(bytes: &mut Vec<u8>, random: &mut Rng) {
     let Some((magic, mut rest)) = bytes.split_at_checked(8) else { return };
     let mut chunks: Vec<([u8; 4], Vec<u8>)> = Vec::new();

@@ -1,8 +1,9 @@
-//! Designs that nobody would write, made from ones that somebody would: whatever a reader takes
-//! goes on through yarns, plan, mesh and clearance, and whatever it refuses has a short error.
-//! Nothing panics, hangs or takes a great deal of memory.
+//! Fuzzing of texere's readers with mutated designs. A design that a reader takes goes on through
+//! yarns, plan, mesh and clearance. A design that it refuses has a short error. Nothing may panic,
+//! hang or take much memory.
 //!
-//! An input is made from a reader and a number alone, so that a failure's number makes it again:
+//! An input depends on a reader and a number only. The number of a failure thus makes its input
+//! again:
 //!
 //! ```
 //! use texere_fuzz::{Input, Reader};
@@ -19,31 +20,31 @@ mod yarn_bytes;
 pub use drive::{Outcome, drive};
 pub use watch::fuzz;
 
-/// What is fed.
+/// A reader that is fed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reader {
     /// WIF drafts.
     Wif,
     /// Design files with a notation.
     Design,
-    /// The notation of a weave, in a design that is sound otherwise.
+    /// The notation of a weave, in an otherwise sound design.
     Notation,
-    /// Point paper, in a design that is sound otherwise.
+    /// Point paper, in an otherwise sound design.
     Image,
     /// Design files with an image or a WIF draft, both mutated.
     Paper,
     /// Knitout files.
     Knitout,
-    /// Design files of knits: charts, and an image or a knitout file, mutated as well.
+    /// Design files of knits: charts, and an image or a knitout file. Both files are mutated.
     Knit,
-    /// Design files of warp knits, with an image that is mutated as well.
+    /// Design files of warp knits, with an image. Both files are mutated.
     WarpKnit,
     /// Files of saved yarns.
     Yarns,
 }
 
 impl Reader {
-    /// All of them.
+    /// All readers.
     pub const ALL: [Self; 9] = [
         Self::Wif,
         Self::Design,
@@ -56,7 +57,7 @@ impl Reader {
         Self::Yarns,
     ];
 
-    /// Its name, in lower case.
+    /// The name of the reader, in lower case.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -73,7 +74,7 @@ impl Reader {
     }
 }
 
-/// A mutated design: files of one folder, the one that is read first.
+/// A mutated design: files of one folder. The first one is the file that is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Input {
     /// Names and bytes.
@@ -81,7 +82,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// The input with that number.
+    /// The input of `reader` with this number.
     #[must_use]
     pub fn new(reader: Reader, number: u64) -> Self {
         let mut random = fastrand::Rng::with_seed(number);

@@ -1,10 +1,10 @@
-//! Mutations of text that know its lines, sections, keys, numbers and lists.
+//! Mutations of text, which respect its lines, sections, keys, numbers and lists.
 
 use fastrand::Rng;
 
 use crate::corpus;
 
-/// Numbers at which something changes, in readers or in what numbers are kept in.
+/// Numbers at which readers or number types change their ways.
 const NUMBERS: &[&str] = &[
     "0",
     "-1",
@@ -48,7 +48,7 @@ const NUMBERS: &[&str] = &[
     "1,5",
 ];
 
-/// Words that readers know, in places where they need not be.
+/// Words that readers know, for places where they do not belong.
 const WORDS: &[&str] = &[
     "plain",
     "round",
@@ -110,7 +110,7 @@ const WORDS: &[&str] = &[
     "1,1,1,1",
 ];
 
-/// A few mutations of one of `seeds`, some of which take from another one.
+/// Applies a few mutations to one of `seeds`. Some mutations take parts of another seed.
 pub(crate) fn mutated(seeds: &[&str], random: &mut Rng) -> Vec<u8> {
     let seed = |random: &mut Rng| random.choice(seeds).copied().unwrap_or_default();
     let mut lines: Vec<String> = seed(random).lines().map(Into::into).collect();
@@ -142,7 +142,7 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
         0 if !lines.is_empty() => drop(lines.remove(line)),
         1 if !lines.is_empty() => lines.insert(here, lines[line].clone()),
         2 if !lines.is_empty() => lines.swap(line, random.usize(..=last)),
-        // Part of another seed, in between or to the end.
+        // Part of another seed, in between or at the end.
         3 if !other.is_empty() => {
             let from = random.usize(..other.len());
             let count = random.usize(..=other.len() - from).min(8);
@@ -153,7 +153,7 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
             lines.extend_from_slice(&other[random.usize(..=other.len())..]);
         }
         5 => lines.truncate(here),
-        // A section moved to the end, so that the later one stands.
+        // A section moves to the end. If it occurs twice, another one counts then.
         6 if !lines.is_empty() => {
             let start = (0..=line).rev().find(|&at| lines[at].starts_with('[')).unwrap_or(0);
             let end = (start + 1..lines.len()).find(|&at| lines[at].starts_with('[')).unwrap_or(lines.len());
@@ -169,7 +169,7 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
     }
 }
 
-/// One of the numbers and words of a line made another; or one put in where there is none.
+/// Replaces one of the numbers and words of a line, or inserts one where there is none.
 fn with_token(line: &str, random: &mut Rng) -> String {
     let is_part = |letter: char| letter.is_ascii_alphanumeric() || ".-#_".contains(letter);
     let mut tokens: Vec<(usize, usize)> = Vec::new();
@@ -184,7 +184,7 @@ fn with_token(line: &str, random: &mut Rng) -> String {
             _ => {}
         }
     }
-    // A value more often than its key, which the last tokens are.
+    // The value changes more often than the key. The last tokens are the value.
     let Some(&(from, to)) =
         tokens.get(random.usize(..tokens.len().max(1)).max(random.usize(..tokens.len().max(1))))
     else {
@@ -203,7 +203,7 @@ fn with_token(line: &str, random: &mut Rng) -> String {
     format!("{}{new}{}", &line[..from], &line[to..])
 }
 
-/// The key of one line with the value of another.
+/// Joins the key of one line with the value of another.
 fn with_key(line: &str, other: &str) -> String {
     match (line.split_once('='), other.split_once('=')) {
         (Some((key, _)), Some((_, value))) => format!("{key}={value}"),
@@ -211,7 +211,7 @@ fn with_key(line: &str, other: &str) -> String {
     }
 }
 
-/// A list with items more or fewer, or many times as long.
+/// Adds or removes items of a list, or makes it many times as long.
 fn with_list(line: &str, random: &mut Rng) -> String {
     let (head, items) = line.split_once(['=', '[']).unwrap_or((line, ""));
     let sign = line[head.len()..].chars().next().unwrap_or('=');
@@ -235,7 +235,7 @@ fn word(random: &mut Rng) -> &'static str {
     random.choice(WORDS).copied().unwrap_or_default()
 }
 
-/// A few bytes changed, put in, taken out or repeated, whatever they stand for.
+/// Changes, inserts, removes or repeats a few bytes, without regard to their meaning.
 pub(crate) fn scrambled(bytes: &mut Vec<u8>, random: &mut Rng) {
     for _ in 0..random.usize(1..5) {
         let at = random.usize(..=bytes.len());
@@ -254,7 +254,8 @@ pub(crate) fn scrambled(bytes: &mut Vec<u8>, random: &mut Rng) {
     }
 }
 
-/// A notation, a few of whose parts are another notation's, other numbers or other signs.
+/// A notation with a few parts replaced by those of another notation, by other numbers or by other
+/// signs.
 pub(crate) fn notation(random: &mut Rng) -> String {
     let seed = |random: &mut Rng| random.choice(corpus::NOTATIONS).copied().unwrap_or_default();
     let mut text = seed(random).to_owned();

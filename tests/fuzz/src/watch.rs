@@ -1,4 +1,4 @@
-//! Many inputs, one after the other, under watch.
+//! Runs many inputs one after the other, and watches time and memory.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -10,22 +10,22 @@ use peak_alloc::PeakAlloc;
 
 use crate::{Input, Outcome, Reader, drive};
 
-/// How long an input may take: ten times as long as the slowest takes here, so that only what hangs
-/// is caught.
+/// Time that an input may take: ten times that of the slowest one, so that only inputs that hang
+/// are caught.
 const LIMIT: Duration = Duration::from_secs(20);
 
-/// The most memory that the whole program may have taken with an input, MiB.
+/// The most memory of the whole program with an input, MiB.
 const MEMORY_MIB: f32 = 1024.0;
 
-/// Runs the inputs numbered `numbers` and gives back how many were taken.
+/// Runs the inputs with these numbers. Returns how many of them were taken.
 ///
 /// `heap` counts the program's memory. The files of an input that fails are kept in `kept`, a
 /// folder.
 ///
 /// # Panics
 ///
-/// At the first input that panics or takes more memory than it may. One that hangs ends the
-/// program, after its files have been kept: nothing else can stop it.
+/// At the first input that panics or takes too much memory. An input that hangs ends the program,
+/// because nothing else can stop it. Its files are kept before.
 #[must_use]
 pub fn fuzz(reader: Reader, numbers: std::ops::Range<u64>, heap: &PeakAlloc, kept: &Path) -> u64 {
     let folder = tempfile::tempdir().expect("a folder for inputs");
@@ -57,7 +57,7 @@ pub fn fuzz(reader: Reader, numbers: std::ops::Range<u64>, heap: &PeakAlloc, kep
     taken
 }
 
-/// Looks twice a second at how long the present input has been worked on.
+/// Checks twice a second how long the current input has taken.
 fn watch(
     reader: Reader,
     now: Arc<Mutex<(Instant, u64)>>,
@@ -76,7 +76,7 @@ fn watch(
                 );
                 std::process::abort();
             }
-            // The one that fed inputs has panicked.
+            // The thread that feeds inputs has panicked.
             if Arc::strong_count(&now) == 1 {
                 return;
             }
@@ -84,7 +84,7 @@ fn watch(
     })
 }
 
-/// Writes an input's files to `folder`; the path of the one that is read.
+/// Writes the files of an input to `folder`. Returns the path of the file that is read.
 fn write(input: &Input, folder: &Path) -> PathBuf {
     for (name, bytes) in &input.files {
         std::fs::write(folder.join(name), bytes).expect("an input's file");

@@ -1,5 +1,4 @@
-//! Mutations of files of saved yarns, half of them with the length and the checksum that they then
-//! need.
+//! Mutations of files of saved yarns. Half of them get a fitting length and checksum.
 
 use fastrand::Rng;
 use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn, Yarns};
@@ -8,7 +7,7 @@ use texere_formats::write;
 use crate::image_bytes::field;
 use crate::text::scrambled;
 
-/// Where a file states its length, and the bytes of its checksum at its end.
+/// Place of the length in a file, and number of bytes of the checksum at its end.
 const LENGTH_AT: usize = 16;
 const CHECKSUM: usize = 4;
 
@@ -19,7 +18,7 @@ pub(crate) fn mutated(random: &mut Rng) -> Vec<u8> {
         match random.u8(0..8) {
             0 => scrambled(&mut bytes, random),
             1..4 => field(&mut bytes, random),
-            // A bit, which leaves most numbers sound.
+            // A single bit, which leaves most numbers sound.
             _ if bytes.is_empty() => {}
             _ => {
                 let at = random.usize(..bytes.len());

@@ -1,4 +1,5 @@
-//! What has failed once: a folder for each, whose name says what has to become of it.
+//! Inputs that failed once. Each has a folder, whose name says whether it has to be taken or
+//! refused.
 
 use std::path::Path;
 

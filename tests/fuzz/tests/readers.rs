@@ -1,5 +1,5 @@
-//! Ten thousand inputs for each reader; `cargo run -p texere-fuzz --example fuzz` feeds as many as
-//! are wanted. A failure tells the input's number, which makes it again.
+//! Ten thousand inputs for each reader; `cargo run -p texere-fuzz --example fuzz` feeds any number.
+//! A failure gives the number of its input, which makes it again.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ static HEAP: PeakAlloc = PeakAlloc;
 
 fn ten_thousand(reader: Reader) {
     let taken = fuzz(reader, 0..10_000, &HEAP, Path::new(env!("CARGO_TARGET_TMPDIR")));
-    // Mutations are small, so that much of what is fed gets far; least where a design and its image
-    // are both mutated.
+    // Mutations are small, so that many inputs get far. Fewest do where a design and its image are
+    // both mutated.
     assert!(taken > 300, "only {taken} were taken");
 }
 

@@ -1,16 +1,16 @@
-//! Rows of values, one for each factor, in which every two values of two factors meet.
+//! Covering arrays: rows with a value for each factor, in which every two values of two factors
+//! occur together.
 
 use std::collections::BTreeSet;
 
-/// A factor and one of its values, both by number.
+/// The number of a factor, and the number of one of its values.
 type Level = (usize, usize);
 
-/// The fewest rows that a greedy search finds, for factors of `sizes` values; the same ones on
-/// every run.
+/// The rows that a greedy search finds for factors of `sizes` values. They are the same on every
+/// run.
 ///
-/// Each row starts with a pair that no row has yet, and takes for each further factor the value
-/// that brings the most new pairs (Cohen, Dalal, Fredman and Patton 1997, without their random
-/// choices).
+/// Each row starts with a pair that no row has yet. For each further factor it takes the value that
+/// adds the most new pairs (Cohen, Dalal, Fredman and Patton 1997, without their random choices).
 pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
     let mut open = pairs(sizes);
     let mut rows = Vec::new();
@@ -20,7 +20,7 @@ pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
             let gain = |value: &usize| {
                 levels.iter().filter(|&&level| open.contains(&pair(level, (factor, *value)))).count()
             };
-            // Among equals a different one each time, so that values are used evenly.
+            // Equally good values are taken in turn, so that values are used evenly.
             let values = (0..sizes[factor]).map(|value| (value + rows.len()) % sizes[factor]);
             let best = values.max_by_key(gain).unwrap_or_default();
             levels.push((factor, best));
@@ -36,7 +36,7 @@ pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
     rows
 }
 
-/// The pair, ordered by factor.
+/// The pair in the order of its factors.
 fn pair(one: Level, other: Level) -> (Level, Level) {
     if one < other { (one, other) } else { (other, one) }
 }
@@ -57,8 +57,8 @@ fn pairs(sizes: &[usize]) -> BTreeSet<(Level, Level)> {
 mod tests {
     use super::*;
 
-    /// Three factors of two values need four rows, and no fewer; nine of very different sizes about
-    /// as many as the two largest ask for.
+    /// Three factors of two values need exactly four rows. Nine factors of very different sizes
+    /// need about as many as the two largest ask for.
     #[test]
     fn few_rows_are_enough() {
         assert_eq!(covering(&[2, 2, 2]).len(), 4);

@@ -8,14 +8,14 @@ use texere_formats::{Design, read};
 
 use super::{Case, USUAL};
 
-/// Ends, and picks, that a cut cloth has at most.
+/// The most ends, and the most picks, of a cut cloth.
 const THREADS: usize = 20;
 
-/// Control points that a yarn of a cut knit has at most.
+/// The most control points of a yarn in a cut knit.
 const POINTS: usize = 240;
 
-/// `designs/` of this workspace, or else of the working folder, for a suite that runs on another
-/// machine than it was built on.
+/// `designs/` of this workspace. A suite that runs on another machine than it was built on takes
+/// `designs/` of the working folder.
 fn folder() -> PathBuf {
     let ours = Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs");
     if ours.is_dir() { ours } else { PathBuf::from("designs") }
@@ -25,7 +25,7 @@ fn folder() -> PathBuf {
 ///
 /// # Panics
 ///
-/// Where it can't be read.
+/// If it can't be read.
 #[must_use]
 pub fn design(path: impl AsRef<Path>) -> Design {
     read(folder().join(path)).unwrap()
@@ -41,7 +41,7 @@ fn paths() -> Vec<PathBuf> {
     let mut paths = Vec::new();
     gather(&folder(), Path::new(""), &mut paths);
     paths.sort();
-    // Where no design is found the suite must fail: a case for a missing design does.
+    // The suite has to fail if no design is found, and a case for a missing design does so.
     if paths.is_empty() { vec!["missing.toml".into()] } else { paths }
 }
 
@@ -49,7 +49,7 @@ fn name_of(path: &Path) -> String {
     path.with_extension("").to_string_lossy().replace(['/', '\\'], "-")
 }
 
-/// Every design with caps in both frames, and as the paper has it: upright and without caps.
+/// Every design with caps in both frames, and as in the paper: upright and without caps.
 pub(super) fn each_design() -> Vec<Case> {
     paths()
         .into_iter()
@@ -85,7 +85,7 @@ fn small(design: &Design) -> Yarns {
     }
 }
 
-/// Yarns from the middle of a knit, and the beginning of each.
+/// The beginnings of yarns from the middle of a knit.
 fn few(yarns: &Yarns) -> Yarns {
     let layout = yarns.layout();
     let count = layout.yarns().len().min(THREADS);

@@ -57,7 +57,7 @@ pub(super) fn menagerie(section: Section) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Every shape that is open, has no twist and stands upright all along, in one fabric.
+/// All shapes that are open, untwisted and upright along their whole length, in one fabric.
 pub(super) fn standing() -> Yarns {
     let mut yarns = Yarns::builder();
     for shape in shapes::all().into_iter().filter(|shape| !shape.yarn.closed && shape.yarn.twist == 0.0) {
@@ -69,8 +69,8 @@ pub(super) fn standing() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A yarn of more than a block and one of less, thick and thin, both like `yarn` but of `section`.
-/// Of each control point, by its number, `flatten` gives width over height.
+/// Two yarns like `yarn` with another section: a thick one of more than a block, and a thin one of
+/// less. `flatten` gives width over height of each control point by its number.
 pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Yarns {
     let mut yarns = Yarns::builder();
     let yarn = Yarn { section: yarns.section(section), ..yarn };
@@ -87,8 +87,8 @@ pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Ya
     yarns.build().unwrap()
 }
 
-/// Flattened yarns, open and closed, long and short, twisted and not, whose up directions turn
-/// along them: so slowly that an upright frame goes along, and fast.
+/// Flattened yarns with up directions that turn along them: open and closed, long and short,
+/// twisted and untwisted. Some turn so slowly that an upright frame follows, and some fast.
 pub(super) fn leaning() -> Yarns {
     let mut yarns = Yarns::builder();
     let section = yarns.section(Section::Lenticular { aspect: 1.5, distortion: 0.2 });
@@ -102,8 +102,8 @@ pub(super) fn leaning() -> Yarns {
         let (mut points, twist) = (Vec::new(), if number % 2 == 0 { 0.3 } else { 0.0 });
         for k in (0..count).map(f64::from) {
             let (sin, cos) = (std::f64::consts::TAU * k / f64::from(count)).sin_cos();
-            // An open yarn waves, a closed one is a level ring; `across` is level and at right
-            // angles to either.
+            // An open yarn is a wave, and a closed one a level ring. `across` is level, and at
+            // right angles to the yarn.
             let (place, across) = if closed {
                 ([6.0 * cos, 6.0 * sin, 0.0], [cos, sin])
             } else {
@@ -135,7 +135,7 @@ pub(super) fn cog(corners: u32) -> Vec<[f32; 2]> {
     (0..corners).map(corner).collect()
 }
 
-/// Yarns of several materials and sections, open and closed, twisted and not, long and short.
+/// Yarns of several materials and sections: open and closed, twisted and untwisted, long and short.
 pub(super) fn mixed() -> Yarns {
     let mut yarns = Yarns::builder();
     let materials = ["cotton", "wool", "silk"]
@@ -154,9 +154,9 @@ pub(super) fn mixed() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Yarns that wander round, open and closed, without sharp turns: the same ones on every run.
+/// Yarns that wander about without sharp turns, open and closed. They are the same on every run.
 pub(super) fn wandering() -> Yarns {
-    // Numerical Recipes' quick generator; its high bits do for a walk.
+    // The quick generator of Numerical Recipes. Its high bits suffice for a walk.
     let mut state = 3u32;
     let mut random = move || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -204,7 +204,7 @@ pub(super) fn winding(points: u32, yarn: Yarn) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The same design with every length multiplied by `scale`.
+/// The fabric with every length multiplied by `scale`.
 pub(super) fn scaled(yarns: &Yarns, scale: f32) -> Yarns {
     let grow = |point: &ControlPoint| {
         ControlPoint { x: point.x * scale, y: point.y * scale, z: point.z * scale, ..*point }

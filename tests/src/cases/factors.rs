@@ -1,4 +1,4 @@
-//! Cases that combine settings, sections, ends and limits: every pair of values, or every
+//! Cases that combine settings, sections, ends and limits: with every pair of values, or with every
 //! combination.
 
 use texere_core::{Frame, Section, Settings, Topology, Yarn};
@@ -7,7 +7,7 @@ use super::covering::covering;
 use super::{Case, FRAMES, fabrics};
 use crate::limits::Tight;
 
-/// A kind of section with as many corners as a tube has sides.
+/// A kind of section, made for the number of sides of a tube.
 type Sectioned = (&'static str, fn(u32) -> Section);
 
 const SECTIONS: [Sectioned; 6] = [
@@ -52,12 +52,12 @@ impl Counts {
         Self { subdivisions: (0..=8).collect(), sides: (3..=64).collect() }
     }
 
-    /// Least and most, odd and even, and the powers of two with their neighbours.
+    /// The least and the most, odd and even numbers, and powers of two with their neighbours.
     fn thinned() -> Self {
         Self { subdivisions: vec![0, 1, 2, 4, 8], sides: vec![3, 4, 5, 6, 7, 8, 16, 33, 64] }
     }
 
-    /// How many values each factor has.
+    /// Number of values of each factor.
     fn sizes(&self) -> [usize; 10] {
         [
             self.subdivisions.len(),
@@ -73,7 +73,7 @@ impl Counts {
         ]
     }
 
-    /// The case with the given value, by number, of each factor; its name has them all.
+    /// The case with the values of these numbers, one for each factor. Its name has all of them.
     fn case(&self, set: &str, row: &[usize]) -> Case {
         let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit, flattening] = row
         else {
@@ -99,7 +99,7 @@ impl Counts {
     }
 }
 
-/// Cases in which every pair of values meets: of subdivisions 0 to 8, sides 3 to 64, both frames,
+/// Cases in which every pair of values occurs: of subdivisions 0 to 8, sides 3 to 64, both frames,
 /// six kinds of section, open and closed yarns, caps, topologies, twist, limits, and flattening.
 #[must_use]
 pub fn pairwise() -> Vec<Case> {
@@ -107,8 +107,8 @@ pub fn pairwise() -> Vec<Case> {
     covering(&counts.sizes()).iter().map(|row| counts.case("pairwise", row)).collect()
 }
 
-/// Every combination of the values of [`pairwise`], but of subdivisions only 0, 1, 2, 4 and 8, and
-/// of sides only 3 to 8, 16, 33 and 64: 233,280 cases.
+/// Every combination of the values of [`pairwise`], with subdivisions 0, 1, 2, 4 and 8 and with 3
+/// to 8, 16, 33 and 64 sides: 233,280 cases.
 #[must_use]
 pub fn product() -> Vec<Case> {
     let counts = Counts::thinned();
@@ -130,8 +130,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// A text that differs between two cases if and only if their values of factor `which` differ,
-    /// read from the case and not from its row.
+    /// A text that differs between two cases exactly if their values of factor `which` differ. It
+    /// is read from the case, not from its row.
     fn value(case: &Case, which: usize) -> String {
         let Settings { subdivisions, sides, frame, topology, caps, .. } = case.settings;
         let yarns = case.yarns();

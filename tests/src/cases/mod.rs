@@ -73,14 +73,14 @@ impl Case {
         })
     }
 
-    /// Its yarns. Built on each call, so that listing cases costs nothing.
+    /// The yarns. They are built on each call, so that listing cases costs nothing.
     #[must_use]
     pub fn yarns(&self) -> Yarns {
         (self.build)()
     }
 }
 
-/// All cases but [`product`]'s.
+/// All cases, except those of [`product`].
 #[must_use]
 pub fn all() -> Vec<Case> {
     let mut cases = each_shape();
@@ -94,8 +94,8 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Fabrics of a few hundred rings that between them have open and closed, twisted and standing,
-/// long and short yarns.
+/// Fabrics of a few hundred rings. Together they have open and closed, twisted and upright, long
+/// and short yarns.
 #[must_use]
 pub fn menagerie() -> Yarns {
     fabrics::menagerie(Section::Circle)
@@ -113,13 +113,13 @@ pub fn leaning() -> Yarns {
     fabrics::leaning()
 }
 
-/// One open or closed yarn of `points` points without any difficulty.
+/// One open or closed yarn of `points` points, without any difficulty.
 #[must_use]
 pub fn winding(points: u32, yarn: Yarn) -> Yarns {
     fabrics::winding(points, yarn)
 }
 
-/// Every section that takes any number of sides, named.
+/// Every section that takes any number of sides, with its name.
 #[must_use]
 pub fn sections() -> Vec<(&'static str, Section)> {
     fabrics::sections()
@@ -133,7 +133,7 @@ fn each_shape() -> Vec<Case> {
         .collect()
 }
 
-/// Every shape at once, through the range of each setting.
+/// All shapes in one fabric, through the range of each setting.
 fn settings_swept() -> Vec<Case> {
     let mut cases = Vec::new();
     for sides in [3, 4, 5, 7, 8, 9, 12, 15, 16, 17, 24, 31, 32, 33, 48, 63, 64, 128, 192, 193, 255, 256] {
@@ -159,7 +159,7 @@ fn settings_swept() -> Vec<Case> {
     cases
 }
 
-/// Yarns with up directions, through the settings that rings depend on.
+/// Yarns with up directions, through all settings that rings depend on.
 fn ups_swept() -> Vec<Case> {
     let mut cases = Vec::new();
     for (subdivisions, tension) in [(0, 0.0), (3, 0.0), (8, 0.4)] {
@@ -188,7 +188,7 @@ fn sections_swept() -> Vec<Case> {
     cases
 }
 
-/// What the paper's own algorithms do: open, untwisted yarns without caps, upright.
+/// Cases that the paper's own algorithms cover: open, untwisted, upright yarns without caps.
 fn papers() -> Vec<Case> {
     let mut cases = Vec::new();
     for (topology_name, topology) in
@@ -205,7 +205,7 @@ fn papers() -> Vec<Case> {
         let build = move || fabrics::winding(points, Yarn::default());
         cases.push(Case::new(format!("paper-rings-{points}::upright"), settings, build));
     }
-    // More than 65,535 rounds of a lane's loops, for a few blocks and for a single one.
+    // More than 65,535 rounds of a lane's loops, for a few blocks and for a single block.
     for (name, sides, points) in [("long", 24, 1_000), ("wide", SIDES_MAX, 66)] {
         let settings = Settings { sides, caps: false, ..USUAL };
         let build = move || fabrics::winding(points, Yarn::default());
@@ -216,7 +216,7 @@ fn papers() -> Vec<Case> {
 
 fn long_and_many() -> Vec<Case> {
     let mut cases = Vec::new();
-    // Near the size of a block, with a ring too many or too few.
+    // Yarns of about a block, with a ring more or less.
     for points in [63, 64, 65, 66, 128, 129, 193] {
         let settings = Settings { subdivisions: 0, ..USUAL };
         let open = move || fabrics::winding(points, Yarn { twist: 0.3, ..Yarn::default() });
@@ -253,8 +253,8 @@ mod tests {
         assert_eq!(names.len(), cases.len());
     }
 
-    /// Near half a turn, rounding decides which way round a closed yarn's turn is spread, and
-    /// backends would disagree.
+    /// Near half a turn, rounding decides in which direction a closed yarn's turn is spread.
+    /// Backends would disagree.
     #[test]
     fn no_closed_yarn_is_near_half_a_turn_off() {
         for case in all() {

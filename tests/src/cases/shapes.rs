@@ -1,4 +1,4 @@
-//! Single yarns, each with a difficulty that a backend might get wrong.
+//! Single yarns, each with one difficulty for a backend.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ fn point([x, y, z]: [f64; 3], radius: f64) -> ControlPoint {
     ControlPoint::new(x as f32, y as f32, z as f32, radius as f32)
 }
 
-/// Points of one thickness along `curve`.
+/// Points of equal thickness along `curve`.
 fn along(count: u32, curve: impl Fn(f64) -> [f64; 3]) -> Vec<ControlPoint> {
     (0..count).map(|k| point(curve(f64::from(k)), RADIUS)).collect()
 }
@@ -65,7 +65,7 @@ fn helix(k: f64, per_turn: f64, radius: f64, rise: f64) -> [f64; 3] {
     [radius * cos, radius * sin, rise * k]
 }
 
-/// A knot that winds three times round a ring while it goes round twice.
+/// A torus knot, which winds three times around a ring's tube while it goes round the ring twice.
 fn torus_knot(k: f64, count: f64) -> [f64; 3] {
     let (sin, cos) = (2.0 * TAU * k / count).sin_cos();
     let (winding_sin, winding_cos) = (3.0 * TAU * k / count).sin_cos();
@@ -78,8 +78,8 @@ fn wave(k: f64) -> [f64; 3] {
     [k, 0.0, if (k as u32).is_multiple_of(2) { 0.25 } else { -0.25 }]
 }
 
-/// Courses of plain loops, twelve points a loop, one after the other: legs as steep as a knit has
-/// them.
+/// Courses of plain loops as one yarn, with twelve points a loop. Their legs are as steep as in a
+/// knit.
 fn loops(k: f64) -> [f64; 3] {
     const HALF: [[f64; 3]; 7] = [
         [0.0, 0.0, -0.84],
@@ -127,7 +127,7 @@ fn round() -> Vec<Shape> {
     let circle = |k: f64| (TAU * k / 12.0).sin_cos();
     vec![
         closed("circle-flat", along(12, |k| [circle(k).1 * 3.0, circle(k).0 * 3.0, 0.0])),
-        // Passes through the vertical twice, at a control point.
+        // The tangent passes through the vertical twice, at a control point.
         closed("circle-upright", along(12, |k| [circle(k).1 * 3.0, 0.0, circle(k).0 * 3.0])),
         closed("circle-tilted", along(12, |k| [circle(k).1 * 3.0, circle(k).0 * 2.4, circle(k).0 * 1.8])),
         closed("triangle", listed(&[[0.0; 3], [4.0, 0.0, 0.0], [2.0, 3.0, 1.0]])),
@@ -150,7 +150,7 @@ fn turning_back() -> Vec<Shape> {
     vec![
         open("hairpin", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]])),
         open("hairpin-oblique", listed(&[[0.0; 3], [1.0, 2.0, 1.0], [3.0, 6.0, 3.0], [1.0, 2.0, 1.0]])),
-        // Not exact in f32, so that what should vanish is rounding noise.
+        // Coordinates are not exact in f32. Derivatives that should vanish are rounding noise.
         open("hairpin-askew", listed(&[[0.1, 0.2, 0.3], [0.7, 1.6, -0.1], [0.1, 0.2, 0.3]])),
         open("hairpin-up", listed(&[[0.0; 3], [0.0, 0.0, 2.0], [0.0; 3]])),
         closed("hairpin-closed", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]])),
@@ -158,8 +158,8 @@ fn turning_back() -> Vec<Shape> {
         open("cusp-flat", listed(&[[1.0, 0.5, 0.0], [0.0; 3], [1.0, 0.5, 0.0], [6.0, 3.0, 0.0]])),
         // At tension 0 the velocity vanishes half way between the middle points.
         open("cusp", listed(&[[-5.0, 2.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [6.0, 2.0, 0.0]])),
-        // In a plane of constant x, on from point to point, and yet backwards for a while between
-        // the middle ones.
+        // In a plane of constant x. Each point lies further on, yet the spline goes back for a
+        // while between the middle points.
         open(
             "back-stitch",
             listed(&[[0.5, 0.0, 0.0], [0.5, 1.0, 0.1], [0.5, 1.01, -0.1], [0.5, 2.01, 0.2], [0.5, 3.0, 0.0]]),
@@ -202,7 +202,7 @@ fn uneven() -> Vec<Shape> {
     let knot = |name| closed(name, along(48, |k| torus_knot(k, 48.0)));
     vec![
         slub("slub"),
-        // Between two thin places beside thick ones the spline dips below zero.
+        // Between two thin places beside thick ones, the spline of the width dips below zero.
         thick_and_thin("slub-overshooting", &[0.25, 1.0, 0.0625, 0.0625, 1.0, 0.25]),
         thick_and_thin("slub-steep", &[0.01, 2.0, 0.01, 2.0, 0.01]),
         twisted(slub("slub-twisted"), 1.5),
@@ -219,7 +219,7 @@ fn uneven() -> Vec<Shape> {
 
 fn flat() -> Vec<Shape> {
     let ribbon = |name| flattened(name, &[[0.5, 0.125]; 8]);
-    // Flat where it crosses, nearly round where it floats, and for a moment as high as wide.
+    // Flat where it crosses, nearly round where it floats, and at one place as high as wide.
     let changing = [
         [0.3, 0.2],
         [0.35, 0.15],
@@ -235,7 +235,7 @@ fn flat() -> Vec<Shape> {
             |k: f64| point(torus_knot(k, 48.0), RADIUS).flattened(0.3 + 0.1 * (k * 0.4).cos() as f32, 0.2);
         closed(name, (0..48).map(|k| at(f64::from(k))).collect())
     };
-    // Goes up through the vertical and a little back, and lies level again.
+    // The yarn rises through the vertical and a little beyond, and becomes level again.
     let binder = |name| {
         let at = |k: f64| {
             let (sin, cos) = (0.1 * TAU * k).sin_cos();
@@ -249,7 +249,7 @@ fn flat() -> Vec<Shape> {
         twisted(binder("flat-binder-twisted"), 1.0),
         flattened("flat-standing", &[[0.125, 0.5]; 6]),
         flattened("flat-changing", &changing),
-        // The spline of the height dips below zero, that of the width does not.
+        // The spline of the height dips below zero, and that of the width does not.
         flattened("flat-overshooting", &[[0.25, 1.0], [0.25, 0.0625], [0.25, 0.0625], [0.25, 1.0]]),
         flattened(
             "flat-round-at-last",
@@ -259,7 +259,7 @@ fn flat() -> Vec<Shape> {
         twisted(flattened("flat-changing-twisted", &changing), -1.5),
         flat_knot("flat-closed"),
         twisted(flat_knot("flat-closed-twisted"), 0.7),
-        // Along z, where the upright side is +y.
+        // The yarn runs along z, where the upright side is +y.
         open(
             "flat-up",
             (0..5).map(|k| point([0.5, 0.25, f64::from(k)], RADIUS).flattened(0.4, 0.2)).collect(),

@@ -1,4 +1,4 @@
-//! Puts chunks together again: every ring once, in order, whatever they were cut to.
+//! Joins chunks to a whole output: every ring once, in order, for any cut.
 
 use std::ops::Range;
 
@@ -18,9 +18,10 @@ pub struct Assembled {
     pub rings: Vec<Ring>,
     /// Their vertices, in order.
     pub vertices: Vec<Vertex>,
-    /// Start and finish cap of each open yarn, in order; empty where none were asked for.
+    /// The start and the finish cap of each open yarn, in order. Empty if the settings have no
+    /// caps.
     pub caps: Vec<AssembledCap>,
-    /// Where each yarn's rings start, and their total last.
+    /// The first ring of each yarn; at the end, the number of all rings.
     pub offsets: Vec<usize>,
 }
 
@@ -33,13 +34,14 @@ pub struct AssembledCap {
     pub end: End,
     /// One for each point of the section.
     pub vertices: Vec<Vertex>,
-    /// Points of the section; empty where the output has no indices, or they were never written.
+    /// Triangles as points of the section. Empty if the output has no indices, or they were never
+    /// written.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Joins the chunks of `output`, and reports what is missing, repeated, or makes wrong triangles.
+/// Joins the chunks of `output`. Reports pieces that are missing or repeated, and wrong triangles.
 ///
-/// Rings that two chunks share must be equal to the bit.
+/// Rings that two chunks share have to be equal to the bit.
 #[must_use]
 pub fn assemble(oracle: &Oracle, output: &DeviceOutput, report: &mut Report) -> Assembled {
     let mut whole = Assembly::new(oracle);
@@ -58,7 +60,7 @@ struct Assembly<'a> {
     oracle: &'a Oracle,
     sides: usize,
     assembled: Assembled,
-    /// Rings of each yarn so far.
+    /// Number of rings of each yarn so far.
     done: Vec<usize>,
 }
 
@@ -84,7 +86,7 @@ impl<'a> Assembly<'a> {
         let Some(done) = self.done.get(yarn).copied() else {
             return report.note(Fault::Count, place, self.oracle.yarns.len(), "a yarn more");
         };
-        // A part starts where the one before ended, at the ring that the cut repeats.
+        // A part starts where the previous one ended: at the ring that the cut repeats.
         let goes_on = report.note_count("rings before", place, done.saturating_sub(1) as u64, first as u64);
         let total = self.oracle.yarns[yarn].rings.len();
         if !goes_on || first + rings > total {
@@ -114,7 +116,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// The quads of a part, in order, and nothing else.
+    /// A part has its quads in order, and nothing else.
     fn check_quads(&self, part: &Part, mesh: &ChunkOutput, report: &mut Report) {
         let (sides, base) = (self.sides as u64, u64::from(part.first_vertex));
         for gap in 0..u64::from(part.rings) - 1 {
@@ -180,7 +182,7 @@ impl<'a> Assembly<'a> {
             let place = RingPlace { yarn: number as u64, ring: done as u64, point: None };
             report.note_count("rings", place, yarn.rings.len() as u64, done as u64);
         }
-        // Chunks hold the caps of their own yarns; in the whole they follow the yarns.
+        // A chunk holds the caps of its own yarns. In the whole output, caps follow all yarns.
         self.assembled.caps.sort_by_key(|cap| (cap.yarn, cap.end == End::Finish));
         let capped = |yarn: usize| self.oracle.settings.caps && !self.oracle.yarns[yarn].closed;
         let expected: Vec<_> = (0..self.oracle.yarns.len())
@@ -196,14 +198,14 @@ impl<'a> Assembly<'a> {
 }
 
 impl Assembled {
-    /// Rings of `yarn` among all.
+    /// The rings of `yarn` as a range of all rings.
     #[must_use]
     pub fn rings_of(&self, yarn: usize) -> Range<usize> {
         self.offsets[yarn]..self.offsets[yarn + 1]
     }
 }
 
-/// Copies `from` to `to`, of which the first `shared` are there already and must be the same.
+/// Appends `from` to `to`. The first `shared` of them are already there, and have to be equal.
 fn merge<T: bytemuck::Pod + std::fmt::Debug>(
     to: &mut [T],
     from: Option<&[T]>,

@@ -1,4 +1,4 @@
-//! The comparer: one output against the oracle, or against another output.
+//! The comparison of one output with the oracle, or with another output.
 
 mod assemble;
 mod bounds;
@@ -23,9 +23,9 @@ use crate::poison::is_poison;
 
 /// The errors that a ring is allowed.
 struct Allowance {
-    /// mm, for a centre.
+    /// Error of a centre, mm.
     position: f64,
-    /// rad, about the tangent.
+    /// Error of the turn about the tangent, rad.
     roll: f64,
     /// Whether the frame can be compared: see [`NEAR_VERTICAL`].
     framed: bool,
@@ -39,7 +39,7 @@ impl Allowance {
             roll: ROLL_FLOOR
                 + ROLL_DRIFT * (number as f64 + ring.twist)
                 + INTERVAL_TWIST * ring.interval_twist
-                // A roll begins with a lean, or goes along with it.
+                // A lean sets the roll at the start, or turns along with it.
                 + if ring.leans { DIRECTION } else { 0.0 },
             framed: !(SURELY_VERTICAL..NEAR_VERTICAL).contains(&tilt),
         }
@@ -52,8 +52,8 @@ fn ulp(value: f64) -> f64 {
     f64::from(value.next_up()) - f64::from(value)
 }
 
-/// Whether two values are the same to the bit. Unlike `==`, a NaN equals itself, and 0 differs from
-/// -0.
+/// Whether two values are equal to the bit. Unlike with `==`, a NaN equals itself, and 0 differs
+/// from -0.
 pub(crate) fn same_bits<T: bytemuck::Pod>(a: &T, b: &T) -> bool {
     bytemuck::bytes_of(a) == bytemuck::bytes_of(b)
 }
@@ -62,7 +62,7 @@ fn wide(value: [f32; 3]) -> DVec3 {
     DVec3::from_array(value.map(f64::from))
 }
 
-/// Compares the counts that a plan promises.
+/// Compares the counts of an output with those that its plan promises.
 pub fn compare_counts(oracle: &Oracle, plan: &Plan, report: &mut Report) {
     let (expected, actual) = (oracle.counts(), plan.counts());
     for (what, expected, actual) in [
@@ -93,8 +93,8 @@ impl Expected for Oracle {
     }
 }
 
-/// Another backend's output as the reference; what an output lacks (twist so far) comes from the
-/// oracle.
+/// The output of another backend as the reference. Values that no output has (the twist so far)
+/// come from the oracle.
 struct Gold<'a> {
     oracle: &'a Oracle,
     output: &'a Assembled,
@@ -125,12 +125,12 @@ impl Expected for Gold<'_> {
     }
 }
 
-/// Compares every ring, vertex and cap of `output` with what the oracle says.
+/// Compares every ring, vertex and cap of `output` with the oracle.
 pub fn compare_with_oracle(oracle: &Oracle, output: &Assembled, report: &mut Report) {
     compare(oracle, oracle, output, report);
 }
 
-/// Compares every ring and vertex of `output` with `gold`, within the same bounds, and the
+/// Compares every ring and vertex of `output` with `gold` within the bounds for the oracle, and the
 /// triangles of every cap to the bit.
 pub fn compare_with_gold(oracle: &Oracle, gold: &Assembled, output: &Assembled, report: &mut Report) {
     compare(oracle, &Gold { oracle, output: gold }, output, report);
@@ -162,8 +162,7 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
     }
 }
 
-/// Reports NaN and infinity, and distinguishes memory that was never written from results that are
-/// wrong.
+/// Reports NaN and infinity, and tells memory that was never written from wrong results.
 fn is_finite(values: &[f32], place: RingPlace, report: &mut Report) -> bool {
     let finite = values.iter().all(|value| value.is_finite());
     if !finite {
@@ -206,12 +205,13 @@ fn compare_ring(
     }
     let error = [(tangent - expected.tangent).length(), DIRECTION, 1.0];
     if !report.check(Quantity::Tangent, place, error, (expected.tangent, tangent)) {
-        // A roll about another tangent can't be compared.
+        // Rolls about different tangents can't be compared.
         return;
     }
-    // Between two rings near the vertical the upright frame may turn either way round, and so may a
-    // roll or a lean against it. The direction that the two make together is defined, so that is
-    // compared. An upright yarn's roll is compared by itself, but where it leans.
+    // Between two rings near the vertical, the upright frame may turn in either direction, and a
+    // roll or a lean against it does, too. Only the direction that frame and turn make together is
+    // defined, and is compared. The roll of an upright yarn is compared by itself, except where it
+    // leans.
     let roll = turns(actual.roll);
     let off = |turn: f64, [level, rising]: [DVec3; 2]| {
         let side = side(tangent, turn);
@@ -239,8 +239,8 @@ fn turns(turn: Turn) -> f64 {
     f64::from(turn.0) / 4_294_967_296.0
 }
 
-/// The side that a tangent and a roll (in turns) make: of the upright frame, turned about the
-/// tangent.
+/// The side of a ring: that of its tangent's upright frame, turned about the tangent by a roll in
+/// turns.
 fn side(tangent: DVec3, roll: f64) -> DVec3 {
     let level = DVec3::new(-tangent.y, tangent.x, 0.0);
     let side = if level.length() < 1e-6 { DVec3::Y } else { level.normalize() };
@@ -270,16 +270,16 @@ fn compare_vertex(
         let error = [(actual_normal - normal).length(), room, 1.0];
         report.check(Quantity::Normal, place, error, (normal, actual_normal));
     } else if !ring.is_round() {
-        // Which way the frame stands decides how far a vertex lies out: in the ring's plane, and
-        // its normal of length 1.
+        // The distance of a vertex from the centre depends on the frame, which is not defined here.
+        // The vertex has to lie in the ring's plane, with a normal of length 1.
         let off_plane = actual_arm.dot(ring.tangent).abs();
         let error = [off_plane, room + arm.length() * ring.flatness() * DIRECTION, ring.thinnest()];
         report.check(Quantity::Vertex, place, error, (position, actual_position));
         let error = [(actual_normal.length() - 1.0).abs(), DIRECTION, 1.0];
         report.check(Quantity::Normal, place, error, (normal, actual_normal));
     } else {
-        // Without a frame: the vertex must lie in the ring's plane, at the right distance from its
-        // centre, and its normal must have the right components outward and along the yarn.
+        // Without a frame, the vertex has to lie in the ring's plane at the right distance from the
+        // centre. Its normal has to have the right components outward and along the yarn.
         let off_plane = actual_arm.dot(ring.tangent).abs();
         let off_distance = (actual_arm.length() - arm.length()).abs();
         let error = [off_plane.max(off_distance), room + arm.length() * DIRECTION, ring.thinnest()];
@@ -293,7 +293,7 @@ fn compare_vertex(
     }
 }
 
-/// A cap lies on its yarn's end; its normals point straight out.
+/// A cap lies on its yarn's end, and its normals point straight out.
 fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, report: &mut Report) {
     let last = oracle.yarns[cap.yarn].rings.len() - 1;
     let (number, sign) = if cap.end == End::Start { (0, -1.0) } else { (last, 1.0) };
@@ -333,8 +333,8 @@ pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Rep
     }
 }
 
-/// Compares two outputs that must be the same to the bit: other chunks, another way, or a backend
-/// that promises it.
+/// Compares two outputs that have to be equal to the bit: of other chunks, of another way through
+/// the session, or of a backend that promises equal bits.
 pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, report: &mut Report) {
     let sides = oracle.settings.sides as usize;
     for yarn in 0..oracle.yarns.len() {

@@ -1,4 +1,5 @@
-//! The result of a comparison: faults by name, the first few in full, and the largest errors.
+//! The result of a comparison: counts of faults by name, the first few faults in full, and the
+//! largest errors.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,7 +10,7 @@ use super::bounds::{DIRECTION, POSITION};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Fault {
-    /// More or fewer rings, vertices, indices or caps than there should be, or pieces out of order.
+    /// A wrong number of rings, vertices, indices or caps, or pieces out of order.
     Count,
     /// Memory that was never written.
     Missing,
@@ -17,19 +18,19 @@ pub enum Fault {
     NotFinite,
     /// A ring's centre or a vertex out of place.
     Position,
-    /// A vertex normal off its direction.
+    /// A vertex normal with a wrong direction.
     Normal,
-    /// A ring's half width, half height, or the growth of either.
+    /// A wrong half width or half height of a ring, or a wrong growth of either.
     Size,
-    /// A ring's tangent off its direction.
+    /// A ring's tangent with a wrong direction.
     Tangent,
-    /// A ring's turn about the tangent.
+    /// A wrong turn of a ring about its tangent.
     Roll,
-    /// The turn of a ring's outline about the tangent.
+    /// A wrong turn of a ring's outline about its tangent.
     Lean,
-    /// An index that makes another triangle, or a cap that does not close.
+    /// An index that makes a wrong triangle, or a cap that does not close.
     Index,
-    /// Two outputs that should be equal to the bit are not.
+    /// Two outputs that should be equal to the bit, and are not.
     Bits,
 }
 
@@ -40,7 +41,7 @@ pub struct RingPlace {
     pub yarn: u64,
     /// The ring, from the yarn's start.
     pub ring: u64,
-    /// The point of the section, where it is about a vertex or its index.
+    /// The point of the section, if the fault is one of a vertex or an index.
     pub point: Option<u64>,
 }
 
@@ -71,7 +72,7 @@ impl fmt::Display for Mismatch {
     }
 }
 
-/// The quantities that are measured, each against what is allowed.
+/// The quantities that are measured against a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -106,8 +107,8 @@ impl Quantity {
         Self::Normal,
     ];
 
-    /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such
-    /// bound for roll.
+    /// The plain tolerance in the quantity's unit, before more is allowed for digits or drift. Roll
+    /// has none.
     const fn bound(self) -> f64 {
         match self {
             Self::Centre | Self::Vertex => POSITION,
@@ -131,10 +132,10 @@ impl Quantity {
 /// The worst of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Worst {
-    /// The largest error, in the quantity's unit, among those that are allowed no more than twice
-    /// the plain bound: neither far from the origin nor after much drift.
+    /// The largest error in the quantity's unit, among places whose tolerance is at most twice the
+    /// plain one: neither far from the origin nor after much drift.
     pub error: f64,
-    /// The largest share of what was allowed; above 1 is a fault.
+    /// The largest error as a share of its tolerance. Above 1 it is a fault.
     pub share: f64,
 }
 
@@ -146,7 +147,7 @@ pub struct Report {
     worst: BTreeMap<Quantity, Worst>,
 }
 
-/// Mismatches that a report keeps in full.
+/// The most mismatches that a report keeps in full.
 const KEPT: usize = 5;
 
 impl Report {
@@ -156,7 +157,7 @@ impl Report {
         self.counts.is_empty()
     }
 
-    /// How often `fault` was found.
+    /// Number of times that `fault` was found.
     #[must_use]
     pub fn count(&self, fault: Fault) -> u64 {
         self.counts.get(&fault).copied().unwrap_or(0)
@@ -168,7 +169,7 @@ impl Report {
         &self.first
     }
 
-    /// The worst of `quantity`, zeros where it was not measured.
+    /// The worst of `quantity`; zeros if it was not measured.
     #[must_use]
     pub fn worst(&self, quantity: Quantity) -> Worst {
         self.worst.get(&quantity).copied().unwrap_or_default()
@@ -198,7 +199,7 @@ impl Report {
         }
     }
 
-    /// Adds a fault if two counts differ, and gives back whether they agree.
+    /// Adds a fault if two counts differ. Returns whether they agree.
     pub fn note_count(&mut self, what: &str, place: RingPlace, expected: u64, actual: u64) -> bool {
         if expected != actual {
             self.note(Fault::Count, place, format_args!("{expected} {what}"), actual);
@@ -206,7 +207,7 @@ impl Report {
         expected == actual
     }
 
-    /// Measures `error` in units of `unit`, and gives back whether it is within `allowed`.
+    /// Measures `error` in units of `unit`. Returns whether it is within `allowed`.
     fn measure(&mut self, quantity: Quantity, error: f64, allowed: f64, unit: f64) -> bool {
         let worst = self.worst.entry(quantity).or_default();
         if allowed <= 2.0 * quantity.bound() * unit {
@@ -216,8 +217,8 @@ impl Report {
         error <= allowed
     }
 
-    /// [`Report::measure`], and adds a fault where the error is too large; gives back whether it is
-    /// not.
+    /// Measures an error as [`Report::measure`] does, and adds a fault if it is too large. Returns
+    /// whether it is small enough.
     pub(super) fn check(
         &mut self,
         quantity: Quantity,

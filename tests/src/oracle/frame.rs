@@ -1,9 +1,9 @@
-//! Frames in f64: the upright one, and the one that is carried along without turning.
+//! Frames in f64: the upright frame, and the frame that is carried along without turning.
 
 use glam::DVec3;
 
-/// Side and up of the upright frame: side = z × t, level; up = t × side. Within 1e-6 of z the side
-/// is +y.
+/// Side and up of the upright frame for the tangent t: side = z × t, which is level, and up = t ×
+/// side. For tangents within 1e-6 of z the side is +y.
 pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
     let level = DVec3::Z.cross(tangent);
     let side = if level.length() < 1e-6 { DVec3::Y } else { level.normalize() };
@@ -14,9 +14,9 @@ pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
 ///
 /// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008. The first
 /// reflection maps one centre to the other, the second the reflected tangent to the next tangent.
-/// Rings that coincide have no chord: the tangent stands in for it. Where a yarn turns straight
-/// back, the second reflection is not determined by the tangents; it is defined to keep the upright
-/// side, since rolls are turns against the upright frame.
+/// Rings that coincide have no chord, and the tangent takes its place. Where a yarn turns straight
+/// back, tangents do not determine the second reflection. It is defined to keep the upright side,
+/// because rolls are turns against the upright frame.
 pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) -> DVec3 {
     let across = if chord.length_squared() <= 1e-30 { tangent } else { chord.normalize() };
     let (side, reflected) = (mirror(side, across), mirror(tangent, across));
@@ -27,12 +27,13 @@ pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) 
     (side - next * side.dot(next)).normalize()
 }
 
-/// Where the height of a yarn points between two control points, each with its up direction and its
-/// tangent, at `t` from 0 to 1, where the tangent is `tangent`; zero where it has no direction.
+/// Direction of a yarn's height at `t`, from 0 to 1 between two control points, each of which has
+/// an up direction and a tangent. `tangent` is the tangent at `t`. The result is zero if the height
+/// has no direction.
 ///
-/// Each up is turned by the smallest rotation to the tangent, here as two reflections, and its part
-/// across the tangent is mixed with the other's. Of the second up and its opposite the one nearer
-/// to the first counts; at a right angle, but for rounding, the up itself.
+/// The smallest rotation that takes a control point's tangent to `tangent` turns its up; here it is
+/// two reflections. The parts across the tangent are mixed. The second up counts with the sign that
+/// brings it nearer to the first. At a right angle, up to rounding, it keeps its own sign.
 pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DVec3, t: f64) -> DVec3 {
     let across = |v: DVec3| {
         let part = v - tangent * v.dot(tangent);
@@ -40,13 +41,13 @@ pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DV
     };
     let [one, other] = [one, other].map(|(up, from)| {
         let middle = from + tangent;
-        // Straight back there is no smallest rotation: the up stays.
+        // There is no smallest rotation straight back, and the up stays.
         let turns = middle.length() > 4e-5;
         across(if turns { mirror(mirror(up, from), middle.normalize()) } else { up })
     });
     let other = if one.dot(other) < -1e-9 { -other } else { other };
     let mixed = across(one.lerp(other, t));
-    // One that lies along the yarn says nothing.
+    // An up along the yarn has no part across it.
     let left = if one == DVec3::ZERO { other } else { one };
     if mixed == DVec3::ZERO { left } else { mixed }
 }
@@ -68,8 +69,8 @@ mod tests {
         }
     }
 
-    /// Ups of the same height stay so round an arc, and half way between two that differ by a right
-    /// angle lies the middle.
+    /// Ups with the same height keep it around an arc. Half way between two ups at a right angle
+    /// lies their middle.
     #[test]
     fn ups_go_over_into_one_another() {
         let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
@@ -81,13 +82,13 @@ mod tests {
         }
         let up = up_between((DVec3::Z, DVec3::X), (DVec3::Y, DVec3::X), DVec3::X, 0.5);
         assert!((up - DVec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-12, "{up}");
-        // A height has two ends.
+        // A height has no sign.
         let opposite = up_between((DVec3::Z, DVec3::X), (-DVec3::Z, DVec3::X), DVec3::X, 0.5);
         assert_eq!(opposite, DVec3::Z);
     }
 
-    /// Along a circle, carried without turning, the part across the circle's plane stays, and the
-    /// part in it follows the radius.
+    /// A vector that is carried along a circle without turning keeps its part across the circle's
+    /// plane, and its part in the plane follows the radius.
     #[test]
     fn transport_round_an_arc_turns_with_the_radius() {
         let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);

@@ -1,12 +1,12 @@
 //! The oracle: the whole pipeline in f64, slow and plain.
 //!
-//! It is written from the definitions (the paper's equations, the documents of the core's types)
-//! and calls none of the core's geometry, so that an error in the one is not an error in the other.
-//! Control points are taken as exact.
+//! It is written from the definitions: the paper's equations and the documents of the core's types.
+//! It calls none of the core's geometry, so that both do not share an error. Control points count
+//! as exact.
 //!
-//! Where there is a choice it uses another method than the core: the spline is the paper's basis
-//! instead of powers of t, the rotation-minimising frame is a vector carried along instead of a sum
-//! of turns, areas of sections are closed forms instead of polygons.
+//! It uses other methods than the core where it can. The spline is the paper's basis instead of
+//! powers of t. The rotation-minimising frame is a vector that is carried along instead of a sum of
+//! turns. Areas of sections are closed forms instead of polygons.
 
 mod frame;
 mod section;
@@ -31,51 +31,51 @@ pub struct OracleRing {
     pub halves: [f64; 2],
     /// Unit tangent.
     pub tangent: DVec3,
-    /// How both grow along the yarn, mm per mm.
+    /// Growth of both along the yarn, mm per mm.
     pub growths: [f64; 2],
-    /// Turn against the upright frame, in turns; what twist adds to it is not reduced to one turn.
+    /// Turn against the upright frame, in turns. The part from twist is not reduced to one turn.
     pub roll: f64,
-    /// Twist from the yarn's start up to here, rad, without regard to sign: what the allowed drift
-    /// grows with.
+    /// Twist from the yarn's start up to here, rad, without sign. The allowed drift grows with it.
     pub twist: f64,
-    /// Twist over the whole control interval that the ring lies in, rad, without regard to sign.
+    /// Twist over the whole control interval of the ring, rad, without sign.
     pub interval_twist: f64,
-    /// The largest coordinate, without regard to sign, of the four control points that it comes
-    /// from, mm, on which the rounding of f32 depends.
+    /// The largest coordinate of its four control points, mm, without sign. The rounding of f32
+    /// depends on it.
     pub extent: f64,
-    /// Side and up of the upright frame, or of the one that leans, along which flattening works.
+    /// Side and up of the frame in which the section is flattened: the upright one, or the one that
+    /// leans.
     pub upright: [DVec3; 2],
-    /// Whether its yarn has up directions that it stands by.
+    /// Whether the yarn has up directions that it follows.
     pub leans: bool,
-    /// Where the section's x axis points before it is flattened.
+    /// Direction of the section's x axis before it is flattened.
     pub side: DVec3,
-    /// Where the section's y axis points before it is flattened.
+    /// Direction of the section's y axis before it is flattened.
     pub up: DVec3,
 }
 
 impl OracleRing {
-    /// Whether the section is as wide as high here, so that it does not matter which way the
-    /// upright frame stands.
+    /// Whether the section is as wide as high here. The direction of the upright frame does not
+    /// matter then.
     #[must_use]
     pub fn is_round(&self) -> bool {
         self.halves[0] == self.halves[1] && self.growths[0] == self.growths[1]
     }
 
-    /// The smaller of the two halves, mm: what a position's tolerance is a share of.
+    /// The smaller of the two halves, mm. Tolerances of positions are shares of it.
     #[must_use]
     pub fn thinnest(&self) -> f64 {
         self.halves[0].min(self.halves[1])
     }
 
-    /// How many times the larger half is as large as the smaller: by so much flattening may turn a
-    /// normal more than the roll.
+    /// The larger half over the smaller. Flattening may turn a normal by this factor more than the
+    /// roll.
     #[must_use]
     pub fn flatness(&self) -> f64 {
         self.halves[0].max(self.halves[1]) / self.thinnest()
     }
 }
 
-/// One yarn as it should be.
+/// One yarn, exact.
 #[derive(Debug, Clone)]
 pub struct OracleYarn {
     /// Its rings; the last of a closed yarn is a copy of the first.
@@ -86,8 +86,8 @@ pub struct OracleYarn {
     pub closed: bool,
     /// How its sections are oriented.
     pub frame: Frame,
-    /// A closed yarn's whole turn less the nearest whole number of turns, in \[-1/2, 1/2): near
-    /// either end, rounding decides which way round it is spread.
+    /// The whole turn of a closed yarn less the nearest whole number of turns, in \[-1/2, 1/2).
+    /// Near either end of that range, rounding decides in which direction the rest is spread.
     pub excess: f64,
 }
 
@@ -167,7 +167,7 @@ impl Oracle {
         }
         counts.indices = match self.settings.topology {
             Topology::Indexed => 3 * counts.triangles,
-            // The longest yarn's quads, but no more than the pattern covers; both caps of each
+            // Quads of the longest yarn, as far as the pattern covers them, and both caps of each
             // section.
             Topology::Shared => {
                 let caps = if self.settings.caps { 2 * self.outlines.len() as u64 } else { 0 };
@@ -187,9 +187,9 @@ impl Oracle {
         let [a, b] = ring.halves;
         let flatten = |v: DVec3, a: f64, b: f64| level * (v.dot(level) * a) + rising * (v.dot(rising) * b);
         let arm = ring.side * at.x + ring.up * at.y;
-        // The surface's normal is at right angles to the outline, which is flattened as its points
-        // are, and to the way in which a point moves when one goes along the yarn. (What bends and
-        // twist add to that way is left out.)
+        // The normal is at right angles to the flattened outline, and to the direction in which a
+        // point of the outline moves along the yarn. The parts of that direction which come from
+        // bends and twist are left out.
         let along_outline = flatten(ring.up * at.normal_x - ring.side * at.normal_y, a, b);
         let along_yarn = ring.tangent + flatten(arm, ring.growths[0], ring.growths[1]);
         (ring.centre + flatten(arm, a, b), along_outline.cross(along_yarn).normalize())
@@ -204,7 +204,7 @@ fn follow(
     settings: &Settings,
     frame: Frame,
 ) -> OracleYarn {
-    // Side and up along which a ring is flattened.
+    // Side and up in which a ring is flattened.
     let stance = |ring: usize, tangent: DVec3| {
         let (side, up) = upright(tangent);
         let Some(ups) = ups else { return [side, up] };
@@ -256,21 +256,20 @@ fn follow(
     OracleYarn { rings, section: yarn.section as usize, closed: yarn.closed, frame, excess }
 }
 
-/// Notes the twist of each control interval, from its first ring to the next one's, at all of its
-/// rings.
+/// Records the twist of each control interval at all of its rings.
 fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     let starts: Vec<_> = rings.iter().step_by(per_interval).map(|ring| ring.twist).collect();
     for (interval, bounds) in starts.windows(2).enumerate() {
         let first = interval * per_interval;
-        // The knot at the end belongs to the next interval, but for a yarn's last one.
+        // The knot at the end belongs to the next interval, except at the end of the yarn.
         for ring in &mut rings[first..=first + per_interval] {
             ring.interval_twist = bounds[1] - bounds[0];
         }
     }
 }
 
-/// Spreads a closed yarn's excess over whole turns along it, and closes it with a copy of its first
-/// ring.
+/// Spreads the excess of a closed yarn's turn over whole turns along the yarn. Closes it with a
+/// copy of its first ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
     let whole = rings[gaps].roll - rings[0].roll;

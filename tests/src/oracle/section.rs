@@ -1,4 +1,4 @@
-//! Outlines of the sections in f64, scaled to the unit circle's area by closed forms.
+//! Outlines of sections in f64, scaled to the area of the unit circle by closed forms.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,9 +7,9 @@ use texere_core::Section;
 /// A point of an outline with its outward unit normal, in radii of the yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutlinePoint {
-    /// Along the section's side.
+    /// Position along the section's side.
     pub x: f64,
-    /// Along the section's up.
+    /// Position along the section's up.
     pub y: f64,
     /// Normal along the side.
     pub normal_x: f64,
@@ -76,7 +76,7 @@ fn ellipse(aspect: f64, angle: f64) -> OutlinePoint {
     OutlinePoint::new(width * angle.cos(), height * angle.sin(), height * angle.cos(), width * angle.sin())
 }
 
-/// (a cos θ, ±|sin θ|ⁿ); at its two edges the outline stands upright.
+/// (a cos θ, ±|sin θ|ⁿ). The outline is upright at its two edges.
 fn power_ellipse(aspect: f64, exponent: f64, angle: f64) -> OutlinePoint {
     let (sin, cos) = angle.sin_cos();
     if sin.abs() < 1e-9 {
@@ -99,19 +99,19 @@ struct Arc {
     up: f64,
     edge_height: f64,
     radius: f64,
-    /// From the arc's top to its edge, seen from its centre.
+    /// The angle from the arc's top to its edge, seen from its centre.
     half_angle: f64,
 }
 
 impl Arc {
-    /// A lens is 2 a wide and 2 high; its edges lie `distortion` above the middle.
+    /// A lens is 2 a wide and 2 high. Its edges lie `distortion` above the middle.
     fn new(aspect: f64, distortion: f64, up: f64) -> Self {
         let rise = 1.0 - up * distortion;
         let radius = (aspect * aspect + rise * rise) / (2.0 * rise);
         Self { up, edge_height: distortion, radius, half_angle: aspect.atan2(radius - rise) }
     }
 
-    /// Of the circle's segment that it cuts off.
+    /// Area of the segment of the circle.
     fn area(&self) -> f64 {
         self.radius * self.radius * (self.half_angle - self.half_angle.sin() * self.half_angle.cos())
     }
@@ -124,8 +124,8 @@ impl Arc {
     }
 }
 
-/// The upper arc takes the first half of the points, the lower the second; where the two meet, the
-/// normal points straight out.
+/// The upper arc takes the first half of the points, and the lower arc the second. Where both meet,
+/// the normal points straight out.
 fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     let along = 2.0 * f64::from(k) / f64::from(sides);
     let point = if 2 * k < sides { upper.at(along) } else { lower.at(2.0 - along) };
@@ -135,14 +135,14 @@ fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     point
 }
 
-/// Half of what lies between a ply's outermost point and the valley beside it: round plies that
-/// touch leave a valley at cos(π/p) / (1 + sin(π/p)), but never below half way to the axis.
+/// Half the height from the valley between two plies to a ply's outermost point. Round plies that
+/// touch leave a valley at cos(π/p) / (1 + sin(π/p)); it counts as half way to the axis at least.
 fn lobe_depth(plies: f64) -> f64 {
     let valley = (PI / plies).cos() / (1.0 + (PI / plies).sin());
     (1.0 - valley.max(0.5)) / 2.0
 }
 
-/// At angle θ as far out as 1 - depth (1 - cos pθ).
+/// An outline at the distance 1 - depth (1 - cos pθ) at the angle θ.
 fn lobed(depth: f64, plies: f64, angle: f64) -> OutlinePoint {
     let distance = 1.0 - depth * (1.0 - (plies * angle).cos());
     let change = -depth * plies * (plies * angle).sin();
@@ -152,7 +152,8 @@ fn lobed(depth: f64, plies: f64, angle: f64) -> OutlinePoint {
     OutlinePoint::new(distance * cos, distance * sin, direction.1, -direction.0)
 }
 
-/// The caller's corners; the normal of a corner halves the angle between those of its edges.
+/// An outline of the caller's corners. The normal of a corner halves the angle between the normals
+/// of its edges.
 fn polygon(corners: &[[f32; 2]]) -> Vec<OutlinePoint> {
     let count = corners.len();
     let at = |k: usize| corners[k % count].map(f64::from);
@@ -199,8 +200,8 @@ mod tests {
         }
     }
 
-    /// Away from edges, a normal stands at right angles to the way from the point before to the
-    /// point after.
+    /// Away from edges, a normal is at right angles to the line from the point before to the point
+    /// after.
     #[test]
     fn normals_stand_across_the_outline() {
         for shape in shapes() {

@@ -7,7 +7,7 @@ use texere_core::ControlPoint;
 pub(super) struct Curve<'a> {
     points: &'a [ControlPoint],
     closed: bool,
-    /// K + 1.
+    /// Number of rings per control interval: K + 1.
     per_interval: u64,
     s: f64,
 }
@@ -20,15 +20,16 @@ pub(super) struct Place {
     pub(super) halves: [f64; 2],
     /// Unit tangent.
     pub(super) tangent: DVec3,
-    /// How both grow along the yarn.
+    /// Growth of both along the yarn.
     pub(super) growths: [f64; 2],
     /// Largest coordinate of the four control points, mm.
     pub(super) extent: f64,
 }
 
-/// Four control points and the weights that an order of derivative gives them.
+/// Four control points, to which each order of derivative gives weights.
 struct Interval {
-    /// Relative to the interval's first point, which keeps coinciding points exactly coinciding.
+    /// Positions relative to the interval's first point, so that coinciding points coincide
+    /// exactly.
     positions: [DVec3; 4],
     /// Half widths, then half heights.
     halves: [[f64; 4]; 2],
@@ -70,9 +71,9 @@ impl Interval {
         self.halves[which].iter().zip(weights).map(|(half, weight)| half * weight).sum()
     }
 
-    /// A half width or half height and its growth along the yarn: never less than half the smaller
-    /// of the two places that the interval joins, and not growing where it is held there or where
-    /// the yarn stands still.
+    /// A half width or half height, and its growth along the yarn. It is at least half of the
+    /// smaller value at the two points that the interval joins. It does not grow where that bound
+    /// holds it, or where the yarn stands still.
     fn size(&self, which: usize, orders: [[f64; 4]; 4]) -> (f64, f64) {
         let (half, velocity) = (self.half(which, orders[0]), self.position(orders[1]));
         let least = 0.5 * self.halves[which][1].min(self.halves[which][2]);
@@ -85,8 +86,8 @@ impl Interval {
         }
     }
 
-    /// The square up to which a derivative counts as zero, mm²: a millionth of the interval's size,
-    /// squared, and never less than f32 can square.
+    /// The square up to which a derivative counts as zero, mm²: that of a millionth of the
+    /// interval's size, and at least the least that f32 can square.
     fn at_rest(&self) -> f64 {
         let size: f64 = self.positions.iter().map(|point| point.length_squared()).sum();
         (1e-12 * size).max(1e-30)
@@ -97,9 +98,9 @@ impl Interval {
         self.positions.iter().map(furthest).fold(0.0, f64::max)
     }
 
-    /// The tangent at t: along the first derivative that does not vanish, +x where all do. It is
-    /// the limit from the right, but at t = 1, where a yarn ends, from the left: then odd orders
-    /// keep their sign and the second changes it.
+    /// The tangent at t: the direction of the first derivative that does not vanish, or +x if all
+    /// do. It is the limit from the right. At t = 1, where a yarn ends, it is the limit from the
+    /// left: odd orders keep their sign, and the second order changes it.
     fn tangent(&self, orders: [[f64; 4]; 4], t: f64) -> DVec3 {
         let before = if t < 1.0 { 1.0 } else { -1.0 };
         for (order, sign) in [(1, 1.0), (2, before), (3, 1.0)] {
@@ -118,14 +119,15 @@ impl<'a> Curve<'a> {
         Self { points, closed, per_interval: u64::from(subdivisions) + 1, s }
     }
 
-    /// One for each control interval's start and inserted points, and one for the end.
+    /// Number of rings: one for the start and the inserted points of each control interval, and one
+    /// for the end.
     pub(super) fn ring_count(&self) -> u64 {
         let intervals = self.points.len() as u64 - u64::from(!self.closed);
         intervals * self.per_interval + 1
     }
 
-    /// Position and halves of control point `index`, which may be the virtual one before the first
-    /// or after the last. The halves of a virtual one are half floats as those of all others.
+    /// Position and halves of control point `index`. It may be the virtual point before the first
+    /// or after the last, whose halves are half floats, too.
     fn point(&self, index: i64) -> (DVec3, [f64; 2]) {
         let count = self.points.len() as i64;
         let exact = |at: i64| {
@@ -153,7 +155,7 @@ impl<'a> Curve<'a> {
         Interval { positions: points.map(|point| point.0 - start), halves, start }
     }
 
-    /// The interval that a ring is evaluated in, and t: an open yarn ends at t = 1 of its last
+    /// The interval in which a ring is evaluated, and t. An open yarn ends at t = 1 of its last
     /// interval.
     fn locate(&self, ring: u64) -> (u64, f64) {
         let (interval, step) = (ring / self.per_interval, ring % self.per_interval);
@@ -178,8 +180,8 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The two control points between which a ring lies, each by its number with the tangent there,
-    /// and how far along it lies.
+    /// The two control points between which a ring lies, by number and tangent, and its place
+    /// between them from 0 to 1.
     pub(super) fn ends(&self, ring: u64) -> ([(usize, DVec3); 2], f64) {
         let (number, t) = self.locate(ring);
         let interval = self.interval(number);
@@ -191,7 +193,7 @@ impl<'a> Curve<'a> {
         ([end(0), end(1)], t)
     }
 
-    /// From a ring's centre to the next one's.
+    /// Vector from the centre of a ring to that of the next one.
     pub(super) fn chord(&self, ring: u64) -> DVec3 {
         let (number, step) = (ring / self.per_interval, ring % self.per_interval);
         let interval = self.interval(number);

@@ -7,8 +7,8 @@ use texere_core::End;
 use super::OutlinePoint;
 
 /// The two triangles between side `side` of ring `ring` and the next ring, as vertex numbers of a
-/// tube whose rings have `sides` vertices each and follow one another from 0. Counter-clockwise
-/// seen from outside: round the ring first, then along the yarn.
+/// tube whose rings have `sides` vertices each and follow one another from 0. They are
+/// counter-clockwise seen from outside, first around the ring and then along the yarn.
 #[must_use]
 pub fn quad_indices(ring: u64, side: u64, sides: u64) -> [u64; 6] {
     let vertex = |ring: u64, side: u64| ring * sides + side % sides;
@@ -20,21 +20,22 @@ pub fn quad_indices(ring: u64, side: u64, sides: u64) -> [u64; 6] {
 /// A fault of a cap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flaw {
-    /// It has another number of triangles than corners less two.
+    /// The number of its triangles is not that of the corners less two.
     Count,
     /// It names a corner that the outline does not have.
     Corner,
     /// A triangle faces inward, or has no area.
     Flipped,
-    /// It does not close the outline: an edge is missing, twice there, or runs the wrong way.
+    /// It does not close the outline: an edge is missing, occurs twice, or runs the wrong way.
     Open,
 }
 
 /// The fault of `triangles` as a cap of `outline` at `end`, or `None`.
 ///
-/// The corners run counter-clockwise about the tangent, so a finish cap, which faces along it, has
-/// them in order, and a start cap in reverse. As many triangles as corners less two, each facing
-/// outward, whose edges cancel but for the outline's own, cover the outline exactly once.
+/// Corners run counter-clockwise about the tangent. A finish cap faces along the tangent and has
+/// them in order; a start cap has them in reverse. Triangles cover the outline exactly once, if
+/// there are two fewer than corners, each faces outward, and all edges cancel except those of the
+/// outline.
 #[must_use]
 pub fn cap_flaw(outline: &[OutlinePoint], end: End, triangles: &[[u32; 3]]) -> Option<Flaw> {
     let count = outline.len();

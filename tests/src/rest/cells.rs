@@ -1,21 +1,22 @@
-//! Which places of a cloth lie near one another, over all images of its repeat.
+//! A grid of cells that finds places near one another, over all images of a repeat.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-/// Places, sorted into cells in x and y. Cloth is thin, so cells reach through it.
+/// Places, sorted into cells in x and y. Cloth is thin, so that cells reach through it.
 pub(super) struct Cells {
-    /// Cells a repeat; 0 where nothing repeats.
+    /// Number of cells in a repeat; 0 where nothing repeats.
     count: [i64; 2],
-    /// Places of each cell of the first repeat, and how many repeats beyond it they lie.
+    /// Places in each cell of the first repeat, with the number of repeats by which they lie beyond
+    /// it.
     members: BTreeMap<[i64; 2], Vec<(usize, [i64; 2])>>,
-    /// How many cells further a place may be that is near.
+    /// Distance of cells that may hold near places, in cells.
     range: [i64; 2],
 }
 
 impl Cells {
-    /// Places that are near one another up to a distance of `reach`, mm.
+    /// A grid for places that are near one another: up to a distance of `reach`, mm.
     pub(super) fn new(places: &[DVec3], repeat: [f64; 2], reach: f64) -> Self {
         let count = repeat.map(|repeat| if repeat > 0.0 { ((repeat / reach) as i64).max(1) } else { 0 });
         let size = [0, 1].map(|axis| if count[axis] > 0 { repeat[axis] / count[axis] as f64 } else { reach });
@@ -28,8 +29,8 @@ impl Cells {
         Self { count, members, range: size.map(|size| (reach / size).ceil() as i64) }
     }
 
-    /// Calls `visit` once with every two places that may be near, and the image of the second that
-    /// is: how many repeats it is moved in x and y. A place may be near its own image.
+    /// Calls `visit` once with every two places that may be near, and with the image of the second
+    /// one: the repeats by which it is moved in x and y. A place may be near its own image.
     pub(super) fn each_pair(&self, mut visit: impl FnMut(usize, usize, [i32; 2])) {
         for (&[x, y], places) in &self.members {
             for along in -self.range[0]..=self.range[0] {
@@ -50,7 +51,8 @@ impl Cells {
     }
 }
 
-/// The cell of the first repeat that `cell` is an image of, and how many repeats further that lies.
+/// The cell of the first repeat of which `cell` is an image, and the repeats by which the image
+/// lies further.
 fn wrapped(cell: [i64; 2], count: [i64; 2]) -> ([i64; 2], [i64; 2]) {
     let split = [0, 1].map(|axis| match count[axis] {
         0 => (cell[axis], 0),

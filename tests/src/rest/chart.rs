@@ -1,15 +1,15 @@
-//! A chart of weft-knit stitches, and which loop is drawn through which.
+//! Charts of weft-knit stitches, and the loops that are drawn through one another.
 
-/// What a needle does in a course.
+/// The stitch of a needle in a course.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stitch {
-    /// Knits on the front bed: draws a new loop to the face through all that hangs on the needle.
+    /// Knits on the front bed: draws a new loop to the face, through all loops on the needle.
     Face,
-    /// Knits on the back bed: draws it to the back.
+    /// Knits on the back bed: draws the new loop to the back.
     Back,
-    /// Takes the yarn and keeps what it has.
+    /// Takes the yarn and keeps its loops.
     Tuck,
-    /// Takes no yarn: it floats past.
+    /// Takes no yarn, which floats past.
     Miss,
 }
 
@@ -18,38 +18,39 @@ pub enum Stitch {
 pub struct Chart {
     wales: usize,
     courses: usize,
-    /// Course by course, each with how many needles to the right its loop is moved afterwards.
+    /// Stitches course by course, each with the needles by which its loop is moved to the right
+    /// afterwards.
     cells: Vec<(Stitch, i64)>,
 }
 
-/// A loop that hangs on a needle, as the stitch that is drawn through it sees it.
+/// A loop on a needle, relative to the stitch that is drawn through it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Hanging {
     course: i64,
     wale: i64,
 }
 
-/// What happens to a loop after it was made.
+/// The fate of a loop after it was made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fate {
-    /// How many wales to the right its head is moved.
+    /// Number of wales by which its head is moved to the right.
     pub(super) moved: i64,
-    /// For how many courses its needle does not knit.
+    /// Number of courses in which its needle does not knit.
     pub(super) held: i64,
     /// Whether the loop that is drawn through it comes to the face (1) or to the back (-1).
     pub(super) side: f64,
-    /// How many loops of the same needle lie between it and the side that the yarn is drawn to.
+    /// Number of loops on the same needle between it and the side to which the yarn is drawn.
     pub(super) layer: usize,
 }
 
 impl Chart {
-    /// A chart from its courses, the first first, a letter for each wale from left to right: `k`
-    /// and `p` knit to the face and to the back, `t` tucks, `m` misses; `>` and `<` knit to the
-    /// face and then move the loop to the next needle.
+    /// A chart from its courses, the first one first, with a letter for each wale from left to
+    /// right. `k` and `p` knit to the face and to the back, `t` tucks, `m` misses. `>` and `<` knit
+    /// to the face and then move the loop to the next needle.
     ///
     /// # Panics
     ///
-    /// If courses differ in length, for other letters, and where a needle never knits.
+    /// If courses differ in length, for other letters, and if a needle never knits.
     #[must_use]
     pub fn new<Course: AsRef<str>>(courses: &[Course]) -> Self {
         let cell = |letter| match letter {
@@ -73,13 +74,13 @@ impl Chart {
         chart
     }
 
-    /// How many wales a repeat has.
+    /// Number of wales of the repeat.
     #[must_use]
     pub fn wales(&self) -> usize {
         self.wales
     }
 
-    /// How many courses a repeat has.
+    /// Number of courses of the repeat.
     #[must_use]
     pub fn courses(&self) -> usize {
         self.courses
@@ -90,7 +91,7 @@ impl Chart {
         self.cells[course * self.wales + wale.rem_euclid(self.wales as i64) as usize]
     }
 
-    /// What the needle of `wale` does in `course`.
+    /// The stitch of the needle of `wale` in `course`.
     pub(super) fn stitch(&self, course: i64, wale: i64) -> Stitch {
         self.cell(course, wale).0
     }
@@ -104,8 +105,8 @@ impl Chart {
         (course + 1..).find(|&later| self.knits(later, wale)).unwrap_or(course)
     }
 
-    /// To which side a loop is drawn that the needle of `wale` makes after `course`: 1 to the face,
-    /// -1 to the back.
+    /// The side to which the needle of `wale` draws its next loop after `course`: 1 for the face,
+    /// -1 for the back.
     pub(super) fn next_side(&self, course: i64, wale: i64) -> f64 {
         match self.stitch(self.next_knit(course, wale), wale) {
             Stitch::Back => -1.0,
@@ -113,17 +114,17 @@ impl Chart {
         }
     }
 
-    /// How many loops hang on the needle of `wale` when `course` is knitted: 0 after its loop was
-    /// moved away.
+    /// Number of loops on the needle of `wale` when `course` is knitted: 0 after its loop was moved
+    /// away.
     pub(super) fn hanging(&self, course: i64, wale: i64) -> usize {
         self.loops(course, wale).len()
     }
 
-    /// What hangs on the needle of `wale` when `course` is knitted, in the order in which it came
-    /// to the needle: a needle's own loop is there before a neighbour's is moved onto it.
+    /// The loops on the needle of `wale` when `course` is knitted, in the order in which they came.
+    /// The needle's own loop is there before a neighbour's loop is moved onto it.
     ///
-    /// Later loops lie nearer the tip of the hook, so further from the side that the next loop is
-    /// drawn to.
+    /// Later loops lie nearer to the tip of the hook, and thus further from the side to which the
+    /// next loop is drawn.
     fn loops(&self, course: i64, wale: i64) -> Vec<Hanging> {
         let last_knit = (1..).map(|back| course - back).find(|&earlier| self.knits(earlier, wale));
         let mut loops = Vec::new();
@@ -138,7 +139,7 @@ impl Chart {
         loops
     }
 
-    /// What happens to the loop that is made in `course` on the needle of `wale`.
+    /// The fate of the loop that is made in `course` on the needle of `wale`.
     pub(super) fn fate(&self, course: i64, wale: i64) -> Fate {
         let moved = self.cell(course, wale).1;
         let next = self.next_knit(course, wale + moved);

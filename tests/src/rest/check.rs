@@ -1,5 +1,4 @@
-//! What a cloth that came to rest is like: how near its yarns come, how tightly they bend, how long
-//! and how thick it is.
+//! Measures of cloth at rest: clearance, bends, lengths and thickness.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,44 +12,45 @@ use super::segments::closest;
 /// An interval of a yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Place {
-    /// The yarn's number.
+    /// The number of the yarn.
     pub yarn: usize,
     /// The number of the control point at which the interval begins.
     pub interval: usize,
 }
 
-/// What [`check`] finds.
+/// The result of [`check`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The least distance of two centrelines over the sum of the radii, with all images of the
-    /// repeat. Places of one yarn count only if it runs further than pi/2 times the sum of the
-    /// radii from one to the other, half way round a bend in which it touches itself. So a yarn
-    /// that goes straight on is pi/2 from itself, and no clearance is much larger.
+    /// The least distance between two centrelines over the sum of their radii, with all images of
+    /// the repeat. Two places of one yarn count only if the yarn between them is longer than pi/2
+    /// times the sum of the radii: half of a circle in which it touches itself. A straight yarn
+    /// thus has a clearance of pi/2 from itself, and no clearance is much larger.
     pub clearance: f64,
-    /// Where that is; nowhere if all yarns are shorter.
+    /// The places of that distance; none if all yarns are shorter.
     pub nearest: Option<[Place; 2]>,
-    /// The least radius of curvature in diameters of the yarn: below a half it folds into itself.
+    /// The least radius of curvature, in diameters of the yarn. Below a half the yarn folds into
+    /// itself.
     pub bend: f64,
     /// Where that is.
     pub sharpest: Place,
-    /// How much longer the yarn is that changed its length most, as a share of what it was at the
-    /// start; negative if it is shorter.
+    /// Growth of the yarn whose length changed most, as a share of its length at the start. It is
+    /// negative if the yarn is shorter.
     pub stretch: f64,
-    /// That yarn's number.
+    /// The number of that yarn.
     pub stretched: usize,
-    /// How much longer all yarns together are, as a share likewise.
+    /// Growth of all yarns together, as a share of their length at the start.
     pub growth: f64,
-    /// From the lowest surface to the highest, mm.
+    /// Distance from the lowest surface to the highest, mm.
     pub thickness: f64,
 }
 
-/// Measures `settled`, the control points of `start` after they moved, in f64 and with no code of
+/// Measures `settled`, the control points of `start` after settling, in f64 and with no code of
 /// texere's crates.
 ///
 /// # Panics
 ///
-/// If `settled` has other yarns or other counts of points than `start`, or points that are no
-/// numbers.
+/// If `settled` has other yarns or other counts of points than `start`, or points that are not
+/// finite.
 #[must_use]
 pub fn check(start: &Start, settled: &[Vec<DVec3>]) -> Report {
     assert_eq!(settled.len(), start.yarns.len(), "{}: yarns", start.name);
@@ -81,7 +81,7 @@ pub fn check(start: &Start, settled: &[Vec<DVec3>]) -> Report {
     }
 }
 
-/// Where in \[0, 1\] the ends of an interval's parts are.
+/// The ends of an interval's parts, in \[0, 1\].
 fn parts() -> impl Iterator<Item = f64> {
     (0..=PARTS).map(|part| part as f64 / PARTS as f64)
 }
@@ -96,7 +96,7 @@ fn thickness(start: &Start, curves: &[Curve<'_>]) -> f64 {
     high - low
 }
 
-/// The least radius of curvature in diameters, and where.
+/// The least radius of curvature in diameters, and its place.
 fn bend(start: &Start, curves: &[Curve<'_>]) -> (f64, Place) {
     let intervals = curves.iter().enumerate().flat_map(|(yarn, curve)| {
         let diameter = 2.0 * start.yarns[yarn].radius;
@@ -108,8 +108,8 @@ fn bend(start: &Start, curves: &[Curve<'_>]) -> (f64, Place) {
     intervals.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a yarn has intervals")
 }
 
-/// The least radius of curvature of an interval: of its parts' ends, and then of ever smaller steps
-/// about the least of them.
+/// The least radius of curvature of an interval: first at the ends of its parts, then in smaller
+/// and smaller steps around the least of these.
 fn least_radius(piece: &Piece) -> f64 {
     let mut step = 1.0 / PARTS as f64;
     let least = |places: &mut dyn Iterator<Item = f64>| {
@@ -124,14 +124,14 @@ fn least_radius(piece: &Piece) -> f64 {
     radius
 }
 
-/// The least distance over the sum of the radii, and between what.
+/// The least distance over the sum of the radii, and its places.
 fn clearance(start: &Start, curves: &[Curve<'_>]) -> (f64, Option<[Place; 2]>) {
     let chords = Chords::new(start, curves);
     let thickest = start.yarns.iter().map(|yarn| yarn.radius).fold(0.0, f64::max);
     let mut reach = 2.2 * thickest;
     loop {
         let (ratio, places) = nearest(start, curves, &chords, reach);
-        // Nothing beyond the reach is nearer, or nothing is beyond it.
+        // Nothing beyond the reach is nearer, or the reach covers everything.
         if ratio * 2.0 * thickest <= reach || reach > chords.widest() {
             return (ratio, places);
         }
@@ -139,7 +139,7 @@ fn clearance(start: &Start, curves: &[Curve<'_>]) -> (f64, Option<[Place; 2]>) {
     }
 }
 
-/// The least ratio of all places whose distance is at most `reach`; others may or may not be seen.
+/// The least ratio of all places whose distance is at most `reach`. Others may be seen or not.
 fn nearest(start: &Start, curves: &[Curve<'_>], chords: &Chords, reach: f64) -> (f64, Option<[Place; 2]>) {
     let mut least = (f64::INFINITY, None);
     chords.each_pair(reach, |one, other, image| {
@@ -161,8 +161,8 @@ fn nearest(start: &Start, curves: &[Curve<'_>], chords: &Chords, reach: f64) -> 
     least
 }
 
-/// The least distance between the curves over two chords, from `places` in \[0, 1\] along these:
-/// closest points of the tangents there, again and again.
+/// The least distance between the curves over two chords. The search starts at `places`, in \[0,
+/// 1\] along the chords, and takes the closest points of the tangents there, repeatedly.
 fn refined(curves: &[Curve<'_>], one: &Chord, other: &Chord, shift: DVec3, places: [f64; 2]) -> f64 {
     let piece = |chord: &Chord| curves[chord.place.yarn].piece(chord.place.interval as isize);
     let (first, second) = (piece(one), piece(other));

@@ -1,4 +1,4 @@
-//! All yarns of a repeat as chords, and which of them lie near one another.
+//! The yarns of a repeat as chords, and the chords that lie near one another.
 
 use glam::DVec3;
 
@@ -7,21 +7,21 @@ use super::check::Place;
 use super::curve::Curve;
 use super::{Ends, Start};
 
-/// Chords an interval.
+/// Number of chords per interval.
 pub(super) const PARTS: usize = 16;
 
 /// A straight piece of a centreline.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
     pub(super) place: Place,
-    /// Where in its interval it begins.
+    /// Its beginning within its interval, from 0 to 1.
     pub(super) start: f64,
     pub(super) from: DVec3,
     pub(super) to: DVec3,
-    /// How far the curve may lie from it: an eighth of the largest second derivative, by the square
-    /// of the step.
+    /// Largest distance of the curve from it: an eighth of the largest second derivative, times the
+    /// square of the step.
     pub(super) sag: f64,
-    /// How long the yarn is from its first point to both ends.
+    /// Length of the yarn from its first point to each end of the chord.
     arc: [f64; 2],
 }
 
@@ -34,7 +34,7 @@ impl Chord {
         self.from.lerp(self.to, along)
     }
 
-    /// The furthest that its curve lies from its middle.
+    /// The greatest distance of its curve from its middle.
     pub(super) fn reach(&self) -> f64 {
         self.from.distance(self.to) / 2.0 + self.sag
     }
@@ -44,7 +44,7 @@ impl Chord {
 pub(super) struct Chords<'a> {
     start: &'a Start,
     all: Vec<Chord>,
-    /// Each yarn's length in one repeat.
+    /// Length of each yarn in one repeat.
     lengths: Vec<f64>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Chords<'a> {
         Self { start, all, lengths }
     }
 
-    /// More than the distance of any two places that are nearest over all images.
+    /// Upper bound on any nearest-image distance.
     pub(super) fn widest(&self) -> f64 {
         let ends = || self.all.iter().flat_map(|chord| [chord.from, chord.to]);
         let low = ends().reduce(DVec3::min).unwrap_or_default();
@@ -84,8 +84,8 @@ impl<'a> Chords<'a> {
         low.distance(high) + self.start.repeat.iter().sum::<f64>()
     }
 
-    /// The length of yarn between the near ends of two chords, the second one moved by `image`;
-    /// infinite if these are two yarns.
+    /// Length of yarn between the near ends of two chords, of which the second is moved by `image`.
+    /// It is infinite for chords of two yarns.
     pub(super) fn arc_between(&self, one: &Chord, other: &Chord, image: [i32; 2]) -> f64 {
         if one.place.yarn != other.place.yarn {
             return f64::INFINITY;
@@ -107,8 +107,8 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Calls `visit` once with every two chords that may come nearer than `reach`, the second moved
-    /// by so many repeats.
+    /// Calls `visit` once with every two chords that may come nearer than `reach`, and with the
+    /// repeats by which the second one is moved.
     pub(super) fn each_pair(&self, reach: f64, mut visit: impl FnMut(&Chord, &Chord, [i32; 2])) {
         let longest = self.all.iter().map(Chord::reach).fold(0.0, f64::max);
         let middles: Vec<_> = self.all.iter().map(Chord::middle).collect();

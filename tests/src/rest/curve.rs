@@ -1,19 +1,19 @@
-//! A yarn's centreline: a cardinal spline of tension 0, in f64.
+//! The centreline of a yarn: a cardinal spline of tension 0, in f64.
 
 use glam::DVec3;
 
 use super::{Ends, Start};
 
-/// The centreline of a yarn of a start, through points that may have moved since.
+/// The centreline of a yarn of a start. Its points may have moved since.
 pub(super) struct Curve<'a> {
     points: &'a [DVec3],
     ends: Ends,
-    /// How far the point after the last one lies from the first one.
+    /// Vector from the first point to the point after the last one.
     advance: DVec3,
 }
 
 impl<'a> Curve<'a> {
-    /// Yarn `yarn` of `start` through `points`.
+    /// The centreline of yarn `yarn` of `start` through `points`.
     pub(super) fn new(start: &Start, yarn: usize, points: &'a [DVec3]) -> Self {
         let ends = start.yarns[yarn].ends;
         assert_eq!(points.len(), start.yarns[yarn].points.len(), "{}: points of yarn {yarn}", start.name);
@@ -25,12 +25,12 @@ impl<'a> Curve<'a> {
         Self { points, ends, advance }
     }
 
-    /// How many intervals it has in one repeat.
+    /// Number of intervals in one repeat.
     pub(super) fn intervals(&self) -> usize {
         if self.ends == Ends::Open { self.points.len() - 1 } else { self.points.len() }
     }
 
-    /// Control point `index`, which may lie before the first or after the last.
+    /// Control point `index`. It may lie before the first one or after the last one.
     pub(super) fn control(&self, index: isize) -> DVec3 {
         let count = self.points.len() as isize;
         let last = self.points.len() - 1;
@@ -66,7 +66,7 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Where it is at `u` in \[0, 1\].
+    /// Its point at `u` in \[0, 1\].
     pub(super) fn at(&self, u: f64) -> DVec3 {
         let v = 1.0 - u;
         self.from * (v * v * (1.0 + 2.0 * u))
@@ -96,7 +96,8 @@ impl Piece {
         if speed == 0.0 { 0.0 } else { speed.powi(3) / slope.cross(bend).length() }
     }
 
-    /// Its length from 0 to each of `parts` equal steps of u, by Simpson's rule on each.
+    /// Its length from 0 to the end of each of `parts` equal steps of u, by Simpson's rule on each
+    /// step.
     pub(super) fn lengths(&self, parts: usize) -> Vec<f64> {
         let step = 1.0 / parts as f64;
         let speed = |at: f64| self.slope(at * step).length();

@@ -1,8 +1,8 @@
-//! Whether yarns went through one another: Gauss's linking integral of windows of yarn, before and
+//! Passages of yarns through one another, by Gauss's linking integral of windows of yarn before and
 //! after.
 //!
-//! Windows are short, since whole loops would not do: there, what one leg loses when a head is
-//! pulled out of the loop above it another leg may gain.
+//! Windows are shorter than loops. When a head is pulled out of the loop above it, one leg may gain
+//! what another leg loses, so that the integral of a whole loop would not change.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -15,30 +15,31 @@ use super::curve::Curve;
 use super::segments::closest;
 use super::{Ends, Start};
 
-/// A change of a window's integral above this is a crossing; 1 is one strand that passes through
-/// another, far from its ends.
+/// Change of a window's integral above which there was a passage. A strand that passes through
+/// another one, far from its ends, changes it by 1.
 pub const CROSSED: f64 = 0.6;
 
-/// A window reaches over so many intervals to both sides of its middle.
+/// Number of intervals of a window to each side of its middle.
 const HALF_WINDOW: isize = 3;
 
-/// Chords an interval.
+/// Number of chords per interval.
 const PARTS: usize = 4;
 
-/// Windows are compared whose middles come as near as so many sums of both radii, before or after.
+/// Largest distance between the middles of compared windows, before or after, in sums of both
+/// radii.
 const NEAR: f64 = 2.0;
 
-/// What [`linking`] finds.
+/// The result of [`linking`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linking {
     /// The largest change of the integral of two windows of seven control points.
     pub change: f64,
-    /// The middles of these windows: the interval that begins there.
+    /// The middles of these windows, each as the interval that begins there.
     pub at: Option<[Place; 2]>,
 }
 
-/// Compares which yarns of `start` go over and under which with their points `before` and `after`,
-/// over all images.
+/// Compares the linking of the yarns of `start` with their points `before` and `after`, over all
+/// images.
 ///
 /// # Panics
 ///
@@ -78,11 +79,11 @@ pub fn linking_integral(one: &[DVec3], other: &[DVec3]) -> f64 {
 }
 
 /// The integral of two chords: the solid angle of all directions in which one is seen to cross the
-/// other, over that of the sphere (Klenin and Langowski 2000).
+/// other, over that of the whole sphere (Klenin and Langowski 2000).
 ///
-/// These directions are a quadrangle on the sphere. It is cut into two triangles, whose angles come
-/// from Van Oosterom and Strackee's formula (1983): it has the sign, and gives 0 for chords in one
-/// plane.
+/// These directions are a quadrangle on the sphere. It is cut into two triangles, whose solid
+/// angles come from the formula of Van Oosterom and Strackee (1983). The formula has the sign, and
+/// gives 0 for chords in one plane.
 fn of_chords(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
     let [a, b, c, d] = [other[0] - one[0], other[1] - one[0], other[1] - one[1], other[0] - one[1]];
     let triangle = |a: DVec3, b: DVec3, c: DVec3| {
@@ -92,7 +93,7 @@ fn of_chords(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
     (triangle(a, b, c) + triangle(c, d, a)) / TAU
 }
 
-/// Two windows, the second one moved by so many repeats.
+/// Two windows, and the repeats by which the second one is moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct Pair {
     one: Place,
@@ -105,7 +106,7 @@ impl Pair {
         [self.one.yarn, self.other.yarn]
     }
 
-    /// Every interval of the first window with every one of the second.
+    /// All pairs of an interval of the first window and one of the second.
     fn intervals(&self, cloth: &Cloth<'_>) -> impl Iterator<Item = Self> {
         let [first, second] = [self.one, self.other].map(|middle| {
             let steps = -HALF_WINDOW..HALF_WINDOW;
@@ -124,7 +125,7 @@ impl Pair {
 /// All yarns as chords.
 struct Cloth<'a> {
     start: &'a Start,
-    /// Each interval's chords, yarn by yarn.
+    /// The chords of each interval, yarn by yarn.
     chains: Vec<Vec<[DVec3; PARTS + 1]>>,
 }
 
@@ -138,7 +139,7 @@ impl<'a> Cloth<'a> {
         Self { start, chains: (0..points.len()).map(chain).collect() }
     }
 
-    /// The interval `step` intervals after `place` and how many repeats that is further; none
+    /// The interval `step` intervals after `place`, and the repeats by which it lies further. None
     /// beyond the ends of an open yarn.
     fn interval(&self, place: Place, step: isize) -> Option<(Place, [i32; 2])> {
         let count = self.chains[place.yarn].len() as isize;
@@ -159,10 +160,10 @@ impl<'a> Cloth<'a> {
         linking_integral(first, &self.chains[other.yarn][other.interval].map(|point| point + shift))
     }
 
-    /// All windows whose middles come near one another, and which do not overlap.
+    /// All pairs of windows whose middles come near one another and that do not overlap.
     fn near(&self) -> Vec<Pair> {
         let start = self.start;
-        // A chord, and the control point next to it.
+        // A chord and the control point nearest to it.
         let mut chords = Vec::new();
         for (yarn, chain) in self.chains.iter().enumerate() {
             for (interval, points) in chain.iter().enumerate() {
@@ -197,9 +198,8 @@ impl<'a> Cloth<'a> {
         pairs
     }
 
-    /// Whether both windows are of one yarn and have an interval or an end in common. Where they
-    /// have an end in common, rounding over the seam of a repeat would decide from where it is
-    /// seen.
+    /// Whether both windows are of one yarn and share an interval or an end. With a shared end,
+    /// rounding over the seam of a repeat would decide the integral.
     fn overlap(&self, pair: Pair) -> bool {
         let steps = -2 * HALF_WINDOW..=2 * HALF_WINDOW;
         pair.one.yarn == pair.other.yarn

@@ -1,4 +1,4 @@
-//! The starts that every solver is tried on.
+//! The list of starts on which every solver is tested.
 
 use super::{
     Chart, Gauge, Lapping, Length, Start, Weave, warp_knit, weft_knit, weft_knit_piece, woven, woven_piece,
@@ -31,9 +31,9 @@ fn weft_knits() -> Vec<Start> {
     list
 }
 
-/// Knit with eyelets, so many repeats of four wales and courses both ways: the loop of every fourth
-/// needle is moved to its neighbour, in every other course and by turns, and the yarn goes over the
-/// needle that it left.
+/// Knit with eyelets, in repeats of four wales and four courses. In every other course, the loop of
+/// every fourth needle is moved to a neighbour, to the right and to the left by turns. The yarn
+/// goes over the empty needle.
 #[must_use]
 pub fn lace(repeats: usize) -> Start {
     let courses = vec![[">kkk", "kkkk", "kk>k", "kkkk"].map(|course| course.repeat(repeats)); repeats];
@@ -41,8 +41,8 @@ pub fn lace(repeats: usize) -> Start {
     weft_knit(&format!("lace-{0}x{0}", 4 * repeats), &chart, Gauge::new(5.0), Length::Free)
 }
 
-/// Wales and courses of knit, `size` of each, in which every fifth stitch or so is missed; never
-/// more than two side by side or one above the other.
+/// Knit of `size` wales and `size` courses, in which about every fifth stitch is missed; at most
+/// two side by side or one above the other.
 #[must_use]
 pub fn random_misses(size: usize, seed: u64) -> Start {
     let mut missed = vec![vec![false; size]; size];

@@ -1,8 +1,8 @@
-//! Cloth before and after it settles: starts for a solver, and a check of what it gives back.
+//! Cloth before and after it settles: starts for a solver, and checks of its result.
 //!
-//! A [`Start`] is the control points of one repeat, as data. [`starts`] lists those that every
-//! solver is tried on. [`check()`] measures what came to rest, [`linking()`] whether yarns went
-//! through one another on the way. Both are in f64 and share no code with texere's crates.
+//! A [`Start`] is the control points of one repeat, as data. [`starts`] lists the starts on which
+//! every solver is tested. [`check()`] measures the cloth at rest. [`linking()`] finds yarns that
+//! passed through one another on the way. Both work in f64 and share no code with texere's crates.
 
 mod cells;
 mod chart;

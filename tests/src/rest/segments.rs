@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-/// How far along two segments, each in \[0, 1\], their closest points are.
+/// The places of the closest points of two segments, each in \[0, 1\].
 ///
-/// The square of the distance is convex: where the inner solution leaves the square, one of its
-/// four edges has the least.
+/// The squared distance is convex. If the inner solution lies outside the unit square, the least is
+/// on one of its four edges.
 pub(super) fn closest(one: [DVec3; 2], other: [DVec3; 2]) -> (f64, f64) {
     let (along, across, apart) = (one[1] - one[0], other[1] - other[0], one[0] - other[0]);
     let (a, b, c) = (along.length_squared(), along.dot(across), across.length_squared());

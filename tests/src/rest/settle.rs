@@ -1,4 +1,4 @@
-//! Starts as problems of texere's, and what came to rest as plain points again.
+//! From starts to settling problems, and from settled yarns back to plain points.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use super::{Ends, Length, Start};
 ///
 /// # Panics
 ///
-/// If they are no yarns.
+/// If the yarns are refused.
 #[must_use]
 pub fn yarns(start: &Start) -> Yarns {
     let mut yarns = Yarns::builder();
@@ -29,7 +29,7 @@ pub fn yarns(start: &Start) -> Yarns {
 ///
 /// # Panics
 ///
-/// If it is refused.
+/// If the plan is refused.
 #[must_use]
 pub fn settling_plan(start: &Start) -> Arc<SettlingPlan> {
     let yarns = yarns(start);

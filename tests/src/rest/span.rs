@@ -1,4 +1,5 @@
-//! Loops of a piece of cloth as chains of chords, and what goes through the surface that one spans.
+//! Loops of a piece of cloth as chains of chords, and the yarns that pass through the surface that
+//! a loop spans.
 
 use glam::DVec3;
 use texere_core::Yarns;
@@ -6,18 +7,18 @@ use texere_fabric::Piece;
 
 use super::{Ends, Length, Start, StartYarn};
 
-/// Control points of each yarn.
+/// The control points of each yarn.
 ///
 /// # Panics
 ///
-/// For yarns without points, which there are none of.
+/// For yarns without points, which do not exist.
 #[must_use]
 pub fn piece_points(yarns: &Yarns) -> Vec<Vec<DVec3>> {
     let position = |yarn| yarns.yarn_points(yarn).expect("a yarn").iter().map(|at| at.position().as_dvec3());
     (0..yarns.layout().yarns().len()).map(|yarn| position(yarn).collect()).collect()
 }
 
-/// A piece as the checks have it, all its yarns of one radius.
+/// A piece as a start for the checks. All of its yarns have one radius.
 #[must_use]
 pub fn piece_start(name: &str, piece: &Piece, radius: f64) -> Start {
     let ends = piece.boundary.ends().iter().map(|ends| match ends {
@@ -35,8 +36,8 @@ pub fn piece_start(name: &str, piece: &Piece, radius: f64) -> Start {
     }
 }
 
-/// The spline of a yarn that goes on, in `parts` chords to a control interval, as far as the first
-/// point of its next round. `yarns` are those of `piece`, moved or not.
+/// The spline of a yarn that goes on, in `parts` chords per control interval, up to the first point
+/// of its next round. `yarns` are the yarns of `piece`, possibly moved.
 ///
 /// # Panics
 ///
@@ -59,7 +60,8 @@ pub fn piece_curve(piece: &Piece, yarns: &Yarns, yarn: usize, parts: usize) -> V
     (0..=points.len() * parts).map(sample).collect()
 }
 
-/// A surface over a loop: triangles from a place between its feet, from which all of it is seen.
+/// A surface that a loop spans: triangles from a point between its feet from which the whole loop
+/// is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct Span<'a> {
     ring: &'a [DVec3],
@@ -69,7 +71,7 @@ pub struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    /// The surface over a chain from foot to foot, with so many chords to a control interval.
+    /// The surface of a chain from foot to foot, with this many chords per control interval.
     ///
     /// # Panics
     ///
@@ -83,7 +85,7 @@ impl<'a> Span<'a> {
         Self { ring, middle, low: fold(DVec3::min), high: fold(DVec3::max) }
     }
 
-    /// How often a chain goes through, those that come back taken off.
+    /// Number of times that a chain goes through the surface, less the times that it comes back.
     #[must_use]
     pub fn through(&self, chain: &[DVec3]) -> i32 {
         let mut count = 0;

@@ -1,13 +1,13 @@
-//! Starts of warp knits: loops that guides lay round needles, one or two bars of them.
+//! Starts of warp knits: loops that the guides of one or two bars lay round needles.
 //!
-//! Guide j of a bar stands in space j + a when its chain says `a-b`, goes round the needle between
-//! the spaces a and b, and waits in space b for the next course. So the loop is on needle j +
-//! min(a, b). It comes through the loops of the course below from the back to the face (+z), and
-//! all that goes from needle to needle, the underlap, lies on the back.
+//! For a lap `a-b` of the chain, guide j of the bar stands in space j + a. It goes round the needle
+//! between the spaces j + a and j + b, and waits in space j + b for the next course. The loop is
+//! thus on needle j + min(a, b). It comes through the loops of the course below, from the back to
+//! the face (+z). The underlap, from needle to needle, lies on the back.
 //!
-//! With two bars every loop is of two yarns, and both come through both of the course below: the
-//! legs of either lie in front of the heads of either. The front bar is named first. Its loops are
-//! the foremost on the face, its underlaps the hindmost on the back.
+//! With two bars each needle has loops of two yarns. Both come through both loops of the course
+//! below: the legs of either lie in front of the heads of either. The front bar is named first. Its
+//! loops are foremost on the face, and its underlaps hindmost on the back.
 
 use glam::DVec3;
 
@@ -28,34 +28,34 @@ const FOOT: f64 = 0.14 * WALE;
 /// The length of an underlap's pieces, mm.
 const PIECE: f64 = 0.4 * WALE;
 
-/// How far behind its feet an underlap lies, in diameters.
+/// Distance of an underlap behind its feet, in diameters.
 const UNDERLAP: f64 = 0.6;
 
 /// Wales of a repeat.
 const WALES: i32 = 4;
 
-/// Courses of a repeat: the least, since chains come as often as they need to.
+/// The fewest courses of a repeat. Chains are repeated until they fill it.
 const COURSES: usize = 4;
 
-/// What guides do, and how thick their yarn is.
+/// A lapping: the chains of its bars, and the diameter of their yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lapping<'a> {
-    /// Each bar's chain, as in `1-0/1-2`, the front bar first.
+    /// The chain of each bar, such as `1-0/1-2`, the front bar first.
     pub bars: &'a [&'a str],
-    /// The yarn's diameter, mm; wales are 1 mm apart.
+    /// Diameter of the yarn, mm. Wales are 1 mm apart.
     pub diameter: f64,
-    /// By how much a loop is narrower below, where it comes through another, and wider above, in
-    /// diameters either way.
+    /// Width by which each leg lies further in below, where it comes through another loop, and
+    /// further out above, in diameters.
     pub bulge: f64,
-    /// How far a loop begins below and ends above its course, in courses.
+    /// Height by which a loop begins below and ends above its course, in courses.
     pub slant: f64,
 }
 
-/// Four wales of `lapping`, every guide threaded.
+/// Four wales of `lapping`, with every guide threaded.
 ///
 /// # Panics
 ///
-/// For chains that are none.
+/// If a chain is not sound.
 #[must_use]
 pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
     let chains: Vec<_> = lapping.bars.iter().map(|bar| chain(bar)).collect();
@@ -82,9 +82,10 @@ pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
     }
 }
 
-/// Adds points to underlaps, so that none is much longer than a loop's other pieces: a spline turns
-/// sharply where a long piece follows a short one. They lie `behind` the feet, which other yarns of
-/// the same bar have between them. After the last point comes the first one, moved by `on`.
+/// Adds points to underlaps. None of their pieces is then much longer than those of a loop, because
+/// a spline turns sharply where a long piece follows a short one. The points lie behind the feet by
+/// `behind`: other yarns of the same bar have their feet there. After the last point the first one
+/// follows, moved by `on`.
 fn with_underlaps(points: &[DVec3], on: DVec3, behind: f64) -> Vec<DVec3> {
     let next = points[1..].iter().copied().chain([points[0] + on]);
     let pieces = points.iter().zip(next).flat_map(|(&from, to)| {
@@ -97,7 +98,7 @@ fn with_underlaps(points: &[DVec3], on: DVec3, behind: f64) -> Vec<DVec3> {
     pieces.collect()
 }
 
-/// Where a guide is before and after each lap.
+/// The spaces of a guide before and after each lap.
 fn chain(text: &str) -> Vec<[i32; 2]> {
     let lap = |lap: &str| {
         let (from, to) = lap.split_once('-')?;
@@ -109,7 +110,7 @@ fn chain(text: &str) -> Vec<[i32; 2]> {
     laps
 }
 
-/// One loop, from the foot at which the yarn comes in to the one at which it goes out.
+/// One loop, from the foot at which the yarn comes in to the foot at which it goes out.
 fn loop_points(
     lapping: Lapping<'_>,
     bar: usize,
@@ -119,7 +120,8 @@ fn loop_points(
 ) -> Vec<DVec3> {
     let Lapping { bars, diameter, bulge, slant } = lapping;
     let (last, front_most) = (bars.len() - 1, 0.5 * (bars.len() - 1) as f64 - bar as f64);
-    // Legs of either bar in front of heads of either, which takes more than the bars are apart.
+    // Legs of each bar lie in front of heads of both. That takes more depth than the bars are
+    // apart.
     let (forward, tilt) = if last == 0 { (0.9, 0.0) } else { (1.0, 0.3) };
     let layer = 0.7 * front_most;
     let behind = if last == 0 { 2.2 } else { 2.0 + 1.8 * (last - bar) as f64 };

@@ -1,30 +1,31 @@
-//! Starts of weft knits: a chart's stitches as paths of yarn.
+//! Starts of weft knits: the stitches of a chart as paths of yarn.
 //!
-//! A plain loop has twelve points: round arcs, and legs that make a V. What is said here holds for
-//! loops that are drawn to the face; to the back, z changes its sign.
+//! A plain loop has twelve points: round arcs, and legs that make a V. Here loops are drawn to the
+//! face. For loops that are drawn to the back, z changes its sign.
 //!
-//! - A loop comes through what hangs on its needle: its feet pass behind the upper legs of that,
-//!   its own legs in front of the heads. So the lower half of a loop follows the side to which it
-//!   is drawn itself, the upper half that of the loop which is drawn through it.
-//! - A needle that does not knit keeps its loop: the upper half lies as many courses higher. The
+//! - A loop comes through the loops that hang on its needle. Its feet pass behind their upper legs,
+//!   and its own legs pass in front of their heads. The lower half of a loop therefore lies on the
+//!   side to which it is drawn itself, and the upper half on the side to which the next loop is
+//!   drawn.
+//! - A needle that does not knit keeps its loop, whose upper half lies higher by these courses. The
 //!   yarn of a missed course floats past behind it.
-//! - A tuck is an arch that hangs on the needle beside the held loop and behind it, and the next
-//!   loop is drawn through both. So the feet of that loop pass behind the tuck, and the tuck lies
-//!   between: its legs behind those of the held loop.
-//! - A loop that is moved to the next needle lies behind the one that hangs there: the machine puts
-//!   it nearer the tip of the hook. The needle that it left makes an arch which goes through
-//!   nothing: the eyelet.
+//! - A tuck is an arch that hangs on the needle behind the held loop. The next loop is drawn
+//!   through both, and its feet pass behind the tuck. The legs of the tuck lie behind those of the
+//!   held loop.
+//! - A loop that is moved to the next needle lies behind the loop that hangs there, because the
+//!   machine puts it nearer to the tip of the hook. The empty needle makes an arch that goes
+//!   through nothing: the eyelet.
 
 use glam::DVec3;
 
 use super::chart::{Chart, Stitch};
 use super::{Ends, Length, Start, StartYarn};
 
-/// Depths that give loops of round yarn a clearance of one, by the wale spacing in diameters.
+/// Wale spacing in diameters, and the depth at which loops of round yarn have a clearance of 1.
 const DEPTHS: [(f64, f64); 6] =
     [(4.2, 0.70), (4.5, 0.68), (5.0, 0.67), (6.0, 0.65), (8.0, 0.64), (10.0, 0.64)];
 
-/// How close stitches lie.
+/// The distances between stitches, and the depth of loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gauge {
     /// Distance of neighbouring wales, mm.
@@ -33,14 +34,14 @@ pub struct Gauge {
     pub course: f64,
     /// Diameter of the yarn, mm.
     pub diameter: f64,
-    /// How far loops reach out of the plane of the cloth, in diameters: their centreline from -0.84
-    /// to 0.98 times it.
+    /// Depth of loops, in diameters. Their centreline reaches from -0.84 to 0.98 times the depth
+    /// out of the plane of the cloth.
     pub depth: f64,
 }
 
 impl Gauge {
-    /// Wales `wale` diameters apart, of a yarn with a diameter of 1 mm, and three quarters of that
-    /// from course to course.
+    /// Wales `wale` diameters apart, of a yarn with a diameter of 1 mm. Courses are three quarters
+    /// of that apart.
     #[must_use]
     pub fn new(wale: f64) -> Self {
         let depth = DEPTHS.windows(2).find(|pair| wale <= pair[1].0).map_or(0.64, |pair| {
@@ -55,7 +56,8 @@ impl Gauge {
         1.76 * self.course
     }
 
-    /// Half the width of a loop where it is narrowest: both feet, or the space between two heads.
+    /// Half the width of a loop where it is narrowest, above its feet; and half the space between
+    /// two heads.
     fn narrow(&self) -> f64 {
         (0.53 * self.diameter).max(0.09 * self.wale)
     }
@@ -78,10 +80,10 @@ pub fn weft_knit(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Sta
     }
 }
 
-/// `chart` cut off: each course begins and ends level, half a wale beyond its outer loops.
+/// A piece of `chart`. Each course begins and ends level, half a wale beyond its outer loops.
 ///
-/// Pinned is what no other yarn crosses: both ends of each course, the arcs of the first course and
-/// the heads of the last. Nothing else would keep these in place.
+/// Points that no other yarn holds are pinned: both ends of each course, the arcs of the first
+/// course and the heads of the last one.
 #[must_use]
 pub fn weft_knit_piece(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Start {
     let mut start = weft_knit(name, chart, gauge, length);
@@ -105,7 +107,7 @@ pub fn weft_knit_piece(name: &str, chart: &Chart, gauge: Gauge, length: Length) 
     start
 }
 
-/// One course from left to right, each wale from the middle of the arc to its left.
+/// One course from left to right. Each wale begins in the middle of the arc to its left.
 fn course_points(chart: &Chart, gauge: Gauge, course: i64) -> Vec<DVec3> {
     let mut points = Vec::new();
     for wale in 0..chart.wales() as i64 {
@@ -126,8 +128,8 @@ fn course_points(chart: &Chart, gauge: Gauge, course: i64) -> Vec<DVec3> {
     points
 }
 
-/// Height of the arc between two feet: as far back as the further one, half way if they lie on
-/// opposite sides.
+/// z of the arc between two feet: that of the foot which lies further back, or half way between
+/// feet on opposite sides.
 fn between(left: f64, right: f64) -> f64 {
     if left * right < 0.0 {
         (left + right) / 2.0
@@ -148,13 +150,13 @@ struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// `x` from the middle of the wale, `y` from the course.
+    /// A point at `x` from the middle of the wale and `y` from the course.
     fn place(&self, x: f64, y: f64, z: f64) -> DVec3 {
         let Gauge { wale, course, .. } = self.gauge;
         DVec3::new((self.wale as f64 + 0.5) * wale + x, self.course as f64 * course + y, z)
     }
 
-    /// To which side the loop itself is drawn; where none is, the one that will be drawn next.
+    /// The side to which the loop itself is drawn. Without a loop, it is the side of the next loop.
     fn side(&self) -> f64 {
         match self.chart.stitch(self.course, self.wale) {
             Stitch::Face => 1.0,
@@ -169,7 +171,8 @@ impl Cell<'_> {
             || self.chart.hanging(self.course, self.wale) == 0
     }
 
-    /// How much further back the feet are than behind one loop, because of others that lie between.
+    /// Distance by which the feet lie further back than behind one loop, because more loops lie
+    /// between.
     fn behind(&self) -> f64 {
         let loops = match self.chart.stitch(self.course, self.wale) {
             Stitch::Face | Stitch::Back => self.chart.hanging(self.course, self.wale),
@@ -192,7 +195,7 @@ impl Cell<'_> {
         self.place(fate.moved as f64 * wale, y, fate.side * (-0.84 * depth - fate.layer as f64) * diameter)
     }
 
-    /// From foot to head, `hand` -1 the left one, 1 the right one.
+    /// One half from foot to head: the left half where `hand` is -1, the right half where it is 1.
     fn half(&self, hand: f64) -> Vec<DVec3> {
         let Gauge { wale, course, diameter, depth } = self.gauge;
         let (height, narrow) = (self.gauge.height(), self.gauge.narrow());
@@ -200,7 +203,7 @@ impl Cell<'_> {
         let (own, next) = (self.side(), fate.side);
         let own_z = |z: f64| own * z * depth * diameter;
         let next_z = |z: f64| next * (z * depth - fate.layer as f64) * diameter;
-        // How far along the way from the own needle to the one that it is moved to.
+        // `way` is the share of the distance from the own needle to the one that it is moved to.
         let at = |across: f64, way: f64, y: f64, z: f64| {
             self.place(hand * across + way * fate.moved as f64 * wale, y * height, z)
         };
@@ -211,13 +214,11 @@ impl Cell<'_> {
             let foot = at(0.19 * wale, 0.0, 0.083, own_z(-0.48) - own * self.behind());
             let lower = at(narrow, 0.1, 0.285, own_z(0.41));
             if own == next {
-                // Of a loop that is moved, the leg on the side that it leaves has nothing in front
-                // of it.
+                // A moved loop leaves one side. Nothing lies in front of the leg on that side.
                 let leaves = hand * (fate.moved as f64) < 0.0;
                 vec![foot, lower, at(0.25 * wale, 0.5, 0.5, if leaves { own_z(0.98) } else { next_z(0.98) })]
             } else {
-                // The leg goes through the plane of the cloth between what it came through and what
-                // comes through it.
+                // The leg crosses the plane of the cloth between the loop below and the loop above.
                 vec![
                     foot,
                     lower,

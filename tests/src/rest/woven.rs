@@ -1,19 +1,19 @@
-//! Starts of weaves: one point a crossing, and three more wherever a yarn changes sides.
+//! Starts of weaves, with one point a crossing, and three more where a yarn changes sides.
 
 use glam::DVec3;
 
 use super::{Ends, Length, Start, StartYarn};
 
-/// A weave's repeat, both sets of the same round yarn at the same pitch.
+/// The repeat of a weave. Both sets have the same round yarn at the same pitch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weave {
-    /// Ends of a repeat, and picks.
+    /// Number of ends and of picks in a repeat.
     pub size: usize,
-    /// From each end to the next, how many picks higher the one pick is on which it lies under.
+    /// Picks by which the pick that an end lies under is higher from end to end.
     pub step: usize,
-    /// Every so many picks an end lies under one.
+    /// Number of picks after which an end lies under one again.
     pub order: usize,
-    /// From yarn to yarn, mm; the diameter is 1 mm.
+    /// Distance from yarn to yarn, mm. The diameter is 1 mm.
     pub pitch: f64,
 }
 
@@ -24,7 +24,7 @@ impl Weave {
     }
 }
 
-/// Half the diameter of all yarns here, mm.
+/// The radius of all yarns of this file, mm.
 const RADIUS: f64 = 0.5;
 
 /// A repeat of `weave`.
@@ -55,19 +55,19 @@ pub fn woven(name: &str, weave: Weave, length: Length) -> Start {
     }
 }
 
-/// The same ends and picks cut off: each begins and ends a pitch beyond its last crossings, level
-/// with these and pinned.
+/// The ends and picks of a repeat, cut off. Each begins and ends a pitch beyond its outermost
+/// crossings, at their height, and is pinned there.
 ///
 /// # Panics
 ///
-/// As [`woven`].
+/// If the size is not a multiple of the weave's order, as in [`woven`].
 #[must_use]
 pub fn woven_piece(name: &str, weave: Weave, length: Length) -> Start {
     let mut start = woven(name, weave, length);
     start.repeat = [0.0; 2];
     for (number, yarn) in start.yarns.iter_mut().enumerate() {
         let along = if number < weave.size { DVec3::Y } else { DVec3::X };
-        // What changes sides after the last crossing leads to the next repeat.
+        // A change of sides after the last crossing leads to the next repeat.
         let crossings =
             yarn.points.iter().rposition(|point| point.z.abs() == RADIUS).map_or(0, |last| last + 1);
         yarn.points.truncate(crossings);

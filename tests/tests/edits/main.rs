@@ -1,4 +1,4 @@
-//! Yarns that are edited on a device end as those of a fresh mesh, to the bit, on every backend.
+//! Yarns that are edited on a device equal those of a fresh mesh to the bit, on every backend.
 
 mod together;
 
@@ -15,27 +15,27 @@ use texere_core::{
     OutOfMemory, Pipeline, PipelineError, Section, Settings, Topology, Vertex, Yarn, Yarns,
 };
 
-/// The most control points of a yarn: several blocks' rings.
+/// The most control points of a yarn, which has the rings of several blocks.
 const ROOM: usize = 150;
 
 #[derive(Debug, Clone)]
 enum Edit {
-    /// A yarn becomes another one.
+    /// One yarn is replaced.
     Yarn { yarn: usize, twist: f32, section: u32, points: Vec<ControlPoint> },
-    /// Several yarns become others at once.
+    /// Several yarns are replaced at once.
     Yarns(Vec<(usize, f32, u32, Vec<ControlPoint>)>),
-    /// Some of a yarn's points move: from a share of the yarn on.
+    /// Some points of a yarn move, from this share of the yarn on.
     Points { yarn: usize, from: f64, points: Vec<ControlPoint> },
-    /// What has changed is made again.
+    /// Changed parts of the mesh are made again.
     Update,
 }
 
-/// Yarns as the test keeps them: each with its points.
+/// The test's own record of the yarns, with their points.
 type Fabric = Vec<(Yarn, Vec<ControlPoint>)>;
 
 fn points(count: impl Into<prop::collection::SizeRange>) -> impl Strategy<Value = Vec<ControlPoint>> {
-    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where
-    // the lower bound has finer digits.
+    // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an assertion
+    // of its own where the lower bound has finer digits than the upper one.
     let half = || (0.0f32..0.5).prop_map(|half| half.max(0.05));
     let halves = prop_oneof![3 => Just((0.2f32, 0.2f32)), 1 => (half(), half())];
     let point = (-2.0f32..2.0, -2.0f32..2.0, -2.0f32..2.0, halves)
@@ -122,8 +122,8 @@ fn read(live: &mut LiveMesh) -> Mesh {
     Mesh { vertices, indices, chunks, plan, materials: Vec::new().into() }
 }
 
-/// The triangles of each yarn, by what their corners are, sorted: chunks' cuts decide where in
-/// between caps come.
+/// The triangles of each yarn by their corners, sorted. The cut into chunks decides where caps come
+/// between them.
 fn triangles(mesh: &Mesh) -> Vec<Vec<[Vertex; 3]>> {
     let mut yarns = vec![Vec::new(); mesh.plan.layout().yarns().len()];
     for draw in mesh.draws() {
@@ -138,8 +138,8 @@ fn triangles(mesh: &Mesh) -> Vec<Vec<[Vertex; 3]>> {
     yarns
 }
 
-/// The attributes of the vertices of each ring, by yarn and ring; caps, which have those of a ring
-/// again, are checked on the way.
+/// The attributes of the vertices of each ring, by yarn and ring. Caps repeat the attributes of a
+/// ring, which is checked here, too.
 fn by_ring(mesh: &Mesh, attributes: &[Attribute]) -> BTreeMap<(u32, u32), Vec<Attribute>> {
     let sides = mesh.plan.settings().sides;
     let mut rings = BTreeMap::new();
@@ -149,7 +149,7 @@ fn by_ring(mesh: &Mesh, attributes: &[Attribute]) -> BTreeMap<(u32, u32), Vec<At
         for part in chunk.parts() {
             for k in 0..part.rings {
                 let own = at(part.first_vertex + k * sides).to_vec();
-                // A ring that a chunk repeats is the same in both.
+                // A ring that a chunk repeats is equal in both chunks.
                 let before = rings.insert((part.yarn, part.first_ring + k), own.clone());
                 assert!(before.is_none_or(|before| before == own));
             }
@@ -162,7 +162,7 @@ fn by_ring(mesh: &Mesh, attributes: &[Attribute]) -> BTreeMap<(u32, u32), Vec<At
     rings
 }
 
-/// The attributes on the device, read back: one for each vertex of `mesh`, which was.
+/// The attributes on the device, read back: one for each vertex of `mesh`, which was read before.
 fn read_attributes(live: &mut LiveMesh, mesh: &Mesh) -> Vec<Attribute> {
     let mut attributes = vec![Attribute::default(); mesh.vertices.len()];
     for (number, chunk) in mesh.chunks.iter().enumerate() {
@@ -185,7 +185,7 @@ fn apply(live: &mut LiveMesh, fabric: &mut Fabric, edit: &Edit) {
     match edit {
         Edit::Yarn { yarn, twist, section, points } => {
             let yarn = yarn % fabric.len();
-            // A fabric of which no yarn turns takes no twist.
+            // A fabric without twisted yarns takes no twist.
             let twist = if live.plan().needs_scan() { *twist } else { 0.0 };
             let what = Yarn { twist, section: *section, ..fabric[yarn].0 };
             live.set_yarn(yarn, what, points).unwrap();
@@ -232,15 +232,15 @@ fn is_flattened(fabric: &Fabric) -> bool {
     fabric.iter().flat_map(|(_, points)| points).any(|point| point.half_width() != point.half_height())
 }
 
-/// Whether the driver may fuse multiplications and additions, in the program for round yarns
-/// otherwise than in the one for all: WGSL leaves it free. A driver that runs on the processor does
-/// not.
+/// Whether the driver may fuse multiplications and additions differently in the program for round
+/// yarns and in the one for all yarns. WGSL allows that. A driver that runs on the processor does
+/// not do it.
 fn may_fuse(device: &dyn Backend) -> bool {
     device.info().name.starts_with("wgpu") && device.info().kind != DeviceKind::Cpu
 }
 
-/// Edited yarns end as a fresh mesh, unless the driver may choose the last bits: where yarns come
-/// to need the program for flattened ones, or no longer do.
+/// Edited yarns equal a fresh mesh. The driver may choose the last bits where an edit changes
+/// whether yarns need the program for flattened ones.
 fn ends_as_fresh(
     device: &dyn Backend,
     mut fabric: Fabric,
@@ -296,7 +296,7 @@ fn edited_yarns_end_as_a_fresh_mesh() {
         let (devices, missing) = entry.devices();
         assert!(missing.is_empty(), "{missing:?}");
         for device in &devices {
-            // The suite holds that it is refused.
+            // The suite checks that this is refused.
             if !device.info().can.edit {
                 let plan = Arc::new(Plan::new(short().layout().clone(), Settings::default()).unwrap());
                 let refused = LiveMesh::new(&**device, plan).unwrap_err();
@@ -317,8 +317,7 @@ fn edited_yarns_end_as_a_fresh_mesh() {
     }
 }
 
-/// A round yarn is worked out alike whether another one is flattened or not: one that becomes flat,
-/// or round again, changes no vertex of it.
+/// A round yarn has the same vertices, whether another yarn is flattened or not.
 #[test]
 fn a_round_yarn_does_not_hang_on_flattened_ones() {
     let line = |wide: f32| -> Vec<_> {
@@ -343,7 +342,7 @@ fn editing() -> Vec<Arc<dyn Backend>> {
     devices
 }
 
-/// Where blocks end, a point has a part in the rings of two of them.
+/// Where a block ends, a point affects rings of two blocks.
 #[test]
 fn each_point_of_a_long_yarn_moves_alone() {
     let device = &texere_cpu::SerialBackend::new();
@@ -390,7 +389,7 @@ fn what_a_plan_has_no_room_for_is_named() {
     assert_eq!(said(0, turned, 3), "yarn 0 can't be twisted, where no other yarn is: that takes a new plan");
 }
 
-/// What is read before it has been made again would be the mesh before the edit.
+/// A mesh that is read before it is made again would be the one before the edit.
 #[test]
 fn reading_comes_after_an_update() {
     let device = &texere_cpu::SerialBackend::new();
@@ -406,7 +405,7 @@ fn reading_comes_after_an_update() {
     assert!(live.update().unwrap().is_empty(), "nothing has changed");
 }
 
-/// A whole mesh that the device's memory does not hold is refused before anything is made.
+/// A whole mesh that does not fit the device's memory is refused before anything is made.
 #[test]
 fn a_mesh_beyond_the_memory_is_refused() {
     let device = &texere_cpu::SerialBackend::new();
@@ -419,7 +418,7 @@ fn a_mesh_beyond_the_memory_is_refused() {
         panic!("{refused}")
     };
     // 5,002 padded points of 16 bytes; 9,999 rings of six vertices of 24 bytes; 9,998 gaps of 36
-    // indices of four bytes. The rings that chunks repeat come on top.
+    // indices of four bytes. Rings that chunks repeat are added.
     let repeated = bytes - (5_002 * 16 + 9_999 * 6 * 24 + 9_998 * 36 * 4);
     assert!(repeated < 10 * 6 * 24, "{repeated}");
 }

@@ -1,4 +1,4 @@
-//! Many yarns that are edited at once.
+//! Many yarns are edited at once.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,8 +8,8 @@ use texere_core::{ControlPoint, Frame, Settings, Yarn};
 
 use super::{Edit, Fabric, ROOM, editing, edits_of, ends_as_fresh, read, yarns_of};
 
-/// `count` points at `y`: along x, and with `climbs` up in a helix, so that the yarn is steep where
-/// it is round and leans where it is flattened.
+/// `count` points at `y` along x. With `climbs` they rise in a helix: the yarn is steep where it is
+/// round, and leans where it is flattened.
 fn laid(y: f32, count: usize, climbs: bool, halves: (f32, f32)) -> Vec<ControlPoint> {
     let place = |k: usize| {
         let t = k as f32 * 0.4;
@@ -19,7 +19,7 @@ fn laid(y: f32, count: usize, climbs: bool, halves: (f32, f32)) -> Vec<ControlPo
     (0..count).map(place).map(point).collect()
 }
 
-/// Some of the yarns get fewer points, some more, some come to stand upright, some lean, and those
+/// Some yarns get fewer points, some get more, some become upright, and some lean. The yarns
 /// between them stay.
 #[test]
 fn yarns_that_are_edited_together_end_as_a_fresh_mesh() {
@@ -47,7 +47,7 @@ fn yarns_that_are_edited_together_end_as_a_fresh_mesh() {
     }
 }
 
-/// Where one of many yarns is refused, none is edited.
+/// If one of many yarns is refused, none is edited.
 #[test]
 fn one_yarn_that_is_refused_leaves_all_as_they_were() {
     let round = (0.1, 0.1);
@@ -84,7 +84,7 @@ fn one_yarn_that_is_refused_leaves_all_as_they_were() {
             assert_eq!((live.traffic().uploaded, live.update().unwrap()), (sent, Vec::new()), "{said}");
         }
         assert!(read(&mut live).vertices == mesh.vertices);
-        // The two that were not refused are taken without the third.
+        // The two sound yarns are taken without the third.
         let edits = BTreeMap::from([(0, line(0, 33)), (2, line(2, 7))]);
         live.set_yarns(&edits_of(&edits)).unwrap();
         live.update().unwrap();

@@ -1,5 +1,5 @@
-//! Weft knits: which loops are drawn through which, and how they settle, by checks that share no
-//! code with texere's crates.
+//! Weft knits: loops are drawn through the right loops, and settle. The checks share no code with
+//! texere's crates.
 
 mod topology;
 
@@ -14,7 +14,7 @@ use texere_fabric::{Finish, Piece, Settled, settle};
 /// The diameter of all yarns, mm.
 const D: f64 = 0.2;
 
-/// Courses lie so much closer than wales.
+/// Distance of courses, as a share of the distance of wales.
 const COURSE: f64 = 0.75;
 
 /// The stitches of a chart, each with a source of its own.
@@ -65,8 +65,7 @@ fn gauge(wale: f64) -> Gauge {
     Gauge::new(wale * D, COURSE * wale * D)
 }
 
-/// Settles a piece, and checks it: clearance, bends, and whether yarns have passed through one
-/// another.
+/// Settles a piece, and checks clearance, bends, and whether yarns have passed through one another.
 fn settled(name: &str, piece: &Piece, length: settling::Length) -> (Settled, Report, f64) {
     let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
@@ -108,7 +107,7 @@ fn a_dropped_stitch_is_seen() {
     let piece = knit.piece().expect("a piece");
     let mut yarns = piece.yarns.clone();
     let mut moved = yarns.yarn_points(1).expect("a yarn").to_vec();
-    // The first loop's shoulders and head, in front of the legs of the loop above.
+    // Shoulders and head of the first loop come in front of the legs of the loop above.
     for point in &mut moved[5..=7] {
         point.z = 2.0 * D as f32;
     }
@@ -133,8 +132,8 @@ fn knits_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Plain jersey as Munden has it, from loose to tight: tightness is √tex over the loop length in
-/// cm, and a cotton yarn is 0.0373 √tex mm thick.
+/// Plain jersey by Munden's constants, from loose to tight. Tightness is √tex over the loop length
+/// in cm, and a cotton yarn is 0.0373 √tex mm thick.
 #[test]
 fn jersey_of_any_tightness_has_the_loop_length_asked_for() {
     let chart = Chart::parse("kkkk\nkkkk\nkkkk\nkkkk", Beds::One).expect("a chart");

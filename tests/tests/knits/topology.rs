@@ -1,4 +1,4 @@
-//! Which loops are drawn through which: how often a yarn goes through the surface that a loop
+//! Topology of weft knits: the number of times that a yarn goes through the surface that a loop
 //! spans.
 
 use std::collections::HashMap;
@@ -9,18 +9,18 @@ use texere_core::Yarns;
 use texere_fabric::Piece;
 use texere_fabric::weft::{LoopRef, Step, Stitches};
 
-/// Chords of an interval of a spline.
+/// Number of chords per interval of a spline.
 const PARTS: usize = 6;
 
-/// What a yarn does at a needle: its points, as far as to the next needle's, and where the head of
-/// its loop is among them.
+/// A yarn at a needle: its points up to those of the next needle, and the index of the loop's head
+/// among them.
 struct Stretch {
     points: Vec<DVec3>,
     head: usize,
 }
 
-/// What is not as the stitches say: none if each loop's legs go through just those loops that it is
-/// drawn through.
+/// Differences from the stitches. There are none if the legs of each loop go through exactly the
+/// loops that it is drawn through.
 pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<String> {
     let [right, up] = piece.boundary.repeat().map(f64::from);
     let shift = |repeat: [i32; 2]| DVec3::new(right * f64::from(repeat[0]), up * f64::from(repeat[1]), 0.0);
@@ -46,12 +46,12 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
                     continue;
                 }
                 let parent = stitches.parents_of(other).contains(&LoopRef { number, repeat });
-                // Arcs are common to neighbours: they begin just beside them.
+                // Neighbours share arcs. Chains begin just beside them.
                 let (points, end) = (&stretch.points, stretch.points.len());
                 let legs = [&points[PARTS / 2..=stretch.head], &points[stretch.head..end - PARTS / 2]];
                 let through = legs.map(|leg| span.through(leg));
-                // Whether the head of a parent lies in front of the surface or behind is a matter
-                // of how that is drawn.
+                // The head of a parent may lie in front of the surface or behind it, depending on
+                // how the surface is drawn.
                 let child = stitches.parents_of(number).iter().any(|above| above.number == other);
                 let sound = if parent {
                     through[0].abs() == 1 && through[1] == -through[0]
@@ -74,7 +74,7 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
     faults
 }
 
-/// A yarn, needle by needle: each has a source of its own.
+/// A yarn needle by needle. Each needle has a source of its own.
 fn stretches(piece: &Piece, yarns: &Yarns, yarn: usize) -> Vec<Stretch> {
     let range = yarns.range(yarn).expect("a yarn");
     let sources = &yarns.sources().expect("sources")[range];

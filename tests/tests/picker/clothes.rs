@@ -1,9 +1,9 @@
-//! What rays are shot at.
+//! Cloths at which rays are shot.
 
 use texere_conformance::cases;
 use texere_core::{ControlPoint, Frame, Section, Settings, Yarn, Yarns};
 
-/// Flat yarns of a polygon that turn, over and under one another.
+/// Flat yarns with a polygon as section, which turn and cross over and under one another.
 pub(crate) fn twisted() -> Yarns {
     let mut yarns = Yarns::builder();
     yarns.section(Section::Polygon(vec![[1.5, -0.4], [1.2, 0.5], [-0.2, 0.6], [-1.4, 0.1], [-0.9, -0.6]]));
@@ -22,16 +22,16 @@ pub(crate) fn twisted() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A cloth that rays are shot at.
+/// A cloth at which rays are shot.
 pub(crate) struct Cloth {
     pub(crate) name: &'static str,
     pub(crate) yarns: Yarns,
     pub(crate) settings: Settings,
-    /// How many rays are compared with all its triangles.
+    /// Number of rays that are compared with all of its triangles.
     pub(crate) rays: usize,
 }
 
-/// Everything that a picker has to do with. Together they get 100,000 rays.
+/// Cloths with everything that matters to a picker. Together they get 100,000 rays.
 pub(crate) fn clothes() -> Vec<Cloth> {
     let capped = Settings { caps: true, ..Settings::default() };
     let turning = Settings { frame: Frame::RotationMinimizing, ..capped };

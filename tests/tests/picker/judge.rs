@@ -1,18 +1,18 @@
-//! The nearest of all triangles, by arithmetic of its own.
+//! The judge: it finds the nearest of all triangles by arithmetic of its own.
 
 use rayon::prelude::*;
 use texere_core::backend::Plan;
 use texere_core::{End, Mesh, MeshPlace, Pipeline, Ray, Settings, Yarns};
 use texere_cpu::{Hit, Picker, SerialBackend};
 
-/// How far distances of one hit may differ, as a share of them or of the triangle's size if that is
-/// more: the judge's own arithmetic is no better.
+/// Tolerance of the distance of a hit, as a share of the distance, or of the triangle's size if
+/// that is larger. The judge's own arithmetic is no more accurate.
 pub(crate) const SAME: f64 = 1e-9;
 
-/// The share of rays that may meet an edge, so that what they hit is a matter of rounding.
+/// The largest share of rays that may meet an edge, where rounding decides what they hit.
 pub(crate) const EDGES: f64 = 2e-3;
 
-/// Numbers that look like chance and are the same every time (splitmix64).
+/// Pseudo-random numbers, the same on every run (splitmix64).
 #[derive(Clone, Copy)]
 pub(crate) struct Chance(pub(crate) u64);
 
@@ -65,8 +65,8 @@ pub(crate) fn mesh_of(yarns: &Yarns, settings: Settings) -> Mesh {
     Pipeline::new(yarns).settings(settings).mesh(&SerialBackend::new()).unwrap()
 }
 
-/// Where the ray meets a triangle whose edges are moved out by `slack`, a share of its size (Möller
-/// and Trumbore 1997).
+/// The intersection of a ray with a triangle whose edges are moved out by `slack`, a share of its
+/// size (Möller and Trumbore 1997).
 pub(crate) fn meets(ray: &Ray, [a, b, c]: &[[f64; 3]; 3], slack: f64) -> Option<f64> {
     let (one, other) = (sum(*b, *a, -1.0), sum(*c, *a, -1.0));
     let across = cross(ray.direction, other);
@@ -82,7 +82,7 @@ pub(crate) fn meets(ray: &Ray, [a, b, c]: &[[f64; 3]; 3], slack: f64) -> Option<
     (u >= -slack && v >= -slack && u + v <= 1.0 + slack && along >= 0.0).then_some(along)
 }
 
-/// The nearest of all triangles, and how large it is in lengths of the direction.
+/// The nearest of all triangles, and its size in lengths of the direction.
 pub(crate) fn nearest(ray: &Ray, all: &[Triangle], slack: f64) -> Option<(f64, MeshPlace, f64)> {
     let hits = all.iter().filter_map(|(corners, place)| Some((meets(ray, corners, slack)?, *place, corners)));
     let (distance, place, [a, b, c]) = hits.min_by(|one, other| one.0.total_cmp(&other.0))?;
@@ -91,7 +91,7 @@ pub(crate) fn nearest(ray: &Ray, all: &[Triangle], slack: f64) -> Option<(f64, M
     Some((distance, place, (longest / dot(ray.direction, ray.direction)).sqrt()))
 }
 
-/// A ray towards somewhere on the cloth, or anywhere near it.
+/// A ray towards a place on the cloth or near it.
 pub(crate) fn ray(all: &[Triangle], chance: &mut Chance) -> Ray {
     let (corners, _) = &all[chance.below(all.len())];
     let (u, v) = (chance.within(-0.5, 1.5), chance.within(-0.5, 1.5));
@@ -111,8 +111,8 @@ pub(crate) fn near(one: f64, other: f64, size: f64) -> bool {
     (one - other).abs() <= SAME * one.abs().max(other.abs()).max(size)
 }
 
-/// Shoots `rays` rays, holds each hit to the nearest of all triangles, and gives back how many had
-/// to do with edges.
+/// Shoots `rays` rays, and compares each hit with the nearest of all triangles. Returns the number
+/// of hits at edges.
 pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> usize {
     let all = triangles(mesh);
     let tried = (0..rays).into_par_iter().map(|number| {
@@ -129,7 +129,7 @@ pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> u
         if hit.is_none() && truth.is_none() {
             return [0, 0];
         }
-        // At an edge either triangle may be named, or one behind them that only one of both codes
+        // At an edge either triangle may be hit, or one behind them that only one of both codes
         // sees.
         let found = hit.map_or(f64::INFINITY, |hit| hit.distance);
         let nowhere = (f64::INFINITY, MeshPlace { yarn: 0, ring: 0, side: 0, cap: None }, 0.0);
@@ -144,7 +144,7 @@ pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> u
     edges
 }
 
-/// What else is told of a hit.
+/// Checks the other values of a hit.
 pub(crate) fn sound(plan: &Plan, ray: &Ray, hit: &Hit) {
     let point = sum(ray.origin, ray.direction, hit.distance);
     let off = sum(hit.position, point, -1.0);

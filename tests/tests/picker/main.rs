@@ -1,5 +1,5 @@
-//! What a ray hits first, beside all triangles of the serial backend's mesh, one by one; boxes that
-//! hold the mesh; and what a hit is called.
+//! The first hit of a ray, against all triangles of the serial backend's mesh; boxes that hold the
+//! mesh; and the names of hits.
 
 mod clothes;
 mod judge;
@@ -36,14 +36,14 @@ fn rays_hit_what_is_nearest_of_all_triangles() {
     assert!(rays >= 100_000 && edges as f64 <= EDGES * rays as f64, "{edges} of {rays} rays met edges");
 }
 
-/// A ray towards a vertex or an edge that faces it, from outside, never goes through it.
+/// A ray from outside towards a vertex or an edge that faces it never passes through the surface.
 #[test]
 fn no_ray_goes_through_between_triangles() {
     for Cloth { name, yarns, settings, .. } in clothes() {
         let mesh = mesh_of(&yarns, settings);
         let picker = picker_of(&mesh, &yarns);
         let all = triangles(&mesh);
-        // By positions: where a yarn closes up two vertices are the same.
+        // Vertices count by position: two of them coincide where a yarn closes.
         let key = |corner: [f64; 3]| corner.map(f64::to_bits);
         let mut normals: HashMap<[u64; 3], Vec<[f64; 3]>> = HashMap::new();
         for ([a, b, c], _) in &all {
@@ -61,8 +61,7 @@ fn no_ray_goes_through_between_triangles() {
             let faces = |normal: &[f64; 3]| {
                 dot(*normal, back) > FACING * (dot(back, back) * dot(*normal, *normal)).sqrt()
             };
-            // Edges of the outline may be passed by, and where an open yarn ends so do its
-            // triangles.
+            // A ray may pass by edges of the outline, and by the ends of an open yarn.
             let all_face = corners[..2].iter().all(|corner| normals[&key(*corner)].iter().all(faces));
             let rings = mesh.plan.rings(place.yarn as usize);
             if !all_face || place.cap.is_some() || !(2..rings.max(3) - 3).contains(&place.ring) {
@@ -71,7 +70,7 @@ fn no_ray_goes_through_between_triangles() {
             let origin = sum(target, back, 1.0);
             let ray = Ray { origin, direction: sum(target, origin, -1.0) };
             let hit = picker.pick(&ray).map_or(f64::INFINITY, |hit| hit.distance);
-            // What is aimed at is 1 away but for rounding, and something may lie before it.
+            // The target is 1 away, up to rounding. Something may lie before it.
             assert!(hit <= 1.0 + 1e-9, "{name}: {ray:?} came to {hit}");
             true
         });
@@ -80,7 +79,7 @@ fn no_ray_goes_through_between_triangles() {
     }
 }
 
-/// A picker whose yarns are edited picks as a fresh one does, to the bit, and as the mesh has it.
+/// An edited picker gives the hits of a fresh one, to the bit, and those of the mesh.
 #[test]
 fn yarns_that_are_edited_are_hit_where_they_are() {
     let mut edges = 0;
@@ -144,9 +143,9 @@ fn yarns_that_are_edited_are_hit_where_they_are() {
     assert!(edges as f64 <= EDGES * 4_000.0, "{edges} rays met edges");
 }
 
-/// Boxes hold all vertices (`random.rs` has yarns that nobody thought of), and reach out by little
-/// more than they must: where a yarn ends, by the size of its section along itself as well;
-/// elsewhere by what a Bézier hull is wider than its curve.
+/// Boxes hold all vertices, and are little larger than necessary. At the end of a yarn they also
+/// reach out along it by the size of its section; elsewhere by the excess of a Bézier hull over its
+/// curve. `random.rs` tests boxes with random yarns.
 #[test]
 fn boxes_are_tight() {
     for Cloth { name, yarns, settings, .. } in clothes() {
@@ -171,7 +170,7 @@ fn boxes_are_tight() {
                 == plan.bounds(&points)
         );
         assert!(picker_of(&mesh, &yarns).bounds() == plan.bounds(&points));
-        // Shapes that nobody weaves have control points far from their curves.
+        // Shapes that no cloth has may have control points far from their curves.
         if name == "all shapes" {
             continue;
         }
@@ -196,8 +195,8 @@ fn boxes_are_tight() {
     }
 }
 
-/// On a straight yarn of a point every millimetre the interval and how far along it are the way
-/// itself.
+/// On a straight yarn with a point every millimetre, the interval and the place along it give the
+/// distance itself.
 #[test]
 fn the_way_along_the_yarn_is_exact() {
     let mut yarns = Yarns::builder();
@@ -216,7 +215,7 @@ fn the_way_along_the_yarn_is_exact() {
     }
 }
 
-/// What a mesh has no indices for is hit all the same.
+/// Triangles without stored indices are hit, too.
 #[test]
 fn hits_do_not_depend_on_the_topology() {
     let yarns = twisted();
@@ -267,14 +266,14 @@ fn rays_that_are_none_hit_nothing_and_wrong_yarns_are_refused() {
         "39 control points, but the plan has 40"
     );
     assert!(matches!(picker.set_yarn(plan.clone(), 1, &unsound[40..80]), Err(PickError::Points(_))));
-    // Another plan of the same yarns, and one in which another yarn is edited as well.
+    // Another plan of the same yarns, and a plan in which another yarn is edited, too.
     let other = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
     let twice =
         plan.edited(0, *plan.yarn(0), &points[..20]).unwrap().edited(1, *plan.yarn(1), points).unwrap();
     for plan in [other, Arc::new(twice)] {
         assert!(matches!(picker.set_yarn(plan, 1, points), Err(PickError::OtherPlan { yarn: 1 })));
     }
-    // All as before.
+    // Everything is as before.
     let fresh = Picker::new(plan, yarns.points()).unwrap();
     let down = Ray { origin: [5.0, 1.0, 9.0], direction: [0.0, 0.0, -1.0] };
     assert!(picker.pick(&down).is_some());

@@ -1,13 +1,13 @@
-//! What a weaver or a knitter calls the place of a hit.
+//! The names of hits, in the words of weavers and knitters.
 
 use texere_conformance::cases;
 use texere_core::{Origin, Ray, Settings, YarnPlace};
-use texere_fabric::{Crossing, StitchPlace, ThreadPlace};
+use texere_fabric::{BySet, Crossing, StitchPlace, ThreadPlace};
 use texere_formats::Design;
 
 use super::judge::{mesh_of, picker_of};
 
-/// The design, and what a ray from above hits first at a point, mm.
+/// The design, and the first hit of a ray from above at a point, mm.
 fn named(design: &Design, points: &[[f64; 2]]) -> Vec<Option<(ThreadPlace, String)>> {
     let yarns = design.yarns().unwrap();
     let picker = picker_of(&mesh_of(&yarns, Settings::default()), &yarns);
@@ -23,7 +23,7 @@ fn named(design: &Design, points: &[[f64; 2]]) -> Vec<Option<(ThreadPlace, Strin
 fn crossings_of_a_weave_are_named_by_the_thread_on_top() {
     let design = cases::design("plain.toml");
     let cloth = design.structure.woven().unwrap().cloth();
-    let [ends, picks] = cloth.middles_mm();
+    let BySet { warp: ends, weft: picks } = cloth.middles_mm();
     let all: Vec<_> = (0..ends.len()).flat_map(|end| (0..picks.len()).map(move |pick| (end, pick))).collect();
     let points: Vec<_> = all.iter().map(|&(end, pick)| [ends[end], picks[pick]]).collect();
     for ((end, pick), found) in all.into_iter().zip(named(&design, &points)) {
@@ -38,11 +38,11 @@ fn crossings_of_a_weave_are_named_by_the_thread_on_top() {
     }
 }
 
-/// Yarns of these knits are one course each, the courses of one repeat above those of the one
-/// below, and go through their wales one after the other.
+/// Each yarn of these knits is one course, and goes through its wales in order. The courses of a
+/// repeat lie above those of the repeat below.
 #[test]
 fn stitches_are_where_their_yarns_go() {
-    // How far a stitch reaches from the middle of its wale, in wales: further where loops are
+    // Reach of a stitch from the middle of its wale, in wales. It is larger where loops are
     // transferred.
     for (name, reach) in
         [("jersey", 0.6), ("garter", 0.8), ("rib", 1.2), ("tuck", 1.2), ("miss", 1.2), ("lace", 2.5)]
@@ -65,8 +65,8 @@ fn stitches_are_where_their_yarns_go() {
                 };
                 told += 1;
                 assert_eq!(course, in_repeat + below, "{name}: {place:?}");
-                // Beyond the edges yarns are cut off, and the nearest stitch of the cloth may be a
-                // repeat away.
+                // Yarns are cut beyond the edges. The nearest stitch of the cloth may be a repeat
+                // away there.
                 let at = place.position[0] / knit.gauge().wale_mm;
                 let (off, inside) =
                     (at - (f64::from(wale) - 0.5), (1.0..f64::from(wales) - 1.0).contains(&at));
@@ -77,8 +77,8 @@ fn stitches_are_where_their_yarns_go() {
     }
 }
 
-/// A head of a stitch is hit from above and named by its wale and course, and by the cell of the
-/// chart; of a warp knit by its guide.
+/// A ray from above hits the head of a stitch. It is named by wale and course and by the chart's
+/// cell; in a warp knit by its guide.
 #[test]
 fn stitches_are_told_with_what_made_them() {
     let design = cases::design("rib.toml");

@@ -1,4 +1,4 @@
-//! Copies of a Jacquard's repeat are cut off so that nothing touches at the edges.
+//! Copies of a Jacquard's repeat are cut so that nothing touches at the edges.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +10,7 @@ use texere_fabric::weft::{Backing, Chart, Gauge, KnitYarn, Knitted, Machine};
 #[test]
 fn copies_of_a_jacquard_are_clear_up_to_their_cut_edges() {
     for (backing, diameter) in [(None, 0.14), (Some(Backing::Birdseye), 0.118)] {
-        // Areas of three wales and two courses, of either colour.
+        // Areas of three wales and two courses in each colour.
         let color = |x: usize, y: usize| (((x / 3 + 7 * (y / 2) + 1) * 2_654_435_761) >> 7 & 1) as u32;
         let program = Chart::jacquard(12, 8, backing, color).unwrap().program().unwrap();
         let stitches = Machine::default().knit(&program).unwrap().stitches;

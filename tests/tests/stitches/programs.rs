@@ -1,5 +1,5 @@
-//! Splits, plated yarns and dropped stitches, which no chart has: loops go through those that they
-//! are drawn through, and through no others, and come to rest.
+//! Splits, plated yarns and dropped stitches, which charts lack: loops go through exactly the loops
+//! that they are drawn through, and come to rest.
 
 use texere_fabric::weft::{
     CarrierSet, Direction, FaultKind, Instruction, Machine, Needle, Operation, Program, Step, Stitches,
@@ -7,9 +7,9 @@ use texere_fabric::weft::{
 
 use super::{knitted, settled, topology};
 
-/// What a repeat of four wales makes of words: `k1` knits on front needle 1, `p1` on the back
-/// needle, `K1` and `P1` with two yarns; `s1` splits, `m1` misses, `d1` drops, `f1` transfers to
-/// the back needle and `b1` to the front needle.
+/// The stitches of a repeat of four wales, from words: `k1` knits on front needle 1, `p1` on the
+/// back needle, `K1` and `P1` with two yarns; `s1` splits, `m1` misses, `d1` drops, `f1` transfers
+/// to the back needle, and `b1` to the front needle.
 fn stitches(words: &str) -> Stitches {
     let right = Direction::Right;
     let operation = |word: &str| {
@@ -39,7 +39,7 @@ fn stitches(words: &str) -> Stitches {
     let knit = Machine::default().knit(&program).unwrap();
     assert!(knit.faults.iter().all(|fault| matches!(fault.kind, FaultKind::Dropped(1))), "{:?}", knit.faults);
     let mut stitches = knit.stitches;
-    // Each cell has a source of its own, by which the check of topology finds it.
+    // Each cell has a source of its own. The check of topology finds the cell by it.
     let mut sources = 0..;
     for step in stitches.strands.iter_mut().flat_map(|strand| &mut strand.steps) {
         let own = sources.next().unwrap();
@@ -54,7 +54,7 @@ fn stitches(words: &str) -> Stitches {
 const KNIT: &str = "k0 k1 k2 k3 ";
 const PLATED: &str = "K0 K1 K2 K3 ";
 
-/// Loops that are held are so before and after, and come to rest.
+/// Held loops are held before and after settling, and come to rest.
 fn holds(name: &str, words: &str, wales: &[f64]) {
     for &wale in wales {
         let knit = knitted(stitches(words), wale, 0.75 * wale);

@@ -1,5 +1,5 @@
-//! Loop lengths and thicknesses of knits at rest beside figures that others have published. Their
-//! sources stand in docs/SETTLING.md.
+//! Loop lengths and thicknesses of knits at rest, against published figures. docs/SETTLING.md has
+//! the sources.
 
 use texere_fabric::weft::{Beds, Chart, Machine};
 use texere_fabric::{Piece, thickness_mm};
@@ -10,13 +10,13 @@ const JERSEY: &str = "kkkk\nkkkk\nkkkk\nkkkk";
 const RIB: &str = "kpkp\nkpkp\nkpkp\nkpkp";
 const INTERLOCK: &str = "pkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp";
 
-/// Peirce's loop of wales and courses so far apart, in diameters: its round parts are 5.94 of these
-/// long where these are of yarn as dense as he takes it, 4.56 where they are measured.
+/// Length of Peirce's loop with these distances of wales and courses, in diameters. Its round parts
+/// are 5.94 diameters long for yarn as dense as he assumes, and 4.56 for measured diameters.
 fn peirce(wale: f64, course: f64) -> [f64; 2] {
     [4.56, 5.94].map(|round| 2.0 * course + wale + round)
 }
 
-/// Munden's: 4.2 wales.
+/// Length of Munden's loop: 4.2 wales.
 fn munden(wale: f64) -> f64 {
     4.2 * wale
 }
@@ -46,7 +46,7 @@ fn jersey_has_the_loop_length_and_thickness_of_the_books() {
     }
 }
 
-/// Rib that has drawn in, its front wales side by side: as thick as two of jersey.
+/// Rib that has drawn in, with its front wales side by side, is as thick as two layers of jersey.
 #[test]
 fn rib_has_the_loop_length_and_thickness_of_the_books() {
     for (wale, course) in [(2.5, 3.2), (2.5, 3.75), (3.0, 3.75)] {

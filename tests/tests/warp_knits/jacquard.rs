@@ -1,5 +1,5 @@
-//! Jacquards of any figure come to rest: loops of guides that share a needle lie side by side from
-//! the start.
+//! Jacquards with any figure come to rest: loops of guides that share a needle lie side by side
+//! from the start.
 
 use std::ops::ControlFlow;
 
@@ -14,16 +14,17 @@ use texere_fabric::weft::{Gauge, KnitYarn};
 use super::fault;
 use super::topology::faults;
 
-/// Diameters, in wales: the paper's, and the most.
+/// Diameters in wales: the paper's, and the largest.
 const DIAMETERS: [f64; 2] = [0.08, 0.1];
 
 /// The least radius of curvature without a fold, in diameters. A tube closes up on the inside of a
-/// bend whose radius is half its thickness: so turns the head of a loop whose legs touch. What
-/// settling aims at is no bound for any figure: its passes are limited, and what comes back is the
-/// best by clearance, then by bends. Random figures end between 0.57 and 0.62.
+/// bend whose radius is half its thickness; the head of a loop whose legs touch is such a bend. The
+/// radius at which settling aims is no bound for all figures. Its passes are limited, and it
+/// returns the best by clearance, then by bends. Random figures end between 0.57 and 0.62.
 const FOLD: f64 = 0.5;
 
-/// The paper's bars of figure 7c: JB1 with a figure of thin, thick and open places, before GB2.
+/// The bars of the paper's figure 7c: JB1, with a figure of thin, thick and open places, in front
+/// of GB2.
 fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> WarpKnitted {
     let palette = vec![vec![[0, 0], [0, 0]], vec![[0, 0], [1, 1]], vec![[1, 1], [0, 0]]];
     let bar = |chain| Bar::new(Chain::parse(chain, 1).expect("a chain"));
@@ -36,11 +37,12 @@ fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> W
     WarpKnitted::new(bars, gauge, wales, courses, yarns, materials, sections, [1, 1]).expect("a cloth")
 }
 
-/// Every colour beside every two others in one row, then rows alike and unlike: what a figure's
-/// edges are made of.
+/// Every edge that a figure can have: each colour beside every two others in one row, and then
+/// equal and unequal rows.
 #[test]
 fn every_colour_rests_between_all_others() {
-    // Every run of three colours is in it once (de Bruijn, 1946), the last going on into the first.
+    // The sequence has every run of three colours once (de Bruijn, 1946). Its end goes on into its
+    // beginning.
     let colours = b"000100201101202102211121222";
     let row = |wale: u32| colours[wale as usize % colours.len()] - b'0';
     let size = [colours.len() as u32, 3];
@@ -50,19 +52,18 @@ fn every_colour_rests_between_all_others() {
     }
 }
 
-/// The least clearance of all the cloth at rest, with its cut edges.
+/// The least clearance of the whole cloth at rest, with its cut edges.
 fn clear(cloth: &WarpKnitted) -> f64 {
     let device = ParallelBackend::open().expect("the CPU");
     let settled = cloth.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(()));
     settled.expect("a settling").clearance.min
 }
 
-/// Thick places in every second column: neighbours share needles all the way up to the cut edge,
-/// where they once met.
+/// Thick places in every second column. Neighbours share needles up to the cut edge, where they
+/// must not touch.
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
-    // Of 100 figures drawn at random the one whose legs bend most unlike one another above the
-    // cloth.
+    // The one of 100 random figures whose legs differ most in their bends above the cloth.
     let random = [1_u8, 1, 2, 1, 0, 0, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 2, 2];
     for (size, figure) in [([12, 8], "bars"), ([6, 5], "checks"), ([8, 6], "figure"), ([6, 3], "random")] {
         let colour = |wale: u32, row: u32| match figure {
@@ -78,7 +79,7 @@ fn figures_are_as_clear_where_they_are_cut_off() {
     }
 }
 
-/// And its loops are drawn through those below from the start; its cut edges are clear, too.
+/// Its loops are drawn through those below from the start, and its cut edges are clear.
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);

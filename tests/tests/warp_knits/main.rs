@@ -1,5 +1,5 @@
-//! Warp knits: every loop is drawn through those below it, and how they settle, by checks that
-//! share no code with texere's crates.
+//! Warp knits: every loop is drawn through those below it, and cloth settles. The checks share no
+//! code with texere's crates.
 
 mod jacquard;
 mod topology;
@@ -13,7 +13,7 @@ use texere_fabric::warp::{Bar, Chain, WarpKnitted};
 use texere_fabric::weft::{Gauge, KnitYarn};
 use texere_fabric::{Finish, settle};
 
-/// A lapping by its bars, and the diameters for which it settles, in wales.
+/// A lapping as its bars, and the diameters with which it settles, in wales.
 struct Design {
     name: &'static str,
     bars: &'static [&'static str],
@@ -42,12 +42,12 @@ impl Design {
     }
 }
 
-/// The radius of curvature that settling aims at where it still has passes, in diameters: it goes
-/// on up to 0.594, and of all that it saw takes the best up to 0.585; the rest is what this check
-/// measures otherwise. The lappings here get there.
+/// The least radius of curvature in diameters. Settling goes on up to 0.594 while it has passes,
+/// and of all results takes the best up to 0.585. The rest is for differences of measurement. These
+/// lappings reach it.
 const AIM: f64 = 0.58;
 
-/// Four wales and four courses of yarns of that diameter, wales 1 mm apart.
+/// Four wales and four courses of yarns of this diameter, with wales 1 mm apart.
 fn cloth(bars: Vec<Bar>, diameter: f64) -> WarpKnitted {
     let yarns = vec![KnitYarn::new(diameter as f32 / 2.0)];
     let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
@@ -69,7 +69,7 @@ fn all() -> impl Iterator<Item = (&'static Design, f64)> {
     DESIGNS.iter().flat_map(|design| design.diameters.iter().map(move |size| (design, *size)))
 }
 
-/// Yarns that are cut off at the upper and lower edge lack what bends them in the repeat.
+/// Yarns that are cut at the upper and the lower edge lack the points that bend them in the repeat.
 #[test]
 fn cut_edges_are_as_clear_as_the_repeat() {
     let device = ParallelBackend::open().expect("the CPU");
@@ -88,20 +88,20 @@ fn a_dropped_stitch_is_seen() {
     let piece = cloth.piece().expect("a piece");
     let mut yarns = piece.yarns.clone();
     let mut moved = yarns.yarn_points(1).expect("a yarn").to_vec();
-    // The first loop's shoulders and head, in front of the legs of the loop above.
+    // Shoulders and head of the first loop come in front of the legs of the loop above.
     moved[3..=5].iter_mut().for_each(|point| point.z = 0.4);
     yarns.set_points(1, &moved).expect("points");
     assert!(!topology::faults(&cloth, &piece, &yarns).is_empty());
 }
 
-/// Settles a cloth, and says what is wrong with its rest, if anything is: in diameters, its bends
-/// shall have this radius at least.
+/// Settles a cloth. Returns its faults at rest, if it has any. Its bends need this radius at least,
+/// in diameters.
 fn fault(name: &str, cloth: &WarpKnitted, diameter: f64, bend: f64) -> Option<String> {
     rest(name, cloth, diameter, bend, None).err()
 }
 
-/// Settles a cloth, between plates so many diameters apart where they press, and gives its
-/// thickness in diameters; or says what is wrong with its rest.
+/// Settles a cloth, if wanted between plates at this distance in diameters. Returns its thickness
+/// in diameters, or its faults at rest.
 fn rest(
     name: &str,
     cloth: &WarpKnitted,
@@ -128,8 +128,8 @@ fn rest(
         settled.rest.passes
     );
     let rests = report.clearance >= 0.98 && report.bend >= bend && report.growth.abs() < 0.02;
-    // Whether surfaces as drawn fold, by the limit of the verdict. The verdict as a whole is of cut
-    // edges, too.
+    // Whether surfaces as drawn fold, by the limit of the verdict. The whole verdict also depends
+    // on cut edges.
     let folds = settled.clearance.curvature_min < 1.0;
     let sound = rests && !folds && linked < CROSSED && settled.is_linked();
     if sound {
@@ -147,7 +147,7 @@ fn warp_knits_come_to_rest() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Plates press the underlaps of locknit into the cloth, which then is half as thick.
+/// Plates press the underlaps of locknit into the cloth, which becomes half as thick.
 #[test]
 fn plates_press_locknit_flat() {
     let locknit = DESIGNS.iter().find(|design| design.name == "locknit").expect("locknit");

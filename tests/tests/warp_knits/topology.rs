@@ -1,4 +1,4 @@
-//! Which loops are drawn through which: how often a yarn goes through the surface that a loop
+//! Topology of warp knits: the number of times that a yarn goes through the surface that a loop
 //! spans.
 
 use glam::DVec3;
@@ -7,7 +7,7 @@ use texere_core::Yarns;
 use texere_fabric::Piece;
 use texere_fabric::warp::WarpKnitted;
 
-/// Chords of an interval of a spline.
+/// Number of chords per interval of a spline.
 const PARTS: usize = 6;
 
 /// Control points of a loop, from foot to foot.
@@ -20,8 +20,9 @@ struct Loop {
     curve: Vec<DVec3>,
 }
 
-/// What is not as bars say: none if both legs of each loop go through all loops on its needle a
-/// course below, and through no others. `piece` is the whole of `cloth`, and `yarns` are its own.
+/// Differences from the bars' laps. There are none if both legs of each loop go through all loops
+/// on its needle in the course below, and through no others. `piece` is the whole of `cloth`, and
+/// `yarns` are its yarns.
 pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<String> {
     let [wales, courses] = cloth.size().map(|count| count as i32);
     let gauge = cloth.gauge();
@@ -46,8 +47,8 @@ pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<S
                 let through = [&above.curve[..=head], &above.curve[head..]].map(|leg| span.through(leg));
                 let sound = match apart {
                     [0, 1] => through[0].abs() == 1 && through[1] == -through[0],
-                    // Whether the head of what is drawn through lies in front of the surface or
-                    // behind is a matter of how that is drawn.
+                    // The head of the loop below may lie in front of the surface or behind it,
+                    // depending on how the surface is drawn.
                     [0, -1] => through[0] == -through[1],
                     _ => through == [0, 0],
                 };
@@ -63,7 +64,7 @@ pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<S
     faults
 }
 
-/// All loops: those that a guide makes in one course come one after another, with or without an
+/// All loops. Loops that a guide makes in one course follow one another, with or without an
 /// underlap between them.
 fn loops(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<Loop> {
     let sources = yarns.sources().expect("sources");
@@ -77,7 +78,7 @@ fn loops(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<Loop> {
         for laid in laps {
             let first = own.iter().position(|source| *source == laid.course + 1).expect("a lap");
             let needles: Vec<_> = laid.lap.needles().collect();
-            // From one loop of a lap to the next the yarn goes as in an underlap.
+            // The yarn goes from one loop of a lap to the next as in an underlap.
             let next = if needles.len() == 2 { second(&curve, first + LOOP) } else { first };
             for (needle, point) in needles.into_iter().zip([first, next]) {
                 let curve = curve[point * PARTS..=(point + LOOP - 1) * PARTS].to_vec();
@@ -88,8 +89,8 @@ fn loops(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<Loop> {
     loops
 }
 
-/// The first control point of the second loop of a lap: after the `end` of the first one it is the
-/// first that lies below its neighbours.
+/// The first control point of the second loop of a lap: the first point after the `end` of the
+/// first loop that lies below its neighbours.
 fn second(curve: &[DVec3], end: usize) -> usize {
     let y = |point: usize| curve[point * PARTS].y;
     (end..).find(|&point| y(point) < y(point - 1) && y(point) < y(point + 1)).expect("a second loop")

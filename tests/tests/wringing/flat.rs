@@ -1,5 +1,5 @@
-//! Flattened yarns that run up and down: their outlines turn no more from ring to ring than round
-//! yarns do.
+//! Flattened yarns that run up and down: their outlines turn from ring to ring no more than those
+//! of round yarns.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ use texere_cpu::ParallelBackend;
 use super::check;
 use super::judge::drawn;
 
-/// How many times as wide as high flattened yarns are here.
+/// Width over height of the flattened yarns in this file.
 const FLATNESS: f32 = 2.0;
 
 fn flattened(point: &ControlPoint, flatness: f32) -> ControlPoint {
@@ -21,13 +21,13 @@ fn flattened(point: &ControlPoint, flatness: f32) -> ControlPoint {
     point.flattened(radius * flatness.sqrt(), radius / flatness.sqrt())
 }
 
-/// The same yarns, flattened.
+/// `yarns`, flattened.
 fn flat(yarns: &Yarns, flatness: f32) -> Yarns {
     let points = yarns.points().iter().map(|point| flattened(point, flatness)).collect();
     Yarns::new(yarns.layout().as_ref().clone(), yarns.materials().to_vec(), points).unwrap()
 }
 
-/// A lens through `places`, of this radius before it is flattened, mm.
+/// A yarn with a lens as section through `places`, of this radius in mm before it is flattened.
 fn ribbon(places: &[DVec3], closed: bool, radius: f32) -> Yarns {
     let points: Vec<_> = places
         .iter()
@@ -42,8 +42,8 @@ fn ribbon(places: &[DVec3], closed: bool, radius: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Points of `curve` from 0 to 1, so many that it bends by `bend` at most from chord to chord,
-/// radians; the last one is left out of a closed one.
+/// Points of `curve` from 0 to 1, enough that it bends by at most `bend` radians from chord to
+/// chord. A closed curve lacks the last point.
 fn sampled(curve: impl Fn(f64) -> DVec3, closed: bool, bend: f64) -> Vec<DVec3> {
     let mut count = 8;
     loop {
@@ -57,12 +57,12 @@ fn sampled(curve: impl Fn(f64) -> DVec3, closed: bool, bend: f64) -> Vec<DVec3> 
     }
 }
 
-/// Goes down through the cloth and comes up again, in round bends; leans a little to one side and
-/// to the other, so that its tangent passes z on either side and exactly through it, and overhangs
-/// by `over`, radians.
+/// A binder that goes down through the cloth and comes up again, in round bends. It leans a little
+/// to either side, so that its tangent passes z on both sides and exactly through it. It overhangs
+/// by `over` radians.
 fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     let way = |t: f64| {
-        // The slope swings between straight up and straight down, and a little further.
+        // The slope swings from straight up to straight down, and a little further.
         let slope = (PI / 2.0 + over) * (TAU * t).sin().clamp(-0.9, 0.9) / 0.9;
         DVec3::new(slope.cos(), lean * (3.0 * TAU * t).sin(), slope.sin())
     };
@@ -78,8 +78,8 @@ fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     places.into_iter().step_by(50).collect()
 }
 
-/// Checks a mesh of `yarns`, and that nothing in it is inside out. With three sides, or one ring a
-/// control point, a lens that turns is so coarse that its triangles may face anywhere.
+/// Checks a mesh of `yarns`, and that no part of it is inside out. With three sides, or with one
+/// ring per control point, a turning lens is so coarse that its triangles may face anywhere.
 fn check_flat(name: &str, yarns: &Yarns) {
     check(name, yarns);
     let device = ParallelBackend::open().unwrap();
@@ -100,7 +100,7 @@ fn flat_binders_are_no_strings_of_beads() {
     }
 }
 
-/// A guide that laps to and fro round needles: a helix whose turns swing sideways.
+/// The path of a guide that laps to and fro: a helix whose turns swing sideways.
 #[test]
 fn flat_yarns_lap_without_wringing() {
     for (swing, per_turn) in [(0.0, 12), (0.6, 16), (1.5, 24)] {
@@ -126,7 +126,7 @@ fn every_design_is_drawn_without_wringing_when_its_yarns_are_flat() {
     }
 }
 
-/// Rings that stand on end, of any number of points, and a ribbon that goes straight up.
+/// Upright rings with any number of points, and a ribbon that goes straight up.
 #[test]
 fn flat_rings_on_end_are_not_wrung() {
     for count in [12, 13, 24, 40] {
@@ -143,10 +143,10 @@ fn flat_rings_on_end_are_not_wrung() {
     check_flat("straight up", &ribbon(&up, false, 0.1));
 }
 
-/// Where the upright frame turns slowly, a flat yarn stands by it, whatever it does elsewhere.
+/// A flat yarn follows the upright frame where that turns slowly, whatever it does elsewhere.
 #[test]
 fn a_flat_yarn_stands_upright_where_it_lies_flat() {
-    // Along x, down, along x, up and along x again.
+    // The yarn runs along x, down, along x, up and along x again.
     let corners = [
         [0.0, 0.0, 0.0],
         [8.0, 0.0, 0.0],
@@ -168,7 +168,7 @@ fn a_flat_yarn_stands_upright_where_it_lies_flat() {
         let (before, after) = (places[number - 1], places[(number + 3).min(places.len() - 1)]);
         if (after - before).normalize().z.abs() < 0.05 && tangent.z.abs() < 0.05 {
             let own = Basis::upright(tangent.as_vec3()).up;
-            // An outline that is turned over is the same.
+            // An outline that is turned over equals itself.
             assert!(own.dot(*up).abs() > 0.999, "point {number}: {up} for {own}");
             upright += 1;
         }
@@ -177,7 +177,7 @@ fn a_flat_yarn_stands_upright_where_it_lies_flat() {
     assert!(ribbon.ups().is_none(), "nobody gave it any");
 }
 
-/// Woven cloth of flat threads keeps to the upright frame, bit for bit.
+/// Woven cloth of flat threads follows the upright frame to the bit.
 #[test]
 fn flat_threads_of_woven_cloth_have_no_ups() {
     let device = ParallelBackend::open().unwrap();

@@ -1,23 +1,23 @@
-//! How a made mesh turns from ring to ring, in f64 and from its vertices alone: nothing of texere's
-//! frames is used.
+//! The turn of a mesh from ring to ring, in f64 and from its vertices alone. It uses nothing of
+//! texere's frames.
 
 use glam::DVec3;
 use texere_core::{Backend, Pipeline, Settings, Topology, Yarns};
 
-/// Rings that lie no further apart than this share of the radius cut one another, or nearly: the
-/// yarn folds there.
+/// Rings that are closer than this share of the radius nearly cut one another: the yarn folds
+/// there.
 const CLEAR: f64 = 0.02;
 
-/// What a mesh comes to between neighbouring rings, at its worst.
+/// The worst values of a mesh between neighbouring rings.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drawn {
-    /// The most that a ring is turned against the one before carried to it, beyond the yarn's
+    /// The largest turn of a ring against the previous ring, carried to it, beyond the yarn's
     /// twist, degrees.
     pub(crate) turn: f64,
-    /// How far from the axis the tube lies at the least half way between two rings, over how far it
-    /// lies on the rings. Bends count as straightened, and yarns with twist do not count.
+    /// The least distance of the tube from the axis half way between two rings, over its distance
+    /// on the rings. Bends count as straightened. Twisted yarns do not count.
     pub(crate) width: f64,
-    /// Triangles that face the axis between rings that do not cut one another.
+    /// Number of triangles that face the axis, between rings that do not cut one another.
     pub(crate) inwards: usize,
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn drawn(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> 
     drawn
 }
 
-/// Carries what lies across a yarn from one ring to the next without turning it.
+/// Carries a vector across a yarn from one ring to the next, without turning it.
 ///
 /// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008, table I.
 fn carrier(tangent: DVec3, next: DVec3, chord: DVec3) -> impl Fn(DVec3) -> DVec3 {
@@ -88,7 +88,7 @@ fn carrier(tangent: DVec3, next: DVec3, chord: DVec3) -> impl Fn(DVec3) -> DVec3
     let second = next - mirrored(tangent, first);
     move |v| {
         let reflected = mirrored(v, first);
-        // Where a yarn turns straight back there is nothing left to mirror.
+        // Where a yarn turns straight back, the second reflection is not defined.
         if second.length_squared() > 1e-6 { mirrored(reflected, second) } else { reflected }
     }
 }

@@ -1,5 +1,4 @@
-//! Tubes are not wrung: no ring of any yarn is turned against the one before by more than its twist
-//! asks.
+//! Tubes are not wrung: no ring is turned against the previous one by more than the yarn's twist.
 
 mod flat;
 mod judge;
@@ -12,10 +11,10 @@ use texere_conformance::cases::small_designs;
 use texere_core::{ControlPoint, Frame, Settings, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
-/// By how much a ring may be turned against the one before, degrees.
+/// The largest turn of a ring against the previous one, degrees.
 const TURN: f64 = 30.0;
 
-/// How wide a tube is half way between two rings that are turned by so much.
+/// Width of a tube half way between two rings that are turned by this angle.
 const WIDTH: f64 = 0.965_925;
 
 const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
@@ -23,8 +22,8 @@ const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
 /// Few rings with few sides, and many.
 const DRAWN: [(u32, u32); 5] = [(0, 6), (1, 6), (1, 3), (3, 8), (7, 13)];
 
-/// Checks a mesh of `yarns` with either frame, and gives back how many triangles face inwards at
-/// the worst.
+/// Checks a mesh of `yarns` with either frame. Returns the larger number of triangles that face
+/// inwards.
 fn check(name: &str, yarns: &Yarns) -> usize {
     let device = ParallelBackend::open().unwrap();
     let mut inwards = 0;
@@ -34,8 +33,8 @@ fn check(name: &str, yarns: &Yarns) -> usize {
             let drawn = drawn(&device, yarns, settings);
             let case = format!("{name}, {frame:?}, K {subdivisions}, {sides} sides: {drawn:?}");
             assert!(drawn.turn <= TURN, "{case}");
-            // Arms of a section that is carried along inside a flat outline get longer and shorter,
-            // too.
+            // Arms of a section become longer and shorter as it is carried along inside a flat
+            // outline.
             let layout = yarns.layout();
             let carried = (0..layout.yarns().len())
                 .any(|yarn| frame.of(layout.is_steep(yarn)) == Frame::RotationMinimizing);
@@ -47,7 +46,7 @@ fn check(name: &str, yarns: &Yarns) -> usize {
     inwards
 }
 
-/// An open yarn of radius 0.1 mm through `places`, and a closed one where they go round.
+/// A yarn of radius 0.1 mm through `places`, closed where these go round.
 fn yarn(places: &[[f64; 3]], closed: bool) -> Yarns {
     let points: Vec<_> = places
         .iter()
@@ -68,8 +67,8 @@ fn every_design_is_drawn_without_wringing_in_either_frame() {
     }
 }
 
-/// A binder goes straight down through the cloth and comes up again. It leans a little to one side
-/// and to the other, so that its tangent passes z on either side, and exactly through it.
+/// A binder goes straight down through the cloth and comes up again. It leans a little to either
+/// side, so that its tangent passes z on both sides, and exactly through it.
 #[test]
 fn a_binder_that_goes_through_the_cloth_is_no_string_of_beads() {
     for lean in [0.0, 1e-7, 1e-3, 0.05, -0.2] {
@@ -102,7 +101,7 @@ fn hairpins_through_the_vertical_are_not_wrung() {
     }
 }
 
-/// A ring that stands on end passes z twice. Its frame comes round to itself.
+/// The tangent of an upright ring passes z twice. The frame comes back to itself.
 #[test]
 fn closed_yarns_that_stand_on_end_are_not_wrung() {
     for aside in [0.0, 1e-6, 0.1] {

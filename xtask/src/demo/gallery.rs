@@ -3,13 +3,13 @@
 use super::{render, vulkan};
 use crate::steps::Steps;
 
-/// A view: its name in that of the picture, and its options.
+/// A view: its name in the picture's file name, and its options.
 type View = (&'static str, &'static [&'static str]);
 
 /// Where the pictures go, from the repository's root.
 const FOLDER: &str = "docs/gallery";
 
-/// The designs, each with the views of it, beside face and back: name and options.
+/// The designs, each with its views beside face and back.
 const DESIGNS: [(&str, &[View]); 34] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
     ("poplin.toml", &[CLOSE_UP]),
@@ -72,7 +72,7 @@ pub(crate) fn gallery(steps: &mut Steps) {
     }
     for name in PAPER {
         let (path, picture) = (format!("designs/paper/{name}.toml"), format!("{FOLDER}/paper-{name}.png"));
-        // Its threads are as narrow as pixels: more samples against moiré.
+        // Threads are as narrow as pixels, so more samples are taken against moiré.
         let options = ["--size", "640x480", "--supersampling", "4"];
         let args = [&["texere", "render", &path, "-o", &picture], &options[..]].concat();
         steps.cargo(&picture, &args, &[]);

@@ -1,4 +1,4 @@
-//! `cargo xtask demo` and `cargo xtask gallery`: pictures of what the repository holds.
+//! `cargo xtask demo` and `cargo xtask gallery`: pictures of the repository's designs.
 
 mod gallery;
 pub(crate) mod vulkan;
@@ -23,7 +23,7 @@ pub(crate) fn demo(steps: &mut Steps) {
 fn render(steps: &mut Steps, name: &str, args: &[&str]) {
     let smooth: &[&str] =
         if args.contains(&"--sides") { &[] } else { &["--sides", "12", "--subdivisions", "4"] };
-    // Without the window, which takes as long to build as all the rest.
+    // Without the window, which takes as long to build as everything else.
     let program = ["run", "--quiet", "--release", "--package", "texere-cli", "--no-default-features", "--"];
     steps.cargo(name, &[&program, &["render"][..], args, smooth].concat(), &[]);
 }

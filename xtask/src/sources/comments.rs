@@ -1,4 +1,4 @@
-//! Comments that are too wide to be read line by line.
+//! Comments that are too wide.
 
 use super::files::Source;
 
@@ -6,7 +6,7 @@ use super::files::Source;
 const COLUMNS_MOST: usize = 100;
 
 /// All lines with a comment that are wider, with their columns. Addresses, rows of tables and code
-/// in docs may be.
+/// in docs may be wider.
 pub(crate) fn find(files: &[Source]) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
@@ -15,7 +15,7 @@ pub(crate) fn find(files: &[Source]) -> Vec<String> {
         let mut last = 0;
         for (number, comment) in comments(&file.text) {
             let said = comment.trim_start_matches(['/', '!', '*', ' ']);
-            // A fence that nothing ends is at its end where its comment is.
+            // A fence without an end ends with its comment.
             in_code &= number <= last + 1;
             last = number;
             if said.starts_with("```") {
@@ -31,7 +31,7 @@ pub(crate) fn find(files: &[Source]) -> Vec<String> {
     found
 }
 
-/// What each line has of a comment, with the line's number from 0.
+/// The comment of each line, with the line's number from 0.
 fn comments(text: &str) -> Vec<(usize, &str)> {
     let mut found = Vec::new();
     let (mut at, mut line) = (0, 0);
@@ -55,7 +55,7 @@ fn comments(text: &str) -> Vec<(usize, &str)> {
     found
 }
 
-/// Bytes of the block comment that `text` begins with; others may lie in it.
+/// Bytes of the block comment that `text` begins with, nested comments included.
 fn block(text: &str) -> usize {
     let (mut depth, mut at) = (0_usize, 0);
     while at < text.len() {
@@ -91,8 +91,8 @@ fn literal(text: &str, before: Option<char>) -> usize {
     if text.starts_with('"') {
         return quoted(text, '"');
     }
-    // A quote that no other follows after one character, or a few behind a backslash, begins a
-    // lifetime.
+    // A quote begins a lifetime unless another quote follows after one character, or after a few
+    // behind a backslash.
     let mut after = text.chars().skip(1);
     match (text.starts_with('\''), after.next(), after.next()) {
         (true, Some('\\'), _) | (true, Some(_), Some('\'')) => quoted(text, '\''),
@@ -100,7 +100,7 @@ fn literal(text: &str, before: Option<char>) -> usize {
     }
 }
 
-/// Bytes up to the second `quote` that no backslash stands before.
+/// Bytes up to the second `quote`, without those behind a backslash.
 fn quoted(text: &str, quote: char) -> usize {
     let mut escaped = false;
     for (at, character) in text.char_indices().skip(1) {

@@ -19,7 +19,7 @@ impl Source {
         self.path.extension() == Some(OsStr::new("rs"))
     }
 
-    /// Whether all of it is a test: it lies in a folder `tests`, or is called so.
+    /// Whether the whole file is a test.
     pub(crate) fn is_test(&self) -> bool {
         is_test(&self.path)
     }
@@ -48,7 +48,7 @@ pub(crate) fn all() -> Result<Vec<Source>, String> {
             let (path, name) = (entry.path(), entry.file_name());
             let name = name.to_string_lossy();
             if entry.file_type().map_err(named)?.is_dir() {
-                // What tools keep, what is built and what is drawn.
+                // Folders of tools, builds and pictures.
                 let apart = name.starts_with('.') || ["target", "out"].contains(&&*name);
                 folders.extend((!apart).then_some(path));
             } else if ["rs", "cl", "wgsl"].iter().any(|kind| path.extension() == Some(OsStr::new(kind))) {

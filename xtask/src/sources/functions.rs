@@ -1,4 +1,4 @@
-//! Functions that are too long to be read at once.
+//! Functions that are too long.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(crate) fn find(files: &[Source]) -> Vec<String> {
     long.found
 }
 
-/// Whether an item is there in tests alone.
+/// Whether an item is compiled only for tests.
 pub(crate) fn is_test(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         let is_cfg_test = || attribute.parse_args::<syn::Path>().is_ok_and(|path| path.is_ident("test"));

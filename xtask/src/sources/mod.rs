@@ -1,4 +1,4 @@
-//! `cargo xtask sources`: what the sources keep to beyond what the compiler and clippy see.
+//! `cargo xtask sources`: rules of the sources that the compiler and clippy don't check.
 
 mod circles;
 mod comments;

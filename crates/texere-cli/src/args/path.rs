@@ -1,4 +1,4 @@
-//! Paths, with the endings that they must have.
+//! Paths with their required endings.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use texere::write::Format;
 
-/// Whether a path is that of saved yarns.
+/// Whether a path names a file of saved yarns.
 pub(crate) fn is_yarns(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns"))
 }

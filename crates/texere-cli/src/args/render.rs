@@ -29,8 +29,8 @@ pub(crate) struct RenderArgs {
     /// What a close-up or a cut shows, mm across; if left out, forty times a yarn's radius
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) width: Option<f32>,
-    /// Show face or back at true scale, so many millimetres to a pixel, in a picture as large as
-    /// that takes
+    /// Show face or back at true scale, with this many millimetres to a pixel; the picture is as
+    /// large as the cloth needs
     #[arg(long, value_name = "MM", conflicts_with = "size", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) mm_per_pixel: Option<f32>,
     /// Pictures of a turntable
@@ -46,7 +46,7 @@ pub(crate) struct RenderArgs {
     /// The device that draws: auto, wgpu, wgpu:1, wgpu:nvidia
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
-    /// Make everything anew so many times, to see how long it takes on a device that is warm
+    /// Do everything N times, to see how long it takes on a warm device
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) repeat: u32,
     #[command(flatten)]

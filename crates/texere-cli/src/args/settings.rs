@@ -24,12 +24,12 @@ pub(crate) struct SettingsArgs {
     /// power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
-    /// Which way round sections stand along the yarn: upright, or carried along without turning;
-    /// yarns too steep to stand upright, as those of knits are, are carried along in either case
+    /// How sections stand along the yarn: upright, or carried along without turning. Yarns too
+    /// steep to stand upright, such as loops of knits, are carried along in either case
     #[arg(long, value_enum, default_value_t = FrameArg::Upright)]
     frame: FrameArg,
-    /// How triangles are encoded in memory, which decides the bytes that `inspect` states; files
-    /// hold the same triangles whichever
+    /// How triangles are encoded in memory, which decides the bytes that `inspect` prints. Files
+    /// hold the same triangles for each
     #[arg(long, value_enum, default_value_t = TopologyArg::Indexed)]
     topology: TopologyArg,
     /// Close the ends of yarns; pictures always do
@@ -56,7 +56,7 @@ impl SettingsArgs {
         self.tension.unwrap_or(0.0)
     }
 
-    /// The settings before anything is known of the yarns.
+    /// The settings before the yarns are known.
     pub(crate) fn settings(&self) -> Settings {
         Settings {
             subdivisions: self.subdivisions.unwrap_or(Settings::default().subdivisions),
@@ -71,7 +71,7 @@ impl SettingsArgs {
                 TopologyArg::None => Topology::None,
             },
             caps: self.caps,
-            // No file has packed vertices.
+            // Files have no packed vertices.
             ..Settings::default()
         }
     }

@@ -1,4 +1,4 @@
-//! The command line's part in whether yarns settle.
+//! Options that decide whether yarns settle.
 
 use std::path::PathBuf;
 
@@ -17,11 +17,11 @@ pub(crate) struct SettlingArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RestArgs {
-    /// Let yarns come to rest first, whatever the design says: they move until they nowhere pierce
-    /// one another or fold
+    /// Let yarns come to rest first, whatever the design says: they move until none pierces another
+    /// or folds
     #[arg(long, conflicts_with = "no_settle")]
     settle: bool,
-    /// Leave yarns as the structure puts them, whatever the design says
+    /// Leave yarns as the structure places them, whatever the design says
     #[arg(long)]
     no_settle: bool,
 }

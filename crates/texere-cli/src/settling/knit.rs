@@ -1,4 +1,4 @@
-//! What is said of a knit whose yarns have settled.
+//! The report of a knit whose yarns have settled.
 
 use std::fmt;
 
@@ -27,15 +27,15 @@ pub(crate) struct KnitRestReport {
     pub(super) clearance: f64,
     /// The least radius of curvature.
     radius_diameters: f32,
-    /// By how much a part of a yarn is off the length that it is to have at most, as a share; null
-    /// where lengths are free.
+    /// The most by which the length of a part of a yarn differs from the length that it is to have,
+    /// as a share; null where lengths are free.
     length_off: Option<f32>,
     /// How thick it was to be pressed, and how thick it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     press: Option<PressReport>,
     /// Whether no yarn has passed through another.
     linked: bool,
-    /// The worst place where one has: then yarns are as they were before.
+    /// The worst place where one has; the yarns are then as they were before.
     passage: Option<PassageReport>,
 }
 

@@ -1,4 +1,4 @@
-//! Yarns that settle before they are measured, drawn or written, and what is said of that.
+//! Yarns that settle before they are measured, drawn or written, and the report of it.
 
 mod knit;
 mod plot;
@@ -33,8 +33,8 @@ pub(crate) enum SettlingReport {
     },
 }
 
-/// The cloth of a design, and what is said of how its yarns came to rest where it or the command
-/// line asks for that. They rest on the device that `open` gives, with splines of `tension`.
+/// The cloth of a design. If the design or the command line lets its yarns come to rest, they do so
+/// on the device that `open` gives, with splines of `tension`, and there is a report.
 pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     mut design: Design,
     args: &SettlingArgs,
@@ -65,7 +65,7 @@ pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
 }
 
 impl SettlingReport {
-    /// None of yarns that were only placed.
+    /// None for yarns that were only placed.
     fn new(cloth: &Cloth, device: &str) -> Option<Self> {
         match cloth.report() {
             RestReport::Finished(Finished::Knit(settled)) => {
@@ -79,13 +79,13 @@ impl SettlingReport {
         }
     }
 
-    /// Whether yarns are no longer as the structure puts them.
+    /// Whether yarns are no longer as the structure places them.
     pub(crate) const fn has_moved(&self) -> bool {
         !matches!(self, Self::Refused { .. })
     }
 
-    /// Takes over what was measured of all the cloth afterwards, so that one figure is said of it:
-    /// settling looks at one repeat of woven cloth alone, and no further than yarns that touch.
+    /// Takes over the clearance of the whole cloth, measured afterwards, so that a report has one
+    /// figure. Settling itself measures only one repeat of woven cloth, and only yarns that touch.
     pub(crate) const fn measured(&mut self, clearance: &ClothClearance) {
         match self {
             Self::Knit(report) => report.clearance = least(clearance),
@@ -94,7 +94,7 @@ impl SettlingReport {
         }
     }
 
-    /// That a press was not reached, if so.
+    /// A warning if the press was not reached.
     pub(crate) fn press_missed(&self) -> Option<String> {
         match self {
             Self::Knit(report) => report.press_missed.clone(),

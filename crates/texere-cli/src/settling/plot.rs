@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use texere::backend::settling::{Form, Pass, SettlingSeen};
 
-/// The picture's size, and where in it the plot's edges lie, pixels.
+/// The picture's size and the plot's edges in it, pixels.
 const SIZE: [f64; 2] = [960.0, 540.0];
 const LEFT: f64 = 60.0;
 const RIGHT: f64 = 690.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = 490.0;
 
-/// What is drawn of each pass: its name, its colour (Okabe and Ito 2008), and its value.
+/// A line of the plot: its name, its colour (Okabe and Ito 2008), and its value for a pass.
 type Line = (&'static str, &'static str, fn(&SettlingSeen) -> f32);
 
 const LINES: [Line; 4] = [

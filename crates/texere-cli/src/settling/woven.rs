@@ -1,9 +1,10 @@
-//! What is said of woven cloth that has come to rest by its crossings.
+//! The report of woven cloth that has come to rest by its crossings.
 
 use std::fmt;
 
 use serde::Serialize;
 use texere::rest::{Verdict, WovenRest};
+use texere::woven::{BySet, Set};
 
 use crate::clearance::as_near_as_looked;
 use crate::measures::Sets;
@@ -16,10 +17,10 @@ pub(crate) struct WovenRestReport {
     #[serde(skip)]
     verdict: Verdict,
     passes: u32,
-    /// Ends and picks of what has settled.
+    /// Ends and picks of the repeat that has settled.
     repeat: Sets<usize>,
-    /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked
-    /// it, and after.
+    /// The least clearance of surfaces as drawn, before and after threads were made thinner where
+    /// they lacked it.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance_before: f64,
     #[serde(serialize_with = "as_near_as_looked")]
@@ -35,15 +36,16 @@ pub(crate) struct WovenRestReport {
 struct AreaReport {
     mean: f64,
     least: f64,
-    /// What was lost for the sake of clearance, in the mean.
+    /// The mean share that was lost to clearance.
     lost: f64,
 }
 
 impl WovenRestReport {
     pub(super) fn new(rest: &WovenRest, device: &str) -> Self {
-        let area = [0, 1].map(|set| {
-            let [mean, least] = rest.area[set];
-            AreaReport { mean, least, lost: rest.area_lost[set] }
+        let area = BySet { warp: Set::Warp, weft: Set::Weft }.map(|set| AreaReport {
+            mean: rest.area[set],
+            least: rest.area_least[set],
+            lost: rest.area_lost[set],
         });
         Self {
             device: device.to_owned(),

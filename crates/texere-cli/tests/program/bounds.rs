@@ -1,4 +1,4 @@
-//! Small designs that ask for more than any cloth has: refused by name, in little memory.
+//! Small designs that ask for more than any cloth has are refused by name, in little memory.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -11,12 +11,12 @@ use crate::{stderr, texere};
 pub(crate) const UNDERLAPS: &str = "[warp_knit]\nwales = 4\ncourses = 4\nwales_per_cm = 10\ncourses_per_cm = 13\n\
                                     [[warp_knit.bars]]\nlapping = \"0-1/511-512//\"\n[yarns.a]\ndiameter_mm = 0.1\n";
 
-/// What the program says of a design with so many kB of memory.
+/// The output for a design with this many kB of memory.
 fn within(kilobytes: u32, command: &str, design: &str) -> Output {
     within_in(tempfile::tempdir().unwrap().path(), kilobytes, command, design)
 }
 
-/// The same of a design in a folder that has what it names.
+/// The output for a design in a folder with the files that it names.
 fn within_in(folder: &Path, kilobytes: u32, command: &str, design: &str) -> Output {
     let path = folder.join("design.toml");
     fs::write(&path, design).unwrap();
@@ -29,7 +29,7 @@ fn within_in(folder: &Path, kilobytes: u32, command: &str, design: &str) -> Outp
         .unwrap()
 }
 
-/// A cable of so many loops over as many.
+/// A cable of `half` loops over `half`.
 fn cable(half: usize) -> String {
     let (plain, right, left) = ("k".repeat(2 * half), "R".repeat(half), "r".repeat(half));
     format!(
@@ -67,8 +67,8 @@ fn what_is_out_of_proportion_is_refused_in_little_memory() {
     }
 }
 
-/// Designs whose pictures have so many pixels a side, which are one black one in white: a Jacquard
-/// of either kind, and a chart.
+/// Designs with a picture of `side` pixels a side, white with one black pixel: a Jacquard of either
+/// kind, and a chart.
 fn pictured(side: usize) -> [String; 3] {
     let sett = "wales_per_cm = 9\ncourses_per_cm = 13\n";
     let yarns = "[yarns.a]\ndiameter_mm = 0.1\n[yarns.b]\ndiameter_mm = 0.1\n";
@@ -85,7 +85,7 @@ fn pictured(side: usize) -> [String; 3] {
     [knit("a", "b", ""), knit("p", "k", "yarns = [\"a\"]\n"), warp]
 }
 
-/// A folder with a picture of so many pixels a side, a black one in white.
+/// A folder with a picture of `side` pixels a side, white with one black pixel.
 fn picture(side: usize) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mut pixels = vec![255; 3 * side * side];
@@ -107,7 +107,7 @@ fn a_repeat_that_no_gigabyte_holds_is_refused_before_it_is_laid() {
             assert!(error.contains("design.toml, line ") && named, "{error}");
         }
     }
-    // Without any picture: guides that are threaded alike after 4,096, and a chain as long.
+    // Without any picture: a threading that repeats after 4,096 guides, and a chain as long.
     let chain = "1-0/1-2/".repeat(2048);
     let long = format!(
         "[warp_knit]\nwales = 4096\ncourses = 4096\nwales_per_cm = 9\ncourses_per_cm = 13\n[[warp_knit.bars]]\nlapping = \"{chain}/\"\n\
@@ -137,8 +137,8 @@ fn pictures_of_400_wales_and_courses_are_knitted() {
     }
 }
 
-/// A chart of one wale and 65,536 rows, by steps of memory: it is read, or the program says that
-/// memory is out.
+/// A chart of one wale and 65,536 rows with several sizes of memory: it is read, or the program
+/// reports that memory ran out.
 #[test]
 fn memory_that_is_refused_is_a_failure_of_the_machine() {
     let rows = "k\np\n".repeat(32_768);
@@ -171,7 +171,7 @@ fn help_that_can_t_be_written_is_a_failure() {
     }
 }
 
-/// A word of a file that is no knitting program may be a secret.
+/// A file that is no knitting program may hold a secret, which is not printed.
 #[test]
 fn a_file_that_is_no_program_is_not_quoted() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! `texere check`: what it finds, and that its cures are cures.
+//! `texere check`: its faults, and that its cures cure.
 
 use std::path::{Path, PathBuf};
 
@@ -60,20 +60,20 @@ fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
     assert_eq!((&report["jams"]["ends"], &report["jams"]["picks"]), (&Value::from(19), &Value::from(0)));
     let worst = &report["jams"]["threads"][0];
     assert_eq!((worst["thread"].as_str(), worst["pitch_mm"].as_f64()), (Some("end 2"), Some(0.4)));
-    // Peirce: √3 diameters of round threads alike.
+    // Peirce: √3 diameters of equal round threads.
     assert!((worst["pitch_min_mm"].as_f64().unwrap() - 0.3 * 3f64.sqrt()).abs() < 1e-6);
     assert!(
         report["pierces"]["min"].as_f64().unwrap() < 0.985 && report["folds"]["min"].as_f64().unwrap() < 1.0
     );
     assert!(report["pierces"]["worst"][0]["yarns"][0].as_str().unwrap().starts_with("end "));
 
-    // As it says: with that spacing the cloth is clean.
+    // With the spacing of the cure the cloth is clean.
     let spacing = cure(&report, "warp.spacing_mm, weft.spacing_mm").unwrap();
     let (ends, picks) = spacing["value"].as_str().unwrap().split_once(", ").unwrap();
     let wider = twill(folder.path(), "", ends.parse().unwrap(), picks.parse().unwrap());
     let (code, after) = check(&wider, &[]);
     assert_eq!(code, 0, "{after}");
-    // And what flattening leaves is what it says it leaves.
+    // Flattening leaves the faults that the cure lists.
     let flatten = cure(&report, "cloth.jam").unwrap();
     let (code, after) = check(&twill(folder.path(), "jam = \"flatten\"", 0.4, 0.66), &[]);
     assert!(after["jams"].is_null() && after["pierces"].is_null(), "{after}");
@@ -89,7 +89,7 @@ fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
     );
 }
 
-/// A 3/1 twill of yarns alike takes 1.5 diameters a thread: 0.45 mm. Ends of 0.4 mm are beyond that
+/// A 3/1 twill of equal yarns takes 1.5 diameters a thread: 0.45 mm. Ends 0.4 mm apart exceed that
 /// by an eighth.
 #[test]
 fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
@@ -106,7 +106,7 @@ fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
         text.contains(" or yarns 1.13 times as thin") && text.matches("beyond it").count() == 1,
         "{text}"
     );
-    // With that spacing it is within.
+    // With the printed spacing it is within the limit.
     let (_, told) = text.split_once("flatten: ").unwrap();
     let spacing = told.split(' ').next().unwrap().parse().unwrap();
     let text = beyond(&twill(folder.path(), "", spacing, 0.66));
@@ -118,7 +118,7 @@ fn how_exact_touching_is_can_be_said() {
     let folder = TempDir::new().unwrap();
     let path = twill(folder.path(), "shape = \"crossing\"", 0.9, 0.9);
     assert_eq!(check(&path, &[]).0, 0);
-    // One point a crossing is clear to 0.99, and no better.
+    // One point a crossing is clear to 0.99, not better.
     let (code, report) = check(&path, &["--accuracy", "0.001"]);
     assert_eq!(code, 4, "{report}");
     assert!(report["folds"].is_null() && report["jams"].is_null());
@@ -132,8 +132,8 @@ fn how_exact_touching_is_can_be_said() {
 #[test]
 fn the_papers_shape_is_cured_by_the_round_one() {
     let folder = TempDir::new().unwrap();
-    // Less than two diameters apart: corners are cut, threads that bend round one another just
-    // pass.
+    // Less than two diameters apart: with one point a crossing corners are cut, while round threads
+    // just pass.
     let path = twill(folder.path(), "shape = \"crossing\"", 0.59, 0.59);
     let (code, report) = check(&path, &[]);
     assert_eq!(code, 4);
@@ -143,7 +143,7 @@ fn the_papers_shape_is_cured_by_the_round_one() {
     assert!(after["jams"].is_null() && after["pierces"].is_null(), "{after}");
 }
 
-/// Plain cloth of yarns far thicker than they lie apart.
+/// Plain cloth of yarns far thicker than their spacing.
 fn thick(folder: &Path, [ends, picks]: [usize; 2], diameter: f64, spacing: f64) -> PathBuf {
     let path = folder.join("thick.toml");
     let text = format!(
@@ -170,13 +170,13 @@ fn yarns_thicker_than_several_pitches_are_named_and_cured_by_numbers() {
         let (set, _) = crowded["yarn"].as_str().unwrap().split_once(' ').unwrap();
         assert!(matches!(set, "end" | "pick"), "{crowded}");
 
-        // As it says: with yarns so thin the cloth is clean.
+        // With the diameter of the cure the cloth is clean.
         let thin = cure(&report, "diameter_mm of every yarn").unwrap_or_else(|| panic!("{report}"));
         assert!(thin["leaves"].is_null());
         let thin = thin["value"].as_str().unwrap().parse().unwrap();
         let (code, after) = check(&thick(folder.path(), size, thin, spacing), &[]);
         assert_eq!((code, &after["crowded"]), (0, &Value::Null), "{after}");
-        // Or so far apart, where a design may say so.
+        // Or with its spacing, if a design file allows it.
         if let Some(wide) = cure(&report, "warp.spacing_mm, weft.spacing_mm") {
             let (wide, _) = wide["value"].as_str().unwrap().split_once(", ").unwrap();
             let (code, after) = check(&thick(folder.path(), size, diameter, wide.parse().unwrap()), &[]);
@@ -231,9 +231,9 @@ fn knits_that_fall_apart_are_named_as_woven_cloth_is() {
     }
 }
 
-/// Rings follow even a hard twist, so that no tube is wrung: 2,000 turns a metre are four from pick
-/// to pick. 80,000 are half a turn from ring to ring in the finest mesh that twist leads to; that
-/// is told.
+/// Rings follow even a hard twist, so that no tube is wrung: 2,000 turns a metre are four turns
+/// from pick to pick. 80,000 are half a turn from ring to ring in the finest mesh, which is
+/// reported.
 #[test]
 fn a_mesh_that_twist_wrings_is_told() {
     let folder = TempDir::new().unwrap();
@@ -265,8 +265,8 @@ fn a_mesh_that_twist_wrings_is_told() {
     assert!(stdout(&said).contains("wrung") && stderr(&said).contains("is wrung"), "{}", stderr(&said));
 }
 
-/// Knits have tubes that are as wide between rings as on them, as they are drawn where nothing is
-/// said, and in either frame.
+/// Tubes of knits are as wide between rings as on them, with the default settings and in either
+/// frame.
 #[test]
 fn steep_yarns_are_not_wrung_and_equal_in_either_frame() {
     let folder = TempDir::new().unwrap();

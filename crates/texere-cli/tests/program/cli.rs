@@ -90,13 +90,13 @@ fn devices_are_listed_by_the_names_that_open_them() {
         all["found"].as_array().unwrap().iter().map(|device| device["name"].as_str().unwrap()).collect();
     assert!(names.ends_with(&["cpu", "cpu-serial"]), "{names:?}");
     assert!(names.contains(&all["auto"].as_str().unwrap()), "{all}");
-    // A family is either found or said to be missing, with a reason.
+    // A family is either found, or missing with a reason.
     for family in ["opencl", "wgpu"] {
         let found = names.iter().any(|name| name.starts_with(family));
         let missing = all["missing"].as_array().unwrap().iter().any(|each| each["family"] == family);
         assert!(found != missing, "{all}");
     }
-    // Pictures are drawn by a GPU's interface alone; all devices settle.
+    // Only GPU interfaces draw pictures; all devices settle.
     for device in all["found"].as_array().unwrap() {
         let (name, can) = (device["name"].as_str().unwrap(), &device["can"]);
         assert_eq!(can["draw"], name.starts_with("wgpu"), "{device}");
@@ -106,7 +106,7 @@ fn devices_are_listed_by_the_names_that_open_them() {
     assert!(names.iter().all(|name| text.contains(&format!("{name}: "))), "{text}");
 }
 
-/// The loaders hidden: what is left is listed, what was not found is said.
+/// With hidden loaders the remaining devices are listed, and the missing families are reported.
 #[test]
 #[cfg(target_os = "linux")]
 fn hidden_loaders_are_said_to_be_missing() {

@@ -21,7 +21,7 @@ fn a_design_goes_to_wif_and_back_again() {
     let rows = |path: &str| stdout(&texere(&["draft", path, "--text"]));
     assert_eq!(rows(&at("denim.wif")), rows(&given));
     assert_eq!(rows(&at("back.toml")), rows(&given));
-    // Nothing is lost from one design file to another.
+    // A design file converted to a design file loses nothing.
     let said = stdout(&texere(&["convert", &given, &at("denim.toml")]));
     assert_eq!(said, format!("{}: 96 ends, 72 picks\n", at("denim.toml")));
     let inspected = |path: &str| crate::inspect(&[path]);
@@ -43,7 +43,7 @@ fn what_can_not_be_converted_is_said_and_nothing_written() {
         assert!(stderr(&output).contains(said), "{name}: {}", stderr(&output));
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    // Nor is the design itself replaced.
+    // The design itself is not replaced either.
     fs::copy(design("denim.toml"), at("denim.toml")).unwrap();
     let output = texere(&["convert", &at("denim.toml"), &at("denim.toml")]);
     assert_eq!(output.status.code(), Some(2));

@@ -11,8 +11,7 @@ pub(crate) fn png_size(path: &Path) -> [u32; 2] {
     [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))
 }
 
-/// An image of two colours, black where a drawing has `#`: a BMP, the first row of which is the
-/// bottom one.
+/// A BMP image of two colours, black where the drawing has `#`. Its first row is the bottom one.
 fn bmp(drawing: &[&str]) -> Vec<u8> {
     let (width, height) = (drawing[0].len() as u32, drawing.len() as u32);
     let mut bytes = b"BM".to_vec();
@@ -38,7 +37,7 @@ fn no_float_of_the_jacquards_is_longer_than_their_weaves() {
         let column = |end: usize| rows.iter().map(|row| row[end]).collect::<Vec<_>>();
         let along = (0..size.0).map(|end| longest(&column(end))).max();
         assert_eq!(along.max(rows.iter().map(|row| longest(row)).max()), Some(float), "{name}");
-        // A figure and its ground: not one weave all over.
+        // A figure and its ground, not one weave all over.
         let up = text.bytes().filter(|&sign| sign == b'1').count() as f64 / (size.0 * size.1) as f64;
         assert!((0.3..0.6).contains(&up), "{name}: {up}");
     }
@@ -94,8 +93,7 @@ fn a_picture_is_written_and_its_size_told() {
     let output = texere(&["draft", &design("herringbone.wif"), "-o", target]);
     let [width, height] = png_size(&path);
     assert_eq!(stdout(&output), format!("{target}: {width} × {height} pixels\n"));
-    // The threading, the tie-up and the treadling need room that the back, point paper alone, does
-    // not.
+    // Threading, tie-up and treadling need room; the back is point paper alone and needs none.
     let output = texere(&["draft", &design("herringbone.wif"), "--back", "-o", target]);
     assert!(output.status.success());
     let back = png_size(&path);

@@ -1,4 +1,4 @@
-//! Text that would steer a terminal, and a system that gives nothing.
+//! Text that would control a terminal, and a system without threads or memory.
 
 use std::fs;
 use std::process::{Command, Output};
@@ -36,7 +36,7 @@ fn what_a_design_says_never_steers_the_terminal() {
         let said = stdout(&output);
         assert!(is_tame(&said) && is_tame(&stderr(&output)), "{said:?}");
         assert!(said.contains("\\u{1b}"), "{said}");
-        // Its name takes one line, and no line of a report is the name's.
+        // The name takes one line, and cannot imitate a line of the report.
         assert_ne!(said.lines().nth(1).map(str::trim_start), Some("triangles  0"));
     }
     let json = texere(&["inspect", "--json", "--counts", path]);
@@ -62,7 +62,7 @@ fn errors_are_a_line_or_two_and_tame() {
         assert!(matches!(output.status.code(), Some(1 | 3)), "{}", stderr(&output));
         assert!(is_tame(&stderr(&output)) && stderr(&output).lines().count() <= 3, "{}", stderr(&output));
     }
-    // The command line's own words, too.
+    // Arguments of the command line are made safe, too.
     for args in
         [["inspect", "no\u{1b}[31mfile.toml"], ["inspect", "--counts\u{1b}[31m"], ["render", &long[..5000]]]
     {
@@ -71,7 +71,7 @@ fn errors_are_a_line_or_two_and_tame() {
     }
 }
 
-/// As a system that has no thread left: none of this size can be had.
+/// Runs the program as on a system without threads: stacks of this size can't be had.
 fn without_threads(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_texere"))
         .args(args)
@@ -124,8 +124,8 @@ fn a_drafts_text_needs_no_memory_beside_the_design() {
     assert_eq!(stdout(&output), "10".repeat(8000) + "\n");
 }
 
-/// Mesa's layers complain of the environment whenever drivers are listed, which is nothing to a
-/// person who gets a mesh.
+/// Mesa's layers complain of the environment whenever drivers are listed. A command that succeeds
+/// does not show that.
 #[test]
 fn what_drivers_write_is_not_the_programs() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,11 +1,11 @@
-//! What `texere inspect` says of a cloth.
+//! The report of `texere inspect`.
 
 use serde_json::Value;
 
 use crate::{design, inspect, stdout, texere};
 
-/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round.
-/// As they are woven.
+/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round
+/// at the edges. The cloth is as it is woven.
 const CLOTH: &str = "[weave]\nnotation = \"2/2\"\nends = 30\npicks = 24\n[finish]\nsettle = false\n[cloth]\nselvedge = true\n\
     [yarns.red]\ntex = 40.0\ncolor = \"#c81020\"\n[yarns.rust]\ntex = 50.0\ncolor = \"#C81020\"\n\
     [yarns.ecru]\ntex = 60.0\ncolor = \"#e9dfc7\"\n[warp]\nyarns = [\"2 red\", \"rust\"]\nspacing_mm = 0.8\n\
@@ -35,7 +35,7 @@ fn measures_add_up() {
     // Two yarns of one colour.
     assert!((number(&measures["colors"]["#c81020"]) - red - rust).abs() < 1e-6);
     assert_eq!(number(&measures["colors"]["#e9dfc7"]), ecru);
-    // 20 ends of red and 10 of rust; crimp lengthens all the same way.
+    // 20 ends of red and 10 of rust; crimp lengthens all of them alike.
     let crimp = &measures["crimp"];
     assert!(((red + rust) / (30.0 * 24.0) - 1.0 - number(&crimp["warp"])).abs() < 1e-9);
     assert!((ecru / (24.0 * 24.0) - 1.0 - number(&crimp["weft"])).abs() < 1e-9);
@@ -57,7 +57,7 @@ fn measures_add_up() {
     assert!((0.29..3.0 * 0.29).contains(&number(&measures["thickness_mm"])));
 }
 
-/// Settled and as it is woven: nobody has to say how many sides a triangle has.
+/// Settled and as it is woven, without options for the mesh.
 #[test]
 fn a_polygon_has_as_many_sides_as_corners() {
     let folder = tempfile::tempdir().unwrap();
@@ -74,7 +74,7 @@ fn a_polygon_has_as_many_sides_as_corners() {
         }
         let output = texere(&["mesh", path, "--no-settle", "-o", mesh.to_str().unwrap()]);
         assert!(output.status.success() && mesh.exists(), "{output:?}");
-        // Who asks for others is told.
+        // Other sides than a polygon's corners give a message.
         let output = texere(&["inspect", "--counts", path, "--sides", "6"]);
         assert_eq!(output.status.code(), Some(2), "{output:?}");
         std::fs::remove_file(&mesh).unwrap();
@@ -100,7 +100,7 @@ fn the_worst_places_have_a_weavers_names() {
             crossings += 1;
             // Half the first spacing in, then one spacing after another.
             assert!((x - (end - 0.5) * 0.8).abs() < 0.41 && (y - (pick - 0.5)).abs() < 0.51, "{contact}");
-            // One weft yarn has many picks.
+            // The weft is one yarn of many picks.
             assert!(*name == format!("end {end}") || *name == format!("pick {pick}"), "{contact}");
         }
     }
@@ -116,7 +116,7 @@ fn the_worst_places_have_a_weavers_names() {
     assert!((0.4..0.6).contains(&number(&ends["pitch_min_mm"])), "{ends}");
 }
 
-/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end: an
+/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end. So an
 /// end takes its own diameter and half a pick's.
 #[test]
 fn setts_stand_beside_the_greatest_of_the_weave() {

@@ -1,4 +1,4 @@
-//! Knits: what is said of them, and what made the yarn under a point.
+//! Knits: their reports, and the stitch of the yarn under a point.
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -14,8 +14,8 @@ fn our_own_knits_settle_and_are_clean() {
     }
 }
 
-/// How a design's check ends, and what it reports: knitted without fault, at rest, and linked as it
-/// was.
+/// Exit code and JSON of a design's check. Asserts that it is knitted without fault, at rest, and
+/// linked as before.
 fn checked(name: &str) -> (Option<i32>, Value) {
     let output = texere(&["check", "--json", &design(&format!("{name}.toml"))]);
     let report: Value = serde_json::from_str(&stdout(&output)).unwrap();
@@ -36,7 +36,7 @@ fn loops_courses_and_wales_are_counted() {
     let report = inspect(&[&design("jersey.toml")]);
     let knit = &report["measures"]["knit"];
     let number = |key: &str| knit[key].as_f64().unwrap();
-    // 3.2 mm are asked for, of 20 tex.
+    // The design asks for 3.2 mm, of 20 tex.
     assert!((number("loop_length_mm") / 3.2 - 1.0).abs() < 0.03, "{knit}");
     assert!((number("tightness") * number("loop_length_mm") / 10.0 / 20f64.sqrt() - 1.0).abs() < 1e-6);
     assert!(report["ends"].is_null() && report["measures"]["crimp"].is_null());

@@ -32,7 +32,7 @@ fn design(name: &str) -> String {
     folder.join(name).to_string_lossy().into_owned()
 }
 
-/// What was printed by a command that went well, or by a check that found faults.
+/// The output of a command that succeeded, or of a check that found faults.
 fn stdout(output: &Output) -> String {
     assert!(matches!(output.status.code(), Some(0 | 4)), "{}", stderr(output));
     String::from_utf8(output.stdout.clone()).unwrap()
@@ -42,7 +42,7 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// What `inspect` says as JSON.
+/// The JSON of `inspect`.
 fn inspect(args: &[&str]) -> Value {
     let output = texere(&[&["inspect", "--json"], args].concat());
     assert!(output.status.success(), "{}", stderr(&output));

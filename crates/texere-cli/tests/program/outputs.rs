@@ -1,4 +1,4 @@
-//! What the program writes, and what it never replaces.
+//! Files that the program writes, and files that it never replaces.
 
 use std::fs;
 use std::path::Path;
@@ -64,7 +64,7 @@ fn endings_are_looked_at_before_any_work() {
     assert!(names(folder.path()).is_empty());
 }
 
-/// A folder that is not there is said before yarns settle, which these can't.
+/// A missing folder is reported before yarns settle; these yarns can't settle.
 #[test]
 fn folders_are_looked_at_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
@@ -97,8 +97,7 @@ mod unix {
 
     /// The program, making a mesh that takes it seconds.
     fn meshing(folder: &Path, shell: &str) -> Child {
-        // Whoever started the tests may have had signals ignored, as a shell has that of what it
-        // runs in the background.
+        // The tests may run with ignored signals, as jobs in a shell's background do.
         let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP,USR1,XFSZ"]);
         let program = Command::new("env")
             .args(heard.into_iter().flatten())
@@ -134,7 +133,7 @@ mod unix {
         }
     }
 
-    /// As `nohup` starts it.
+    /// Started as by `nohup`.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_signal_that_was_ignored_stays_ignored() {
@@ -157,7 +156,7 @@ mod unix {
         send("KILL", &killed);
         assert_eq!(killed.wait().unwrap().signal(), Some(9));
         assert_eq!(names(folder.path()).len(), 1);
-        // Another one is at work: that file must stay, the killed one's must not.
+        // Another program is at work: its file must stay, that of the killed one must go.
         let left = names(folder.path());
         let mut working = meshing(folder.path(), "");
         let start = Instant::now();
@@ -175,12 +174,12 @@ mod unix {
         assert_eq!(names(folder.path()), ["plain.ply"]);
     }
 
-    /// Someone who is not root, and a file of root's.
+    /// A user who is not root, and a file of root's.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_that_its_user_may_not_write_is_not_replaced() {
         if Command::new("id").arg("-u").output().unwrap().stdout != b"0\n" {
-            // Nobody else's file can be made.
+            // A file of another user can't be made.
             return;
         }
         let folder = tempfile::tempdir().unwrap();
@@ -188,7 +187,7 @@ mod unix {
         fs::copy(env!("CARGO_BIN_EXE_texere"), at("texere")).unwrap();
         fs::copy(design("plain.toml"), at("plain.toml")).unwrap();
         fs::write(at("cloth.ply"), "root's").unwrap();
-        // The folder is anyone's.
+        // Any user may write to the folder.
         for (name, mode) in [("cloth.ply", 0o644), (".", 0o777), ("texere", 0o755)] {
             fs::set_permissions(at(name), fs::Permissions::from_mode(mode)).unwrap();
         }

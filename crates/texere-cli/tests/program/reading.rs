@@ -1,5 +1,4 @@
-//! What readers had to assume or leave out is said by every command that reads a design, on
-//! standard error.
+//! Every command that reads a design prints the reader's remarks on standard error.
 
 use std::fs;
 
@@ -23,7 +22,7 @@ const HOOKED: &str = ";!knitout-2\n;;Carriers: 1 2\ninhook 1\ninhook 2\nknit + f
 const LAYERS: &str = "[weave]\ndrawdown = \"\"\"\n0010\n1011\n1110\n1000\n\"\"\"\n[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\n\
                       spacing_mm = 0.6\n[weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n";
 
-/// On a terminal both outputs are seen: none has what the other one has.
+/// On a terminal both outputs are seen, so neither repeats the other.
 #[test]
 fn reports_do_not_repeat_what_was_said_as_the_design_was_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -85,7 +84,7 @@ fn every_command_says_what_a_reader_warns_of_once() {
             }
         }
     }
-    // Standard output is what was asked for, without a word more.
+    // Standard output has the drawdown and nothing else.
     let rows = texere(&["draft", &lifted, "--text"]);
     assert_eq!(String::from_utf8(rows.stdout).unwrap(), "0101\n1010\n0101\n1010\n");
     // A report for programs is whole by itself.

@@ -27,7 +27,7 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
     }
 }
 
-/// Saved yarns keep the tension of their splines, unless the command line says another.
+/// Saved yarns keep the tension of their splines, unless the command line gives another.
 #[test]
 fn saved_cloth_keeps_its_tension() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,4 @@
-//! Yarns that settle first: what is said of it, what is drawn, and which word counts, the design's
-//! or the command line's.
+//! Yarns that settle first: the report, the plot, and that the command line overrides the design.
 
 use std::fs;
 use std::path::Path;
@@ -16,8 +15,8 @@ fn folder(name: &str, text: &str) -> TempDir {
     folder
 }
 
-/// Threads of 0.3 mm, of every three two `near` mm apart: too near for those that cross them. The
-/// third is 0.78 mm from both.
+/// Threads of 0.3 mm. Of every three, two lie `near` mm apart, too near for crossing threads; the
+/// third lies 0.78 mm from both.
 fn doubled(near: f64, finish: &str) -> TempDir {
     let far = 1.56 - near;
     folder(
@@ -74,16 +73,16 @@ fn a_cloth_that_pierces_itself_comes_to_rest_and_is_clean() {
     let text = stdout(&texere(&["check", &cloth]));
     assert!(text.contains("passes on cpu, 6 by 6 threads; clearance ") && text.contains("area left of ends"));
 
-    // What inspect measures are the yarns that have settled.
+    // inspect measures the settled yarns.
     let (_, plain) = json(&["inspect", &cloth, "--no-settle"]);
     let (_, settled) = json(&["inspect", &cloth]);
     assert!(plain["clearance"]["min"].as_f64().unwrap() < 0.95 && plain.get("settling").is_none());
     assert!(settled["clearance"]["min"].as_f64().unwrap() > 0.98, "{settled}");
     assert_eq!(settled["settling"], *settling);
-    // That crossing threads pierce one another is no longer so.
+    // The warning that crossing threads pierce one another is gone.
     let warnings = |report: &Value| report["warnings"].as_array().unwrap().len();
     assert_eq!((warnings(&plain), warnings(&settled)), (2, 0), "{settled}");
-    // How close round threads may lie says nothing of threads that have given way.
+    // Peirce's pitches are not reported for settled threads.
     assert!(plain["jam"].is_object() && settled.get("jam").is_none());
     let covered = |report: &Value| report["measures"]["cover"]["cloth"].as_f64().unwrap();
     assert!(covered(&settled) > covered(&plain) + 0.01, "{plain} {settled}");
@@ -101,7 +100,7 @@ fn what_has_no_room_says_so_and_is_still_checked() {
     assert!(report["settling"]["clearance"].as_f64().unwrap() < 0.98 && report["jams"].is_null(), "{report}");
     let text = stdout(&texere(&["check", &cloth]));
     assert!(text.contains("% beyond it they jam") && text.contains("cure  warp.spacing_mm"), "{text}");
-    // With threads that much further apart it is clean.
+    // With the spacing of the cure it is clean.
     let spacing = &report["cures"][0];
     assert_eq!(spacing["key"], "warp.spacing_mm, weft.spacing_mm", "{report}");
     let (wider, _) = spacing["value"].as_str().unwrap().split_once(", ").unwrap();
@@ -143,7 +142,7 @@ fn a_plot_shows_every_pass_and_marks_the_stages() {
     {
         assert!(svg.contains(part), "{part}: {svg}");
     }
-    // Every pass has a step; what is infinite or 0 leaves a gap in the other lines.
+    // Every pass has a step. In the other lines infinity and 0 leave a gap.
     let line = svg.lines().find(|line| line.contains("#cc79a7\" stroke-width=\"1.5\"")).unwrap();
     let passes = line.matches(['M', 'L']).count() as u64;
     assert_eq!(Value::from(passes), report["settling"]["passes"]);
@@ -178,8 +177,8 @@ fn flags_that_make_no_sense_are_refused() {
     assert_eq!(fs::read(&plot).unwrap(), b"old");
 }
 
-/// A cloth that is stretched along its warp is longer and narrower, with as much yarn in it; beyond
-/// what its threads allow it is refused.
+/// A cloth that is stretched along its warp is longer and narrower, with as much yarn in it. A
+/// stretch that its threads don't allow is refused.
 #[test]
 fn stretched_cloth_keeps_its_yarn() {
     let sheeting = |finish: &str| {
@@ -215,7 +214,7 @@ fn stretched_cloth_keeps_its_yarn() {
     assert!(!output.status.success() && stderr(&output).contains("straight at 1.06"), "{}", stderr(&output));
 }
 
-/// Settling sees upright ellipses on one repeat; what is drawn are plies of all the cloth.
+/// Settling measures upright ellipses on one repeat; plies of the whole cloth are drawn.
 const PIERCES_AS_DRAWN: &str = "[warp_knit]\nwales = 2\ncourses = 4\nneedles_per_inch = 20.0388\ncourses_per_cm = 15.3001\ncompression = 0.8019\n\
     [[warp_knit.bars]]\nlapping = \"tricot\"\nstep = 2\nthreading = [\"b\", \"b\"]\n\
     [[warp_knit.bars]]\nlapping = \"8-10//\"\nstep = 2\nthreading = [\"a\", \"b\"]\nrun_in_mm = 865.8104\n[finish]\nlength = 1.8704\n\

@@ -1,4 +1,4 @@
-//! Rings follow the twist of yarns in every command, or a warning says that they do not.
+//! Rings follow the twist of yarns in every command, or there is a warning.
 
 use std::path::{Path, PathBuf};
 
@@ -70,9 +70,9 @@ fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// By how much a ring is turned against the one before, in degrees, right-handed along the yarn:
-/// both first corners are seen along the chord, which is nearly the same as carrying one to the
-/// other where steps are short.
+/// The turn of a ring against the one before, in degrees, right-handed along the yarn. Both first
+/// corners are compared along the chord, which for short steps is nearly the same as carrying one
+/// to the other.
 fn turn(one: &[[f64; 3]; 6], other: &[[f64; 3]; 6]) -> f64 {
     let chord = between(centre(one), centre(other));
     let along = chord.map(|each| each / length(chord));

@@ -1,4 +1,4 @@
-//! Warp knits: what is said of their bars, and what made the yarn under a point.
+//! Warp knits: the report of their bars, and the lap of the yarn under a point.
 
 use serde_json::Value;
 use tempfile::TempDir;

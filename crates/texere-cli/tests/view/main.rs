@@ -1,4 +1,4 @@
-//! `texere view`: a window on a screen that nobody sees, a pointer and keys.
+//! `texere view`: a window on a virtual screen, a pointer and keys.
 
 #![cfg(all(target_os = "linux", feature = "view"))]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
@@ -26,7 +26,8 @@ const ENDS: [(&str, [u8; 3]); 4] =
 const PICKS: [(&str, [u8; 3]); 4] =
     [("blue", [30, 40, 220]), ("violet", [150, 20, 220]), ("black", [8, 8, 8]), ("orange", [240, 120, 10])];
 
-/// Two pictures of the same differ by less, levels of 255; of others by more.
+/// Two pictures of the same cloth differ by less than this, levels of 255; pictures of different
+/// cloths by more.
 const ALIKE: f32 = 2.5;
 const UNLIKE: f32 = 8.0;
 
@@ -51,7 +52,7 @@ fn design(notation: &str, picks: usize) -> String {
     )
 }
 
-/// The program with its window, and what it says.
+/// The program with its window, and its output.
 struct Viewer {
     program: Child,
     lines: Receiver<String>,
@@ -71,7 +72,7 @@ impl Viewer {
             .arg(design)
             .env("DISPLAY", &screen.name)
             .env_remove("WAYLAND_DISPLAY")
-            // Drivers complain of this to people.
+            // Without this, drivers print complaints.
             .env_remove("XDG_RUNTIME_DIR")
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -83,7 +84,7 @@ impl Viewer {
         Self { program, lines }
     }
 
-    /// The next line, which has to begin so.
+    /// The next line of output. Asserts that it begins with `start`.
     fn says(&self, start: &str) -> String {
         let line =
             self.lines.recv_timeout(DEADLINE).unwrap_or_else(|_| panic!("nothing is said; expected {start}"));
@@ -91,7 +92,7 @@ impl Viewer {
         line
     }
 
-    /// Waits for the program's end, which has nothing to complain of.
+    /// Waits for the program's end. Asserts that it succeeds without complaints.
     fn ends(&mut self) {
         let status = wait_for("the program's end", || self.program.try_wait().unwrap());
         let mut errors = String::new();
@@ -129,7 +130,7 @@ fn crossing(picture: &Picture, end: u32, pick: u32) -> [u32; 2] {
     [low[0] + half(0, end), high[1] - half(1, pick)]
 }
 
-/// Which of `set` a colour is like: the one with the nearest hue.
+/// The colour of `set` with the nearest hue.
 fn like(color: [u8; 3], set: &[(&'static str, [u8; 3])]) -> &'static str {
     let unit = |color: [u8; 3]| {
         let color = color.map(|channel| f32::from(channel) / 255.0);
@@ -163,11 +164,12 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     let is_face = |picture: &Picture| picture.off(&face, PANEL) < ALIKE;
     let is_another = |picture: &Picture| picture.off(&face, PANEL) > UNLIKE;
 
-    // A drag turns it, and a key brings the face back.
+    // A drag turns the cloth, and a key brings the face back.
     let middle = crossing(&face, 2, 2);
     screen.point_at(middle);
     screen.button(true);
-    // A hand goes on until the cloth follows: what it does while one picture is drawn is one move.
+    // The drag goes on until the cloth follows: all movements while one picture is drawn count as
+    // one.
     let mut step = 0;
     wait_for("another side", || {
         step += 1;
@@ -179,7 +181,7 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     screen.press(&[u32::from(b'f')]);
     screen.picture("the face", is_face);
 
-    // At each crossing the yarn that is seen is the one that is named.
+    // At each crossing the visible yarn is the one that is named.
     let mut seen = Vec::new();
     for (end, pick) in [(1, 1), (1, 2), (3, 2), (4, 4)] {
         let at = crossing(&face, end, pick);
@@ -248,8 +250,7 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Cloth that settles is shown at once, and again when it rests; a click in it names its threads
-/// then as before.
+/// Cloth that settles is shown at once, and again at rest. A click names its threads both times.
 #[test]
 fn cloth_is_shown_before_it_settles_and_after() {
     let folder = folder("settles");
@@ -271,7 +272,7 @@ fn cloth_is_shown_before_it_settles_and_after() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// The surface takes another size while the workshop hands the device one cloth after the other.
+/// The surface is resized while the workshop gives the device one cloth after the other.
 #[test]
 fn a_window_is_resized_while_its_cloth_is_read_again() {
     let folder = folder("resized");
@@ -289,7 +290,7 @@ fn a_window_is_resized_while_its_cloth_is_read_again() {
         thread::sleep(Duration::from_millis(40));
         assert_eq!(viewer.program.try_wait().unwrap(), None, "after {turn} sizes");
     }
-    // It has gone on, and goes on: a last cloth is shown, in a window of a last size.
+    // It still works: a last cloth is shown, in a window of a last size.
     fs::write(&file, design("plain", 9)).unwrap();
     let is_last = |line: String| line.contains("13 yarns").then_some(());
     wait_for("the last cloth", || is_last(viewer.lines.recv_timeout(DEADLINE).unwrap()));
@@ -316,7 +317,7 @@ fn a_file_that_changes_without_end_is_read_all_the_same() {
         scope.spawn(|| {
             let start = Instant::now();
             while !is_read.load(Ordering::Relaxed) && start.elapsed() < 2 * DEADLINE {
-                // Whole at any time, and another file each time.
+                // The file is replaced by a whole one each time.
                 fs::write(&other, design("plain", 7)).unwrap();
                 fs::rename(&other, &file).unwrap();
                 thread::sleep(Duration::from_millis(20));
@@ -331,11 +332,10 @@ fn a_file_that_changes_without_end_is_read_all_the_same() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Closing waits for nothing: neither for yarns that settle, nor for the device, which has a
-/// picture or a cloth to make.
+/// Closing does not wait for yarns that settle, nor for a picture or a cloth that the device makes.
 #[test]
 fn a_window_that_is_closed_is_gone_at_once_whatever_runs() {
-    /// A machine that has other work besides takes longer than a second. What runs would take many
+    /// A busy machine takes longer than a second. The work that is interrupted would take many
     /// times as long.
     const CLOSING: Duration = Duration::from_secs(5);
     let folder = folder("closed");
@@ -369,7 +369,7 @@ fn a_window_that_is_closed_is_gone_at_once_whatever_runs() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// What is wrong with the command line or the design is said before there is a window.
+/// Faults of the command line or the design are reported before a window opens.
 #[test]
 fn what_can_t_be_shown_ends_the_program() {
     let folder = folder("refused");

@@ -1,4 +1,4 @@
-//! A screen that nobody sees, and hands that move the pointer and press keys on it.
+//! A virtual screen, and hands that move the pointer and press keys on it.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -12,7 +12,7 @@ use x11rb::protocol::xproto::{
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
-/// How long anything may take. What waits so long for something fails.
+/// The longest time that a test waits for anything.
 pub(crate) const DEADLINE: Duration = Duration::from_secs(120);
 
 /// Kinds of events, as X11 numbers them.
@@ -22,7 +22,7 @@ const BUTTON_PRESS: u8 = 4;
 const BUTTON_RELEASE: u8 = 5;
 const MOTION: u8 = 6;
 
-/// A server of windows that draws into memory.
+/// An X server that draws into memory.
 pub(crate) struct Screen {
     server: Child,
     pub(crate) name: String,
@@ -46,7 +46,7 @@ impl Screen {
         Self { server, name, connection, root }
     }
 
-    /// The window that there is, once there is one, with the keyboard.
+    /// Waits for the program's window to have the keyboard, and returns it.
     pub(crate) fn window(&self) -> Window {
         let window = wait_for("a window", || {
             let all = self.connection.query_tree(self.root).unwrap().reply().unwrap().children;
@@ -105,7 +105,7 @@ impl Screen {
         self.connection.send_event(false, window, EventMask::NO_EVENT, event).unwrap().check().unwrap();
     }
 
-    /// What the screen shows, once `is_meant` finds that it is what it should.
+    /// Waits until `is_meant` accepts the screen's picture, and returns it.
     pub(crate) fn picture(&self, what: &str, is_meant: impl Fn(&Picture) -> bool) -> Picture {
         wait_for(what, || Some(self.grab()).filter(&is_meant))
     }
@@ -127,7 +127,7 @@ impl Drop for Screen {
     }
 }
 
-/// What a screen shows: red, green and blue of each pixel.
+/// A picture of a screen: red, green and blue of each pixel.
 pub(crate) struct Picture {
     width: u32,
     pixels: Vec<[u8; 3]>,
@@ -138,8 +138,8 @@ impl Picture {
         self.pixels[(y * self.width + x) as usize]
     }
 
-    /// The mean difference of two pictures right of `left`, in levels of 255. How many samples a
-    /// pixel has, which depends on how busy the machine is, makes one or two.
+    /// The mean difference of two pictures right of `left`, in levels of 255. Different numbers of
+    /// samples a pixel, which depend on how busy the machine is, make one or two levels.
     pub(crate) fn off(&self, other: &Self, left: u32) -> f32 {
         let channels = self.places(left).flat_map(|at| (0..3).map(move |channel| (at, channel)));
         let (sum, count) = channels.fold((0, 0), |(sum, count), (at, channel)| {
@@ -155,7 +155,7 @@ impl Picture {
     }
 }
 
-/// What `look` finds in the end.
+/// Waits until `look` finds something, and returns it.
 pub(crate) fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
     loop {

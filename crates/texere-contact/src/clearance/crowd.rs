@@ -1,4 +1,4 @@
-//! Places where more yarns lie than can lie there, or more parts of yarns than are compared.
+//! Places that hold more yarn than fits there, or more parts of yarns than are compared.
 
 use std::cmp::Ordering;
 
@@ -7,25 +7,24 @@ use texere_core::YarnPlace;
 use super::part::Part;
 use crate::grid::Bounds;
 
-/// A place that is not measured, because its yarns lie in one another many times over.
+/// A place that is not measured because its yarns lie in one another many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crowd {
-    /// On the thickest yarn there, nearest to the middle.
+    /// The place on the thickest yarn there, nearest to the middle.
     pub place: YarnPlace,
-    /// How thick that yarn is, mm: its diameter, or the larger of width and height.
+    /// Thickness of that yarn, mm: its diameter, or the larger of width and height.
     pub thickness_mm: f64,
-    /// Control intervals that lie there.
+    /// Number of control intervals there.
     pub intervals: usize,
-    /// The volume of their yarns over that of the box that holds them. Above 1 they can't but
-    /// pierce one another or fold, and some come within 1/√fill of touching. Up to 1 it is their
-    /// number alone that is too high (see [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)): control
-    /// points lie much closer than the yarns are thick, or very long intervals side by side.
+    /// The volume of the yarns over that of the box that holds them. Above 1 they must pierce one
+    /// another or fold, and some come within 1/√fill of touching. Up to 1 only their number is too
+    /// high (see [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)): control points lie much closer
+    /// than the yarns are thick, or very long intervals lie side by side.
     pub fill: f64,
 }
 
 impl Crowd {
-    /// What `parts` would be as a crowd; `place` makes a place of a part. None where there are no
-    /// parts.
+    /// The crowd that `parts` make; `place` makes a place of a part. None without parts.
     pub(super) fn of<'p, 'a: 'p>(
         parts: &'p [Part<'a>],
         place: impl FnOnce(&'p Part<'a>) -> YarnPlace,
@@ -37,7 +36,8 @@ impl Crowd {
             let line = &part.line;
             let cubic = line.cubic(part.point);
             room = room.joined(line.bounds(part.point, 1.0));
-            // No less than the interval's: it is no shorter than its chord, and nowhere thinner.
+            // A lower bound of the interval's volume: it is no shorter than its chord, and nowhere
+            // thinner than this.
             let [width, height] = std::array::from_fn(|side| {
                 let bounds = cubic.half_bounds()[side];
                 bounds.into_iter().fold(f64::INFINITY, f64::min).max(cubic.floors()[side])
@@ -64,12 +64,12 @@ impl Crowd {
         })
     }
 
-    /// What the least ratio there can be at most; infinite where it is not known.
+    /// Upper bound of the least ratio there; infinite where it is not known.
     pub(super) fn ratio_max(&self) -> f64 {
         if self.fill > 1.0 { self.fill.sqrt().recip() } else { f64::INFINITY }
     }
 
-    /// The more crowded one of two; of two alike the one that comes first along the yarns.
+    /// The more crowded of two. Of two alike the first along the yarns counts.
     pub(super) fn worse(self, other: Self) -> Self {
         let place = |crowd: &Self| (crowd.place.yarn, crowd.place.interval);
         let order = self.fill.total_cmp(&other.fill).then(self.intervals.cmp(&other.intervals));

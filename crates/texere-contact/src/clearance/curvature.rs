@@ -1,23 +1,27 @@
-//! How tightly yarns bend: branch and bound over parts of an interval.
+//! The tightest bend of an interval, by branch and bound.
+//!
+//! The idea is simple: an interval's half bends no tighter than a bound on its coefficients says,
+//! so a half whose bound is wider than the tightest bend so far is left out, and any other is
+//! halved again.
 
 use glam::{DVec2, DVec3};
 
 use super::interval::Cubic;
 use super::support::Support;
 
-/// The share by which a yarn may bend tighter somewhere than where it is said to bend tightest.
+/// The share by which the true tightest bend may be tighter than the one found.
 const ACCURACY: f64 = 1e-3;
 
 /// Times that an interval is halved. A velocity that turns round within so short a part turns
 /// straight back.
 const HALVINGS: u32 = 20;
 
-/// Times that an interval is halved until a section that is no circle reaches as far everywhere in
-/// a part as in its middle.
+/// Times that an interval is halved until a section that is no circle counts as reaching equally
+/// far everywhere in a part.
 const HALVINGS_FLAT: u32 = 3;
 
-/// A part of an interval as Bernstein coefficients, which bound what they stand for four times as
-/// closely in each half.
+/// A part of an interval as Bernstein coefficients. Each halving brings them four times as close to
+/// what they bound.
 #[derive(Debug, Clone, Copy)]
 struct Part {
     from: f64,
@@ -71,8 +75,8 @@ impl Part {
         [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
 
-    /// Velocity × acceleration, of degree two. The lengths of its coefficients are coefficients of
-    /// no less than its length.
+    /// Velocity × acceleration, of degree two. The lengths of its coefficients are the coefficients
+    /// of an upper bound of its length.
     fn turn(&self) -> [DVec3; 3] {
         let [u, v, w] = self.velocity;
         [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn / self.length)
@@ -81,9 +85,10 @@ impl Part {
     /// Whether the radius of curvature is at least `least` all along the part: whether |v|³ ≥ least
     /// |v × a|.
     ///
-    /// Either the slowest place is fast enough for the sharpest turn. Or, closer: |v|³ is a convex
-    /// function of |v|² and lies above its tangent, here at the middle's `speed_squared`. What is
-    /// left to show is that a polynomial of degree four is not negative: its coefficients are not.
+    /// Two sufficient conditions are tried. First, the slowest place is fast enough for the
+    /// sharpest turn. Second, and closer: |v|³ is a convex function of |v|² and lies above its
+    /// tangent at the middle's `speed_squared`. What is left to show is that a polynomial of degree
+    /// four is not negative, which holds where none of its coefficients is.
     fn bends_less(&self, least: f64, speed_squared: f64) -> bool {
         let (squares, turn) = (self.speed_squared(), self.turn());
         let slowest = squares.into_iter().fold(f64::INFINITY, f64::min);
@@ -98,7 +103,7 @@ impl Part {
         speed > 0.0 && squares.iter().zip(turn).all(|(square, turn)| tangent(*square) >= least * turn)
     }
 
-    /// No less than |velocity| |acceleration| anywhere in the part.
+    /// Upper bound of |velocity| |acceleration| in the part.
     fn size(&self) -> f64 {
         let [u, v, w] = self.velocity;
         let fastest = self.velocity.iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max);
@@ -128,7 +133,7 @@ struct Place {
     t: f64,
     velocity: DVec3,
     acceleration: DVec3,
-    /// Half width and half height, which the floors may hold.
+    /// Half width and half height, before they are held at their floors.
     sizes: DVec2,
 }
 
@@ -194,8 +199,8 @@ impl Search<'_> {
         }
     }
 
-    /// How far the section reaches into the bend, mm: 0 or less where a polygon beside its axis
-    /// lies on the outer side alone, which folds in no bend.
+    /// How far the section reaches into the bend, mm. It is 0 or less where a polygon beside its
+    /// axis lies on the outer side alone, which folds in no bend.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {
@@ -214,16 +219,15 @@ impl Search<'_> {
 }
 
 /// The least radius of curvature of an interval over how far the section reaches into the bend, and
-/// where it is, unless `within` is about as little or less. It is exact to [`ACCURACY`], and 0
+/// its place. None unless it is clearly less than `within`. It is exact to [`ACCURACY`], and 0
 /// where the yarn turns straight back.
 ///
-/// Sections stand upright; with `turning` they reach as far as they can, whichever way they are
-/// turned.
+/// Sections stand upright. With `turning` they count with the furthest reach of any position.
 pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;
     let least = (1.0 - ACCURACY) * within * cubic.half_bound() * support.extent();
-    // Most intervals bend so little that this is all.
+    // Most intervals bend so little that the search ends here.
     if whole.bends_less(least, (u + 2.0 * v + w).length_squared() / 16.0)
         || whole.velocity == [DVec3::ZERO; 3]
     {

@@ -5,20 +5,20 @@ use glam::DVec3;
 use super::interval::Cubic;
 use super::support::Support;
 
-/// Sections that stand for an interval's: at its beginning, its middle and its end.
+/// Parameters of the sections that stand for the whole interval: its beginning, middle and end.
 const STATIONS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// The share of a second difference by which something may be larger between stations: 1/8 of a
-/// parabola.
+/// The share of a second difference by which a value may be larger between stations. A parabola
+/// needs 1/8.
 const BETWEEN: f64 = 0.25;
 
-/// How far an interval of a yarn reaches whose sections stand upright.
+/// The reach of an interval whose sections stand upright.
 pub(super) struct Extent {
     hull: [DVec3; 4],
     middle: DVec3,
     /// Half width and half height in the middle, mm.
     halves: [f64; 2],
-    /// The axes of the sections, as long as they reach along them.
+    /// Half axes of the sections, as long as the sections reach along them.
     axes: [[DVec3; 2]; 3],
 }
 
@@ -33,7 +33,7 @@ impl Extent {
         Self { hull: cubic.hull(), middle: cubic.position(0.5), halves: cubic.sizes(0.5).to_array(), axes }
     }
 
-    /// How far surfaces reach from the centreline in a direction.
+    /// Upper bound of how far the surface reaches from the centreline in a direction.
     fn reach(&self, direction: DVec3) -> f64 {
         let [first, middle, last] =
             self.axes.map(|[side, up]| (side.dot(direction).powi(2) + up.dot(direction).powi(2)).sqrt());
@@ -49,9 +49,9 @@ impl Extent {
         least - most > near * (self.reach(direction) + other.reach(direction))
     }
 
-    /// Whether the surfaces are seen to be clear of one another when their sections are `near`
-    /// times as large: by the way from one to the other, and by that way at right angles to a flat
-    /// thread's surface.
+    /// Whether a plane shows that the surfaces are clear of one another with sections `near` times
+    /// as large. Two planes are tried: at right angles to the line between the middles, and at
+    /// right angles to that line as a flat thread's surface bends it.
     pub(super) fn is_clear_of(&self, other: &Self, near: f64) -> bool {
         let apart = other.middle - self.middle;
         let [wide, high] = [0, 1].map(|half| self.halves[half] + other.halves[half]);

@@ -1,4 +1,4 @@
-//! The contacts that were found: counted, and the worst of them kept.
+//! Contacts as they are found: all are counted, the worst are kept.
 
 use std::cmp::Ordering;
 
@@ -8,7 +8,7 @@ use super::crowd::Crowd;
 /// Bins from 0 to [`CLEARANCE_NEAR`](crate::CLEARANCE_NEAR).
 const BINS: usize = 110;
 
-/// What one task has found.
+/// The contacts of one task.
 pub(super) struct Found {
     /// The least ratio, listed or not.
     pub(super) least: f64,
@@ -92,8 +92,8 @@ impl Found {
     }
 }
 
-/// Worst first; of two alike the one that comes first along the yarns, whatever order they were
-/// found in.
+/// Worst first. Of two alike the first along the yarns comes first, in whatever order they were
+/// found.
 fn by_ratio(a: &Contact, b: &Contact) -> Ordering {
     let place = |contact: &Contact| contact.places.map(|place| (place.yarn, place.interval));
     a.ratio.total_cmp(&b.ratio).then_with(|| place(a).cmp(&place(b)))

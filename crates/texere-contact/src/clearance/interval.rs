@@ -8,11 +8,12 @@ use texere_core::definitions::{RADIUS_FLOOR, up_between};
 
 use super::support::upright;
 
-/// The most chords that stand for an interval.
+/// The most chords of an interval.
 const CHORDS_MAX: usize = 12;
 
-/// How far an interval may lie from its chords, in radii of its yarn: so little that every approach
-/// of two yarns is one of their chords too, and that refinement starts where it converges.
+/// How far an interval may lie from its chords, in radii of its yarn. It is so little that every
+/// approach of two yarns is also one of their chords, and that refinement starts where it
+/// converges.
 pub(super) const SAGITTA: f64 = 0.1;
 
 /// The spline between two control points, as polynomials of t in \[0, 1\].
@@ -22,12 +23,12 @@ pub(super) struct Cubic {
     /// Half width and half height.
     halves: [[f64; 4]; 2],
     floors: [f64; 2],
-    /// The up directions of both ends, and the tangents there, where yarns leave the plane of their
-    /// cloth.
+    /// The up directions of both ends, and the tangents there. None where the yarn stays in the
+    /// plane of its cloth.
     ups: Option<[[DVec3; 2]; 2]>,
 }
 
-/// The cubic at one parameter: position, first and second derivative, and half width and half
+/// The cubic at one parameter: position with its first and second derivative, half width and half
 /// height with theirs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At {
@@ -69,13 +70,14 @@ impl Cubic {
         }
     }
 
-    /// The same with the up directions of both ends.
+    /// This interval with the up directions of both ends.
     pub(super) fn with_ups(self, ups: [Vec3; 2]) -> Self {
         let tangents = [0.0, 1.0].map(|t| self.path(t)[1].normalize_or(DVec3::X));
         Self { ups: Some([ups.map(Vec3::as_dvec3), tangents]), ..self }
     }
 
-    /// Side and up of the frame that a yarn is flattened along at `t`, where it has this `tangent`.
+    /// Side and up of the frame along which the yarn is flattened at `t`, where it has this
+    /// `tangent`.
     pub(super) fn frame(&self, t: f64, tangent: DVec3) -> [DVec3; 2] {
         let up = self.ups.map(|[ups, tangents]| up_between(ups, tangents, tangent, t.clamp(0.0, 1.0)));
         match up.filter(|up| *up != DVec3::ZERO) {
@@ -84,7 +86,7 @@ impl Cubic {
         }
     }
 
-    /// By how much that frame is turned against the upright one, turns.
+    /// Turn of that frame against the upright one, turns.
     pub(super) fn lean(&self, t: f64, tangent: DVec3) -> f64 {
         if self.ups.is_none() {
             return 0.0;
@@ -142,7 +144,7 @@ impl Cubic {
         self.halves[0] == self.halves[1]
     }
 
-    /// Whether it is round and of one radius.
+    /// Whether the yarn is round and of one radius all along the interval.
     pub(super) fn is_even(&self) -> bool {
         self.is_round() && self.halves[0][1..] == [0.0; 3]
     }
@@ -161,22 +163,22 @@ impl Cubic {
         self.floors
     }
 
-    /// No less than half width and half height anywhere in the interval.
+    /// Upper bound of half width and half height in the interval.
     pub(super) fn half_bound(&self) -> f64 {
         self.half_bounds().into_iter().flatten().chain(self.floors).fold(0.0, f64::max)
     }
 
-    /// The length of the interval's Bézier polygon: no less than its own, mm.
+    /// The length of the interval's Bézier polygon, an upper bound of its own length, mm.
     pub(super) fn length(&self) -> f64 {
         self.hull().windows(2).map(|ends| ends[0].distance(ends[1])).sum()
     }
 
-    /// How far the interval lies from the straight line between its ends at most, mm.
+    /// Upper bound of the interval's distance from the straight line between its ends, mm.
     pub(super) fn bend(&self) -> f64 {
         off_chord(self.hull())
     }
 
-    /// How far the interval lies from `count` chords at most, mm, squared.
+    /// Upper bound of the squared distance between the interval and `count` chords, mm².
     fn off_chords_squared(&self, count: usize) -> f64 {
         let [_, c1, c2, c3] = self.position;
         let step = 1.0 / count as f64;
@@ -197,12 +199,12 @@ impl Cubic {
         0.5625 * most
     }
 
-    /// Chords that lie within [`SAGITTA`] of the curve (as far as [`CHORDS_MAX`] of them do).
+    /// Chords within [`SAGITTA`] of the curve, [`CHORDS_MAX`] at most.
     pub(super) fn chords(&self) -> Chords {
         let sagitta = SAGITTA * self.floors[0].min(self.floors[1]).max(f64::MIN_POSITIVE);
         let mut count = 1;
         while count < CHORDS_MAX {
-            // n chords lie 1/n² as far from a curve as one does, or little more.
+            // n chords lie about 1/n² as far from a curve as one does.
             let times = (self.off_chords_squared(count).sqrt() / sagitta).sqrt();
             if times <= 1.0 {
                 break;
@@ -221,7 +223,7 @@ impl Cubic {
     }
 }
 
-/// A polygon along an interval.
+/// The corners of chords along an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chords {
     corners: [DVec3; CHORDS_MAX + 1],
@@ -230,10 +232,10 @@ pub(super) struct Chords {
 }
 
 impl Chords {
-    /// Calls `start` with the parameters of two intervals at which their chords come nearest to one
-    /// another, and those of the chords' middles, for each pair of chords nearer than all pairs
-    /// beside it, and nearer than `within`. With `edges` also for those at an end of one interval
-    /// that are nearer than the pairs beside them there: they may lead in to an approach.
+    /// Calls `start` for each approach of the two polygons: a pair of chords nearer than `within`
+    /// and nearer than all pairs beside it. `start` gets the parameters at which the chords come
+    /// nearest, and those of the chords' middles. With `edges`, pairs at an end of an interval also
+    /// count that are nearer than the pairs beside them there: they may lead in to an approach.
     pub(super) fn approaches(
         &self,
         other: &Self,
@@ -241,7 +243,7 @@ impl Chords {
         edges: bool,
         mut start: impl FnMut([DVec2; 2]),
     ) {
-        /// A row of pairs, and one place more on each side.
+        /// A row of pairs, with one place more on each side.
         const ROW: usize = CHORDS_MAX + 2;
         let (rows, columns) = (self.count, other.count);
         let mut near = [f64::INFINITY; ROW * ROW];
@@ -261,7 +263,7 @@ impl Chords {
             for column in 0..columns {
                 let own = (row + 1) * ROW + column + 1;
                 let here = near[own];
-                // Of two alike the first counts.
+                // Of two pairs alike the first counts.
                 let before = [own - ROW - 1, own - ROW, own - ROW + 1, own - 1];
                 let after = [own + 1, own + ROW - 1, own + ROW, own + ROW + 1];
                 let least_of = |before: &[usize], after: &[usize]| {
@@ -288,8 +290,8 @@ impl Chords {
     }
 }
 
-/// How far a curve of this Bézier polygon lies from the chord between its ends at most, at any
-/// parameter, mm.
+/// Upper bound of the distance, at any parameter, between a curve of this Bézier polygon and the
+/// chord between its ends, mm.
 pub(super) fn off_chord([start, leaving, arriving, end]: [DVec3; 4]) -> f64 {
     // The inner two of the four Bézier weights add up to 3/4 at most.
     let one = (leaving - start.lerp(end, 1.0 / 3.0)).length_squared();
@@ -297,7 +299,8 @@ pub(super) fn off_chord([start, leaving, arriving, end]: [DVec3; 4]) -> f64 {
     0.75 * one.max(other).sqrt()
 }
 
-/// Squared distance of two straight segments, and where along each they are nearest, from 0 to 1.
+/// Squared distance of two straight segments, and the parameters from 0 to 1 of their nearest
+/// places.
 ///
 /// **Source**: Ericson, "Real-time collision detection", Morgan Kaufmann 2005, section 5.1.9.
 pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f64, f64) {
@@ -313,7 +316,7 @@ pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f
     ((p + along * s).distance_squared(q + other * t), s, t)
 }
 
-/// The part that `over` is of `under`, held between none and all of it.
+/// `over` / `under`, held between 0 and 1.
 fn share(over: f64, under: f64) -> f64 {
     if under > 0.0 { (over / under).clamp(0.0, 1.0) } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! The yarns, interval by interval.
+//! Yarns, interval by interval.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
@@ -13,15 +13,16 @@ use super::interval::Cubic;
 use super::support::Support;
 use crate::grid::Bounds;
 
-/// Intervals after the first over which a yarn may be seen to lead straight on.
+/// The most intervals ahead over which a yarn may be seen to lead straight on.
 const LEAD: usize = 3;
 
-/// Control points from one whose way along the yarns is kept to the next.
+/// Control points between two whose way along the yarns is stored.
 const STRIDE: usize = 64;
 
 const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);
 
-/// One yarn. An interval bears the number, in the fabric, of the control point that it starts from.
+/// One yarn. An interval's number is that of the control point that it starts from, counted over
+/// the fabric.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line<'a> {
     pub(super) yarn: usize,
@@ -29,7 +30,7 @@ pub(super) struct Line<'a> {
     /// Number of the first control point.
     first: usize,
     points: &'a [ControlPoint],
-    /// The up directions that they stand by, if any.
+    /// Up directions of the control points, if the yarn has any.
     ups: Option<&'a [Vec3]>,
     closed: bool,
     /// The factor of the spline's tangents.
@@ -37,9 +38,9 @@ pub(super) struct Line<'a> {
     ways: &'a [f64],
 }
 
-/// The way along the chords from the fabric's first control point to every 64th one, mm, from one
-/// yarn to the next as if they were one: the way between two points of a yarn is known without
-/// going it.
+/// Way along the chords from the fabric's first control point to every 64th one, mm. Yarns follow
+/// one another as if they were one. The way between two points of a yarn is a difference of two
+/// entries and a few chords.
 pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
     let stride = |start: usize| -> f64 {
         let chords = points[start..points.len().min(start + STRIDE + 1)].windows(2);
@@ -54,7 +55,7 @@ pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
     ways
 }
 
-/// Some intervals of one yarn that follow one another.
+/// Consecutive intervals of one yarn.
 #[derive(Debug, Clone)]
 pub(super) struct Span<'a> {
     pub(super) line: Line<'a>,
@@ -90,23 +91,23 @@ impl<'a> Line<'a> {
         starts.map(move |start| Span { line: self, points: start..(start + most).min(all.end) })
     }
 
-    /// Whether control point `point` is one of its own.
+    /// Whether control point `point` belongs to the yarn.
     pub(super) fn holds(&self, point: usize) -> bool {
         (self.first..self.first + self.points.len()).contains(&point)
     }
 
-    /// Whether an interval begins, and whether it ends, where an open yarn is cut off.
+    /// Whether an interval begins at the cut end of an open yarn, and whether it ends at one.
     pub(super) fn cut(&self, point: usize) -> [bool; 2] {
         let all = self.intervals();
         [!self.closed && point == all.start, !self.closed && point + 1 == all.end]
     }
 
-    /// The four points that steer an interval.
+    /// The four control points of an interval.
     pub(super) fn window(&self, point: usize) -> [ControlPoint; 4] {
         neighbours(self.points, self.closed, point - self.first)
     }
 
-    /// Those of the interval after it, if the yarn goes on.
+    /// The four control points of the interval after it, if the yarn goes on.
     pub(super) fn window_after(&self, point: usize) -> Option<[ControlPoint; 4]> {
         let ends = !self.closed && point + 1 == self.intervals().end;
         (!ends).then(|| neighbours(self.points, self.closed, point + 1 - self.first))
@@ -119,9 +120,9 @@ impl<'a> Line<'a> {
         cubic.with_ups([own, (own + 1) % ups.len()].map(|point| ups[point]))
     }
 
-    /// The box that holds whatever lies within `margin` times the section's reach of an interval.
+    /// A box that holds everything within `margin` times the section's reach of an interval.
     ///
-    /// It is for finding neighbours, in single precision and a little too large.
+    /// It serves to find neighbours: in single precision, and a little too large.
     #[inline]
     pub(super) fn bounds(&self, point: usize, margin: f64) -> Bounds {
         let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first);
@@ -129,8 +130,8 @@ impl<'a> Line<'a> {
         let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.half_width());
         let heights = [before, start, end, after].map(|point| point.half_height());
         let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
-        // The Bézier polygon, of half widths too; the inner two of its corners may lie on either
-        // side.
+        // The Bézier polygon holds the curve, for half widths too. Its inner two corners may lie on
+        // either side.
         let s = self.s as f32 / 3.0;
         let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);
         let (low, high) =
@@ -143,7 +144,7 @@ impl<'a> Line<'a> {
         Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
     }
 
-    /// Whether the yarn leads on so straight from one interval to a later one that they meet in
+    /// Whether the yarn leads on so straight from one interval to a later one that the two meet in
     /// common knots alone.
     ///
     /// Its tangents lie within 45 degrees of one direction. Then none of its parts leads back, and
@@ -169,9 +170,9 @@ impl<'a> Line<'a> {
             let (cubic, count, to_own) = (self.cubic(from), self.points.len(), to - self.first);
             let mut left = window - cubic.position(s).distance(cubic.position(1.0));
             let mut at = (from - self.first + 1) % count.max(1);
-            // Given up as soon as it is far enough.
+            // The sum ends as soon as it is large enough.
             while left > 0.0 && at != to_own {
-                // As far as it goes without passing the yarn's last point.
+                // The stride stops at the yarn's last point.
                 let ahead = if at < to_own { to_own } else { count - 1 };
                 if let Some((way, stride_end)) = self.strides(at, ahead) {
                     left -= way;
@@ -191,8 +192,8 @@ impl<'a> Line<'a> {
         forward((from, s), (to, t)) || (self.closed && forward((to, t), (from, s)))
     }
 
-    /// The way from the yarn's point `at` over whole strides towards its point `ahead`, and the
-    /// point that they end at; none where no whole stride begins there.
+    /// The way over whole strides from the yarn's point `at` towards its point `ahead`, and the
+    /// point at which they end. None where no whole stride begins there.
     fn strides(&self, at: usize, ahead: usize) -> Option<(f64, usize)> {
         let (from, to) = (self.first + at, (self.first + ahead) / STRIDE);
         let starts = from % STRIDE == 0 && from / STRIDE < to;

@@ -8,7 +8,9 @@ mod extent;
 mod found;
 mod interval;
 mod line;
+mod met;
 mod nearer;
+mod pair;
 mod part;
 mod passing;
 mod rolls;
@@ -48,55 +50,56 @@ const TASK: usize = 1024;
 /// How near yarns come to one another and to themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// The least ratio of all contacts (see [`Contact::ratio`]); infinite where nothing comes
-    /// within [`CLEARANCE_NEAR`]. Where there is a [`Clearance::crowd`] it is no more than its
-    /// yarns have room for, which may be less than that of any contact.
+    /// The least [ratio](Contact::ratio) of all contacts; infinite where nothing comes within
+    /// [`CLEARANCE_NEAR`]. A [crowd](Clearance::crowd) bounds it from above by the room that its
+    /// yarns have, which may be less than the ratio of any contact.
     pub min: f64,
-    /// All contacts within [`CLEARANCE_NEAR`]. Where two yarns run side by side each pair of
-    /// control intervals may be one.
+    /// Number of contacts within [`CLEARANCE_NEAR`]. Two yarns side by side may make a contact in
+    /// each pair of control intervals.
     pub contacts: u64,
-    /// Contacts nearer than 1 by more than [`CLEARANCE_ACCURACY`]. Of threads that touch by
-    /// construction many are, since splines between their control points come to 0.99.
+    /// Number of contacts nearer than 1 by more than [`CLEARANCE_ACCURACY`]. Threads that touch by
+    /// construction have many, since splines between their control points come to 0.99.
     pub below_one: u64,
-    /// Contacts that pierce: nearer than [`CLEAR`](crate::CLEAR).
+    /// Number of contacts that pierce: nearer than [`CLEAR`](crate::CLEAR).
     pub piercing: u64,
     /// The worst contacts, [`CONTACTS_LISTED`] at most, worst first.
     pub worst: Vec<Contact>,
-    /// How many contacts have a ratio in \[0, 0.01), \[0.01, 0.02) and so on to [`CLEARANCE_NEAR`]
-    /// (steps of [`CLEARANCE_BIN`]).
+    /// Numbers of contacts by ratio: in \[0, 0.01), \[0.01, 0.02) and so on to [`CLEARANCE_NEAR`],
+    /// in steps of [`CLEARANCE_BIN`].
     pub histogram: Vec<u64>,
-    /// The least radius of curvature over how far the section reaches into the bend: its radius, of
-    /// round yarns; of those whose section turns, as far as it may reach whichever way it is
-    /// turned. Below 1 the tube folds into itself. Infinite where all yarns are straight. It is
+    /// The least radius of curvature, over how far the section reaches into the bend. A round
+    /// section reaches by its radius, a section that turns by the furthest it may reach in any
+    /// position. Below 1 the tube folds into itself; infinite where all yarns are straight. It is
     /// exact to a thousandth.
     pub curvature_min: f64,
-    /// Where that is.
+    /// The place of that bend.
     pub curvature_at: Option<YarnPlace>,
-    /// The worst of the places that are too crowded to be measured: contacts there are missing
-    /// above.
+    /// The worst of the places that are too crowded to be measured. The numbers above leave out
+    /// contacts there.
     pub crowd: Option<Crowd>,
-    /// Pairs of control intervals that were looked at, the work that it took: [`CLEARANCE_PAIRS`] a
-    /// control point at most.
+    /// Pairs of control intervals that were compared, a measure of the work: [`CLEARANCE_PAIRS`]
+    /// for each control point at most.
     pub pairs: u64,
 }
 
 /// Measures how near yarns come to one another, to themselves, and how tightly they bend.
 ///
-/// Surfaces are those that a mesh with `settings` is made of, but for the facets: the spline
-/// itself, and on it sections with the roll that they have on its rings, flattened as the yarn is.
-/// A ply that lies in another yarn's furrow touches where the surfaces do, not where their hulls
-/// would. Of each pair of yarn parts within [`CLEARANCE_NEAR`] the nearest approach is found. Two
-/// places of one yarn count from an arc length of π/2 times the sum of their radii on, by the
-/// chords between control points: nearer ones can only meet in a bend tighter than the yarn is
-/// thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle
-/// does), which shows in the curvature. So does a loop within one control interval, which is no
-/// contact.
+/// Surfaces are those of a mesh with `settings`, without its facets: sections stand on the spline
+/// with the roll and the flattening that they have on its rings. A ply that lies in another yarn's
+/// furrow touches where the surfaces do, not where their hulls would. Each pair of yarn parts
+/// within [`CLEARANCE_NEAR`] counts with its nearest approach.
 ///
-/// Where much more yarn lies than there is room for, no pairs are measured: yarns that are several
-/// times as thick as they lie apart are reported as [`Clearance::crowd`] at once. So time grows
-/// with the control points alone; flat sections take about seven times as long as round ones, those
-/// with plies or twist ten to thirty times. Memory is about 9 bytes a control point beside the
-/// yarns, and 4 more where a yarn's roll matters.
+/// Two places of one yarn count from an arc length of π/2 times the sum of their radii on, measured
+/// by the chords between control points. Nearer places can only meet in a bend tighter than the
+/// yarn is thick, which shows in the curvature (Schur's theorem: no curve with that curvature
+/// brings its ends closer than the circle does). A loop within one control interval shows there
+/// too, and is no contact.
+///
+/// Yarns that are several times as thick as they lie apart are not compared in pairs: they are
+/// reported at once as [`Clearance::crowd`]. Time therefore grows with the control points alone.
+/// Flat sections take about seven times as long as round ones, sections with plies or twist ten to
+/// thirty times. Memory is about 9 bytes a control point beside the yarns, and 4 more where a
+/// yarn's roll matters.
 ///
 /// **Errors**: [`ContactError::ClearancePoints`] for more control points than are measured,
 /// [`ContactError::Settings`] for points between control points that no mesh is made with,
@@ -118,8 +121,8 @@ pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, Contac
     clearance_with_progress(yarns, settings, |_| ControlFlow::Continue(()))
 }
 
-/// [`clearance()`] that calls `progress` with the share of the work that is done, from 0 to 1, from
-/// any thread. `Break` ends it.
+/// [`clearance()`] that calls `progress` with the share of the work done, from 0 to 1, from any
+/// thread. `Break` ends the measurement.
 ///
 /// **Errors**: those of [`clearance`]; [`ContactError::Cancelled`] where `progress` asked to stop.
 ///
@@ -148,9 +151,10 @@ pub fn clearance_with_progress(
     measured(yarns, settings, [CLEARANCE_NEAR, f64::INFINITY], &|_| true, &mut progress)
 }
 
-/// [`clearance()`] of those intervals alone for which `fresh` holds, by the number of their first
-/// control point, and of others with them: with all contacts up to a `ratio`, worst first, instead
-/// of the worst [`CONTACTS_LISTED`], and none beyond `near`.
+/// [`clearance()`] of the intervals for which `fresh` holds, among themselves and with all others;
+/// `fresh` gets the number of an interval's first control point. `[near, ratio]` are limits: no
+/// contact beyond `near` is looked for, and all contacts up to `ratio` are listed, worst first,
+/// instead of the worst [`CONTACTS_LISTED`].
 pub fn clearance_up_to(
     yarns: &Yarns,
     settings: &Settings,
@@ -161,8 +165,8 @@ pub fn clearance_up_to(
     measured(yarns, settings, [near, ratio], &fresh, &mut progress)
 }
 
-/// The intervals for which `fresh` holds and that bend more tightly than `ratio`, as
-/// [`Clearance::curvature_min`] has it, with where they do most.
+/// The intervals for which `fresh` holds and that bend more tightly than `ratio`, in the measure of
+/// [`Clearance::curvature_min`]. Each comes with its ratio and the place of its tightest bend.
 ///
 /// **Errors**: [`ContactError::Settings`], [`ContactError::OutOfMemory`].
 pub fn bends_up_to(
@@ -180,8 +184,8 @@ pub fn bends_up_to(
     Ok(spans.par_iter().flat_map_iter(|span| probe.bends(span, &rolls, ratio, &fresh)).collect())
 }
 
-/// The clearance of `yarns` where `fresh` holds, of contacts within `near`; all up to a ratio are
-/// kept, or else the worst.
+/// The clearance of the intervals of `yarns` for which `fresh` holds, of contacts within `near`. It
+/// keeps all contacts up to a finite ratio, and the worst where the ratio is infinite.
 fn measured(
     yarns: &Yarns,
     settings: &Settings,

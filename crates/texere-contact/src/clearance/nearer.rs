@@ -1,18 +1,19 @@
-//! Whether two intervals of round yarns come nearer to one another anywhere than is known: both are
-//! halved until bounds decide it.
+//! Whether two intervals of round yarns come nearer to one another anywhere than is known.
+//!
+//! Both are halved until bounds decide it.
 
 use glam::{DVec2, DVec4, Vec4Swizzles};
 
 use super::interval::{Cubic, closest, off_chord};
 
-/// How often an interval is halved at most: pieces so short are as near as their middles are.
+/// The most halvings of an interval. Pieces so short are as near as their middles are.
 const HALVINGS: u32 = 12;
 
 /// A piece of an interval: centreline and radius as one Bézier polygon in four dimensions.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     corners: [DVec4; 4],
-    /// Where it begins in the interval, and how long it is.
+    /// Where the piece begins in the interval, and its length, as parameters.
     start: f64,
     length: f64,
     halvings: u32,
@@ -39,13 +40,13 @@ impl Piece {
         ]
     }
 
-    /// How far the piece lies from the chord between its ends at most, mm.
+    /// Upper bound of the distance between the piece and the chord between its ends, mm.
     fn bend(&self) -> f64 {
         off_chord(self.corners.map(DVec4::xyz))
     }
 
-    /// How far another piece's polygon lies from this one's, by the direction between two places of
-    /// their chords, mm.
+    /// Lower bound of the distance to another piece: how far the polygons lie apart along the
+    /// direction between a place of each chord, mm.
     fn levels(&self, other: &Self, s: f64, t: f64) -> f64 {
         let at = |piece: &Self, t: f64| piece.corners[0].xyz().lerp(piece.corners[3].xyz(), t);
         let towards = (at(other, t) - at(self, s)).normalize_or_zero();
@@ -59,7 +60,7 @@ impl Piece {
         others - own
     }
 
-    /// No less, and no more, than its radius anywhere, before it is held at its floor.
+    /// Lower and upper bound of its radius, before it is held at its floor.
     fn radii(&self) -> [f64; 2] {
         let [a, b, c, d] = self.corners.map(|corner| corner.w);
         [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
@@ -70,8 +71,8 @@ impl Piece {
 /// if there is one.
 ///
 /// Two pieces are at least as far apart as their chords, less how far they lie from these. Pieces
-/// that may come nearer than `below` are halved. This finds the nearer of two approaches in one
-/// valley, which are one to the chords that the search starts from.
+/// that may come nearer than `below` are halved. The search finds the nearer of two approaches in
+/// one valley, where the chords of the main search see only one.
 pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
     let [floor, other_floor] = [one, other].map(|cubic| cubic.floors()[0]);
     if below <= 0.0 {
@@ -93,7 +94,7 @@ pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
         if there.position.distance(beside.position) < below * (there.radius()[0] + beside.radius()[0]) {
             return Some(place);
         }
-        // The one that its chord says less about.
+        // The piece that lies further from its chord is halved.
         let (vague_a, vague_b) = (bend_a + below * (thick_a - thin_a), bend_b + below * (thick_b - thin_b));
         match (a.halvings < HALVINGS, b.halvings < HALVINGS) {
             (true, more) if vague_a >= vague_b || !more => left.extend(a.halves().map(|half| (half, b))),

@@ -1,4 +1,4 @@
-//! Control intervals, as the cells of the search hold them.
+//! Control intervals as the cells of the search hold them.
 
 use glam::UVec3;
 

@@ -1,20 +1,20 @@
-//! Whether one interval goes steadily towards another, or steadily away from it.
+//! Whether one interval only comes nearer to another, or only goes away from it.
 
 use glam::DVec3;
 
 use super::interval::Cubic;
 
-/// What counts as level: half the slope of the squared distance at a knot, over the sum of both
-/// radii and the speed there.
+/// The greatest slope that counts as level: half the slope of the squared distance at a knot, over
+/// the sum of both radii and the speed there.
 ///
-/// At a knot where the distance is level the later interval has it. The earlier one may be left out
-/// where the slope is no more than this, the later one where it is twice as much at least, and a
-/// contact at the knot goes by what lies between ([`refine`](super::approach::refine)). Refinement
-/// ends so near to the place on the other yarn that it is off by a hundredth of this. At 1e-12
-/// rounding counts crossings on a knot twice (`a_crossing_on_a_control_point_is_one_contact`).
+/// The later interval owns a contact at a knot where the distance is level. The earlier interval
+/// may be left out where the slope is no more than this, the later one where it is at least twice
+/// as much; between the two [`refine`](super::approach::refine) decides. Refinement ends so near to
+/// the place on the other yarn that its error is a hundredth of this. At 1e-12 rounding counts
+/// crossings on a knot twice (`a_crossing_on_a_control_point_is_one_contact`).
 pub(super) const LEVEL: f64 = 1e-8;
 
-/// An interval as Bernstein coefficients, relative to where it begins so that nothing is lost far
+/// An interval as Bernstein coefficients, relative to its beginning so that no digits are lost far
 /// from the origin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passing {
@@ -48,8 +48,9 @@ impl Passing {
         }
     }
 
-    /// Half the slope of the squared distance to the `corner`th corner of `other`'s Bézier polygon,
-    /// along this interval: the coefficients of (A - B) · A', of degree five in its own parameter.
+    /// Half the slope, along this interval, of the squared distance to corner number `corner` of
+    /// `other`'s Bézier polygon: the coefficients of (A - B) · A', of degree five in its own
+    /// parameter.
     #[inline]
     fn slopes(&self, other: &Self, corner: usize) -> [f64; 6] {
         let place = other.start - self.start + other.corners[corner];
@@ -67,9 +68,9 @@ impl Passing {
         ]
     }
 
-    /// Whether the interval comes nearest to `other` at one of its knots whatever the place on
+    /// Whether the interval comes nearest to `other` at one of its knots, whatever the place on
     /// `other`, and that knot is another interval's to report. `cut` says which of its ends are an
-    /// open yarn's, `radii` the sum of both radii.
+    /// open yarn's; `radii` is the sum of both radii, mm.
     pub(super) fn leaves_to_neighbours(&self, other: &Self, cut: [bool; 2], radii: f64) -> bool {
         let level = |velocity: DVec3| LEVEL * radii * velocity.length();
         let (rises, falls) = (2.0 * level(self.velocities[0]), level(self.velocities[2]));
@@ -77,8 +78,8 @@ impl Passing {
             || (!cut[1] && self.all_slopes(other, |slope| slope <= falls))
     }
 
-    /// Whether it `holds` for all slopes, wherever on `other`: they lie between their coefficients
-    /// in its parameter, too.
+    /// Whether `holds` is true of all slopes, at any place on `other`. They lie between their
+    /// coefficients in `other`'s parameter, too.
     #[inline]
     fn all_slopes(&self, other: &Self, holds: impl Fn(f64) -> bool) -> bool {
         (0..4)

@@ -1,4 +1,4 @@
-//! Rolls of yarns as they are drawn.
+//! Rolls of yarns as a mesh draws them.
 
 use std::f64::consts::TAU;
 
@@ -11,24 +11,24 @@ use super::interval::Cubic;
 use crate::ContactError;
 use crate::watch::Watch;
 
-/// The rolls of all yarns whose surface depends on them.
+/// Rolls of all yarns whose surface depends on them.
 #[derive(Debug)]
 pub(super) struct Rolls {
     sampling: Sampling,
-    /// The frame of each yarn whose roll matters, and its twist, turns per mm.
+    /// Frame and twist (turns per mm) of each yarn whose roll matters.
     twists: Vec<Option<(Frame, f32)>>,
-    /// The roll where each interval begins; empty where no roll matters.
+    /// The roll at the beginning of each interval; empty where no roll matters.
     starts: Vec<Turn>,
-    /// What each ring of a closed yarn gives back of the yarn's whole turn, turns.
+    /// The share of a closed yarn's whole turn that each ring takes back, turns.
     given_back: Vec<f64>,
 }
 
 /// The rolls of one interval.
 #[derive(Debug, Default)]
 pub(super) struct IntervalRolls {
-    /// At its rings and at its end, turns, without jumps; empty where they don't matter.
+    /// Rolls at its rings and at its end, turns, without jumps; empty where they don't matter.
     at_rings: Vec<f64>,
-    /// Of a rotation-minimising frame: the twist, turns per mm, and what a ring gives back, turns.
+    /// Of a rotation-minimising frame: the twist (turns per mm) and what a ring takes back (turns).
     minimizing: Option<(f32, f64)>,
 }
 
@@ -72,7 +72,8 @@ impl Rolls {
         self.twists[yarn].is_some()
     }
 
-    /// Writes the roll at each control point of a yarn, and gives back what each ring gives back.
+    /// Writes the roll at each control point of a yarn, and returns what each ring takes back,
+    /// turns.
     fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, ContactError> {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);
         let Some(twist) = self.twists[yarn] else { return Ok(0.0) };
@@ -82,7 +83,7 @@ impl Rolls {
         }
         let intervals = if closed { points.len() } else { points.len().saturating_sub(1) };
         let window = |interval: usize| neighbours(points, closed, interval);
-        // A carried section starts as its outline stands.
+        // A carried section starts in the position of its outline.
         let first = self.starts_at(yarns, yarn, window(0));
         let mut roll = first;
         for (interval, start) in starts.iter_mut().enumerate().take(intervals) {
@@ -102,7 +103,7 @@ impl Rolls {
         Ok(f64::from(whole.turns()) / f64::from(steps))
     }
 
-    /// The roll of a yarn's first ring, whose interval `window` steers.
+    /// The roll of a yarn's first ring; `window` are the four control points of its interval.
     fn starts_at(&self, yarns: &Yarns, yarn: usize, window: [ControlPoint; 4]) -> Turn {
         let carried = matches!(self.twists[yarn], Some((Frame::RotationMinimizing, _)));
         let (Some(ups), true) = (yarns.layout().ups(yarn), carried) else { return Turn::ZERO };
@@ -111,8 +112,8 @@ impl Rolls {
         Turn::from_turns(cubic.lean(0.0, velocity.normalize_or_zero()) as f32)
     }
 
-    /// By how much each ring of an interval is turned against the one before, and the first one of
-    /// the interval that `next` steers; without that the yarn ends there.
+    /// The turn of each ring of an interval against the ring before, and of the first ring of the
+    /// next interval, whose control points are `next`. Without `next` the yarn ends there.
     fn steps(
         &self,
         window: [ControlPoint; 4],
@@ -122,7 +123,7 @@ impl Rolls {
         let segment = Segment::new(&window, self.sampling.s());
         let count = self.sampling.subdivisions() + 1;
         let at = |ring: u32| match next {
-            // Where the yarn rests it leaves in another direction than it comes.
+            // Where the yarn stands still it may leave in another direction than it came.
             Some(next) if ring == count => Segment::new(&next, self.sampling.s()).sample(0.0),
             None if ring == count => segment.sample(1.0),
             _ => segment.sample(ring as f32 * self.sampling.step()),
@@ -139,8 +140,8 @@ impl Rolls {
             .collect()
     }
 
-    /// The rolls of the interval that begins at control point `point` of the fabric and is steered
-    /// by `window`, and the one after it, if the yarn goes on, by `next`.
+    /// Rolls of the interval that begins at control point `point` of the fabric. `window` are its
+    /// four control points, `next` those of the interval after it, if the yarn goes on.
     pub(super) fn of_interval(
         &self,
         yarn: usize,
@@ -163,25 +164,25 @@ impl Rolls {
 }
 
 impl IntervalRolls {
-    /// Whether rolls don't matter.
+    /// Whether the surface does not depend on rolls.
     pub(super) fn is_empty(&self) -> bool {
         self.at_rings.is_empty()
     }
 
-    /// Whether they are those of a section that is carried along, against the upright frame, rather
-    /// than turns inside the outline.
+    /// Whether the rolls turn a section that is carried along, against the upright frame; else they
+    /// turn the section inside its outline.
     pub(super) fn is_carried(&self) -> bool {
         self.minimizing.is_some()
     }
 
-    /// By how much the yarn turns from the interval's beginning to its end, turns.
+    /// The yarn's turn from the interval's beginning to its end, turns.
     pub(super) fn whole(&self) -> f64 {
         let ends = [self.at_rings.first(), self.at_rings.last()];
         let [first, last] = ends.map(|roll| roll.copied().unwrap_or_default());
         (last - first).abs()
     }
 
-    /// The roll at `t` of the interval, turns. Beyond the interval it goes on as it came.
+    /// The roll at `t` of the interval, turns. Beyond the interval it goes on at the same rate.
     pub(super) fn at(&self, cubic: &Cubic, t: f64) -> f64 {
         let Some(steps) = self.at_rings.len().checked_sub(1).filter(|steps| *steps > 0) else { return 0.0 };
         let place = t * steps as f64;

@@ -1,104 +1,46 @@
-//! The search: which intervals meet in a cell, and where two of them come nearest to one another.
+//! The search: which intervals meet in a cell.
 
-use std::cell::{Cell, OnceCell};
-use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-use glam::{DVec2, Vec3A};
+use glam::Vec3A;
 use texere_core::backend::room_for;
 use texere_core::definitions::{Sampling, tangent_factor};
 use texere_core::{YarnPlace, Yarns};
 
-use super::approach::{Side, refine};
-use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BESIDE, Contact};
+use super::contact::CLEARANCE_BESIDE;
 use super::crowd::Crowd;
 use super::curvature;
-use super::extent::Extent;
 use super::found::Found;
-use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
-use super::nearer::nearer;
+use super::met::Met;
+use super::pair::Pair;
 use super::part::Part;
-use super::passing::Passing;
-use super::rolls::{IntervalRolls, Rolls};
+use super::rolls::Rolls;
 use super::support::Support;
-use super::surface::Surface;
-use super::touch::{touch, touch_near};
-use super::tubes;
 use crate::ContactError;
 use crate::grid::{Bounds, Grid};
 use crate::watch::Watch;
 
-/// The most intervals of a cell that are simply compared with one another. Threads that are clear
-/// of one another come to some 60, with one control point a crossing or several.
+/// The most intervals of a cell that are compared in all pairs. Threads that are clear of one
+/// another come to some 60, with one control point a crossing or several.
 pub(super) const FULL: usize = 256;
 
 /// Pairs between two reports of progress.
 const REPORT_EVERY: u64 = 1 << 14;
 
-/// How many times as far as its interval is long a section reaches that counts by its hull alone,
-/// untwisted.
-const DISC: f64 = 64.0;
-
-/// What is worked out of an interval once it is asked for.
-#[derive(Default)]
-struct Met {
-    curve: OnceCell<Curve>,
-    chords: OnceCell<Chords>,
-    extent: OnceCell<Extent>,
-}
-
-impl Met {
-    fn curve(&self, part: &Part<'_>, rolls: &Rolls) -> &Curve {
-        self.curve.get_or_init(|| Curve::new(part, rolls))
-    }
-
-    fn chords(&self, curve: &Curve) -> &Chords {
-        self.chords.get_or_init(|| curve.cubic.chords())
-    }
-
-    fn extent(&self, curve: &Curve, support: &Support) -> &Extent {
-        self.extent.get_or_init(|| Extent::new(&curve.cubic, support))
-    }
-}
-
-/// An interval that meets another.
-struct Curve {
-    cubic: Cubic,
-    passing: Passing,
-    /// How far its surface may lie from the centreline, mm.
-    reach: f64,
-    /// Whether sections are circles, so that the distance of the centrelines counts.
-    round: bool,
-    /// Whether they are all alike, too.
-    even: bool,
-    /// As [`Rolls::of_interval`] has them.
-    rolls: IntervalRolls,
-}
-
-impl Curve {
-    fn new(part: &Part<'_>, rolls: &Rolls) -> Self {
-        let (cubic, support) = (part.line.cubic(part.point), part.line.support);
-        let reach = cubic.half_bound() * support.extent();
-        let round = support.is_circle() && cubic.is_round();
-        let (point, line) = (part.point, &part.line);
-        let rolls = rolls.of_interval(line.yarn, point, line.window(point), line.window_after(point));
-        Self { passing: Passing::new(&cubic), reach, round, even: round && cubic.is_even(), rolls, cubic }
-    }
-}
-
-/// Pairs that are looked at in a cell of so many intervals, at most.
+/// Upper bound of the pairs that are compared in a cell of this many intervals.
 pub(super) const fn cell_work(intervals: usize) -> u64 {
     let half = if intervals < 2 * CLEARANCE_BESIDE { intervals } else { 2 * CLEARANCE_BESIDE };
     intervals as u64 * half as u64 / 2
 }
 
-/// The yarns, and how far their sections reach.
+/// The yarns, with the reach of their sections.
 pub(super) struct Probe<'a> {
     yarns: &'a Yarns,
     supports: Vec<Support>,
     ways: Vec<f64>,
-    /// Contacts beyond this are not looked for: [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR) at most.
+    /// The greatest ratio of a contact that is looked for:
+    /// [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR) at most.
     near: f64,
     /// The factor of the spline's tangents.
     s: f64,
@@ -127,12 +69,13 @@ impl<'a> Probe<'a> {
         self.line(offsets.partition_point(|&start| start <= point as u64).saturating_sub(1))
     }
 
-    /// All intervals in order, `most` at a time at most.
+    /// All intervals in order, in spans of `most` at most.
     pub(super) fn spans(&self, most: usize) -> Vec<Span<'_>> {
         (0..self.yarns.layout().yarns().len()).flat_map(|yarn| self.line(yarn).spans(most)).collect()
     }
 
-    /// All contacts of intervals that meet in `cells`, one of them at least `fresh`.
+    /// Adds to `found` all contacts of intervals that meet in `cells`, where `fresh` holds for at
+    /// least one of the two.
     ///
     /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says
     /// so.
@@ -164,7 +107,8 @@ impl<'a> Probe<'a> {
                 let bounds = line.bounds(point, self.near);
                 parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
             }
-            // Two may meet in several cells: where what they share begins they count.
+            // Two intervals may meet in several cells. They count in the first cell that both reach
+            // into.
             let counts = |one: &Part<'_>, other: &Part<'_>| {
                 (fresh(one.point) || fresh(other.point))
                     && one.bounds.meets(&other.bounds)
@@ -184,7 +128,8 @@ impl<'a> Probe<'a> {
             for (second, other) in parts.iter().enumerate() {
                 for (first, one) in parts[..second].iter().enumerate() {
                     if counts(one, other) {
-                        self.pair([(one, &met[first]), (other, &met[second])], rolls, &mut found, watch)?;
+                        let pair = Pair::new([(one, &met[first]), (other, &met[second])], rolls, self.near);
+                        pair.contacts(self.yarns.sources(), &mut found, watch)?;
                     }
                 }
             }
@@ -193,10 +138,10 @@ impl<'a> Probe<'a> {
         Ok(found)
     }
 
-    /// All contacts of many intervals, or that they are a crowd.
+    /// Adds all contacts of many intervals, or that they are a crowd.
     ///
-    /// A plane is moved over them, and each is compared with those that the plane meets when it
-    /// comes to it.
+    /// A plane sweeps over them, and each interval is compared with those that the plane meets when
+    /// it reaches it.
     fn sweep(
         &self,
         parts: &mut [Part<'_>],
@@ -210,7 +155,7 @@ impl<'a> Probe<'a> {
             found.add_crowd(crowd);
             return Ok(());
         }
-        // Along the axis on which boxes are shortest beside all of them.
+        // The sweep goes along the axis on which boxes are shortest against the whole.
         let (whole, sides) = parts.iter().fold((Bounds::NOTHING, Vec3A::ZERO), |(whole, sides), part| {
             (whole.joined(part.bounds), sides + (part.bounds.high - part.bounds.low))
         });
@@ -234,134 +179,12 @@ impl<'a> Probe<'a> {
                 if counts(part, other) {
                     let mut pair = [(part, &*met), (*other, &**other_met)];
                     pair.sort_by_key(|(part, _)| part.point);
-                    self.pair(pair, rolls, found, watch)?;
+                    Pair::new(pair, rolls, self.near).contacts(self.yarns.sources(), found, watch)?;
                 }
             }
             beside.push((part, met));
         }
         watch.advance(unreported)
-    }
-
-    /// The contacts of two intervals, the first one's number being the lower.
-    ///
-    /// **Errors**: [`ContactError::Cancelled`] where `watch` says so.
-    fn pair(
-        &self,
-        [(one, first), (other, second)]: [(&Part<'_>, &Met); 2],
-        rolls: &Rolls,
-        found: &mut Found,
-        watch: &Watch<'_>,
-    ) -> Result<(), ContactError> {
-        let (a, b) = (first.curve(one, rolls), second.curve(other, rolls));
-        let reach = a.reach + b.reach;
-        let within = self.near * reach;
-        let cuts = [one, other].map(|part| part.line.cut(part.point));
-        let same = one.line.yarn == other.line.yarn;
-        let passes_by = if a.even && b.even {
-            a.passing.leaves_to_neighbours(&b.passing, cuts[0], reach)
-                || b.passing.leaves_to_neighbours(&a.passing, cuts[1], reach)
-        } else {
-            same && one.line.leads_on(one.point, other.point)
-        };
-        if passes_by {
-            return Ok(());
-        }
-        let straight = [a, b].map(|curve| [curve.cubic.position(0.0), curve.cubic.position(1.0)]);
-        let bends = a.cubic.bend() + b.cubic.bend();
-        if closest(straight[0], straight[1]).0 > (within + bends).powi(2) {
-            return Ok(());
-        }
-        let sides = [
-            Side { cubic: &a.cubic, support: one.line.support, cut: cuts[0] },
-            Side { cubic: &b.cubic, support: other.line.support, cut: cuts[1] },
-        ];
-        // Two places so close along a yarn can only meet in a fold.
-        let apart = |place: DVec2| {
-            let reach =
-                [(a, place.x), (b, place.y)].map(|(curve, t)| curve.cubic.at(t).sizes().max_element());
-            let window = FRAC_PI_2 * (reach[0] + reach[1]) * one.line.support.extent();
-            !same || !one.line.within(window, (one.point, place.x), (other.point, place.y))
-        };
-        let add = |place: DVec2, ratio: f64, found: &mut Found| {
-            let sources = self.yarns.sources();
-            found.add(ratio, || Contact {
-                places: [
-                    one.line.place(one.point, place.x, sources),
-                    other.line.place(other.point, place.y, sources),
-                ],
-                ratio,
-            });
-        };
-        // Chords may be further from one another than the curves are.
-        let (chords, within) = ([first.chords(a), second.chords(b)], within + SAGITTA * reach);
-        let surfaces =
-            [Surface { side: sides[0], rolls: &a.rolls }, Surface { side: sides[1], rolls: &b.rolls }];
-        let surfaces = surfaces.each_ref();
-        // Of yarns so much thicker than their control points lie apart each interval is a disc: its
-        // tube is all there is to it.
-        let discs = [a, b].into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
-        if !discs && surfaces.iter().any(|surface| !surface.is_simple()) {
-            // Surfaces that have lobes or turn may come near in many places, whatever the
-            // centrelines do.
-            let mut all = Vec::new();
-            chords[0].approaches(chords[1], within, false, |starts| all.push(starts[0]));
-            let touching = if all.is_empty() { None } else { touch(surfaces, &all, apart) };
-            if let Some((place, ratio)) = touching {
-                add(place, ratio, found);
-            }
-            // Each takes as long as thousands of other pairs.
-            return watch.advance(0);
-        }
-        let round = a.round && b.round;
-        if !round && !discs {
-            let extents = [first.extent(a, one.line.support), second.extent(b, other.line.support)];
-            if extents[0].is_clear_of(extents[1], self.near) {
-                return Ok(());
-            }
-        }
-        let mut seen: Vec<DVec2> = Vec::new();
-        let least = Cell::new(f64::INFINITY);
-        let valley = Cell::new(false);
-        let refined = |start: DVec2| {
-            let approach = refine(sides[0], sides[1], start);
-            least.set(approach.ratio.min(least.get()));
-            valley.set(valley.get() || approach.valley);
-            approach.own.map(|place| (place, approach.ratio))
-        };
-        let mut keep = |(place, ratio): (DVec2, f64)| {
-            let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
-            if ratio <= self.near && !again && apart(place) {
-                seen.push(place);
-                add(place, ratio, found);
-            }
-        };
-        // Of a yarn with itself, what lies beside the knot that two intervals share hides an
-        // approach further along.
-        chords[0].approaches(chords[1], within, same && round, |starts| {
-            // The first may lead out of the interval to an approach beside this one's own.
-            let reached = starts.into_iter().find_map(|start| match round {
-                true => refined(start),
-                false if discs => {
-                    let near = tubes::nearest(sides[0], sides[1], start)?;
-                    Some((DVec2::new(sides[0].own(near.place.x)?, sides[1].own(near.place.y)?), near.ratio))
-                }
-                false => touch_near(surfaces, self.near, tubes::nearest(sides[0], sides[1], start)?),
-            });
-            if let Some(approach) = reached {
-                keep(approach);
-            }
-        });
-        // Approaches that lie in one valley may be one to the chords.
-        while !discs && valley.get() {
-            let known = least.get();
-            let nearer = nearer(&a.cubic, &b.cubic, known.min(self.near) - CLEARANCE_ACCURACY);
-            let Some(start) = nearer else { break };
-            refined(start).into_iter().for_each(&mut keep);
-            if least.get() >= known {
-                break;
-            }
-        }
-        Ok(())
     }
 
     /// The tightest bend of the intervals of `span`.

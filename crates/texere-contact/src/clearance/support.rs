@@ -1,20 +1,20 @@
-//! How far a section reaches in each direction, and where its outline lies.
+//! Reach of a section in each direction, and its outline.
 
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use texere_core::Section;
 
-/// Directions in which a section that is no circle is measured: between two of them its reach is
+/// Directions in which a section that is no circle is measured. Between two of them its reach is
 /// off by 2e-5.
 const DIRECTIONS: usize = 512;
 
-/// Angles at which a section's outline is measured: between two of them it is off by 1e-5, or at a
+/// Angles at which a section's outline is measured. Between two of them it is off by 1e-5, at a
 /// lens's two corners by 1e-3.
 const ANGLES: usize = 2048;
 
-/// A section's support function: the furthest point of its outline (of its hull, where it is not
-/// convex) in any direction, in radii of the yarn.
+/// A section's support function: the furthest point of its outline in any direction, in radii of
+/// the yarn. Where the outline is not convex its hull counts.
 #[derive(Debug, Clone)]
 pub(super) enum Support {
     Circle,
@@ -22,8 +22,8 @@ pub(super) enum Support {
         furthest: Vec<DVec2>,
         /// Points of the outline; of a polygon its corners.
         outline: Vec<DVec2>,
-        /// How far from the centre the outline lies, angle by angle; none of a polygon, whose
-        /// corners may be narrower than that.
+        /// Distance of the outline from the centre, angle by angle; none of a polygon, whose
+        /// corners may be narrower than the steps.
         radii: Vec<f64>,
         smooth: bool,
         extent: f64,
@@ -94,7 +94,7 @@ impl Support {
         }
     }
 
-    /// The point of the outline that lies `share` of the way round it.
+    /// The point of the outline at `share` of the way round it.
     pub(super) fn point(&self, share: f64) -> DVec2 {
         match self {
             Self::Circle => DVec2::from_angle(share * TAU),
@@ -106,8 +106,8 @@ impl Support {
         }
     }
 
-    /// The factor by which the section grows until its outline meets `point`: where its ray meets
-    /// the outline more than once, the outermost place.
+    /// The factor by which the section grows until its outline meets `point`. Where the point's ray
+    /// meets the outline more than once, the outermost place counts.
     pub(super) fn growth_at(&self, point: DVec2) -> f64 {
         match self {
             Self::Circle => point.length(),
@@ -130,7 +130,7 @@ impl Support {
         matches!(self, Self::Circle)
     }
 
-    /// The furthest that the section reaches in any direction.
+    /// The section's greatest reach, over all directions.
     pub(super) const fn extent(&self) -> f64 {
         match self {
             Self::Circle => 1.0,
@@ -138,7 +138,7 @@ impl Support {
         }
     }
 
-    /// The nearest to its centre that the outline comes.
+    /// The outline's least distance from the centre.
     pub(super) const fn inner(&self) -> f64 {
         match self {
             Self::Circle => 1.0,
@@ -154,10 +154,10 @@ impl Support {
         }
     }
 
-    /// The section's furthest point in `direction` where a yarn has the upright frame `[side, up]`
-    /// and half width and half height `sizes`: from the centre, mm.
+    /// The section's furthest point in `direction`, from the centre, mm. The yarn has the upright
+    /// frame `[side, up]`, and half width and half height `sizes`.
     pub(super) fn furthest(&self, [side, up]: [DVec3; 2], sizes: DVec2, direction: DVec3) -> DVec3 {
-        // What flattening does to the points it does to directions the other way round.
+        // Flattening stretches points one way and directions the inverse way.
         let across = DVec2::new(direction.dot(side), direction.dot(up)) * sizes;
         let point = match self {
             Self::Circle => across.normalize_or_zero(),
@@ -171,8 +171,8 @@ impl Support {
     }
 }
 
-/// How far from the centre an outline lies at each of [`ANGLES`] angles: the outermost place of
-/// each ray.
+/// Distance of an outline from the centre at each of [`ANGLES`] angles: the outermost place of each
+/// ray.
 fn radii(outline: &[DVec2]) -> Vec<f64> {
     let mut radii = vec![0.0_f64; ANGLES];
     for k in 0..outline.len() {
@@ -193,7 +193,7 @@ fn radii(outline: &[DVec2]) -> Vec<f64> {
     radii
 }
 
-/// How far along `ray`, in its lengths, an edge meets it.
+/// The multiple of `ray` at which an edge meets it.
 fn along_ray(ray: DVec2, start: DVec2, end: DVec2) -> Option<f64> {
     let (before, after) = (ray.perp_dot(start), ray.perp_dot(end));
     let crosses = (before <= 0.0) != (after <= 0.0);

@@ -1,4 +1,4 @@
-//! The surface of one interval as it is drawn: section, roll and flattening at every place.
+//! The surface of one interval as a mesh draws it: section, roll and flattening at every place.
 
 use std::f64::consts::TAU;
 
@@ -10,20 +10,20 @@ use super::rolls::IntervalRolls;
 /// Steps of Newton's method to the place of an interval that is level with a point.
 const STEPS: usize = 8;
 
-/// How far, in intervals, these steps may lead out of the interval.
+/// How far these steps may lead out of the interval, in intervals.
 const STRAY: f64 = 0.25;
 
-/// A step so short that the next would lead no further than its square, in intervals.
+/// A step this short ends the search, in intervals: the next step would be as long as its square.
 const SHORT: f64 = 1e-4;
 
-/// An interval with all that its surface depends on.
+/// An interval with everything that its surface depends on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface<'a> {
     pub(super) side: Side<'a>,
     pub(super) rolls: &'a IntervalRolls,
 }
 
-/// How the section stands at one place.
+/// Position of the section at one place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stand {
     pub(super) centre: DVec3,
@@ -37,19 +37,19 @@ pub(super) struct Stand {
 }
 
 impl Stand {
-    /// The way from the centre to `point` of the section, mm.
+    /// The vector from the centre to `point` of the section, mm.
     pub(super) fn way(&self, point: DVec2) -> DVec3 {
         let point = self.roll.rotate(point) * self.sizes;
         self.frame[0] * point.x + self.frame[1] * point.y
     }
 
-    /// `direction` as points of the section that is turned already see it: flattening does to
-    /// directions the other way round what it does to points.
+    /// `direction` in the coordinates of the section, once it is turned by its roll. Flattening
+    /// stretches directions inversely to points.
     fn across(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.frame[0]), direction.dot(self.frame[1])) * self.sizes
     }
 
-    /// `direction` as points of the section see it.
+    /// `direction` in the coordinates of the section.
     pub(super) fn seen(&self, direction: DVec3) -> DVec2 {
         DVec2::new(self.roll.x, -self.roll.y).rotate(self.across(direction))
     }
@@ -61,7 +61,7 @@ impl Surface<'_> {
         self.side.support.is_smooth() && self.rolls.is_empty()
     }
 
-    /// How the section stands at `t`; nowhere where the yarn stands still.
+    /// The section's position at `t`. None where the yarn stands still.
     pub(super) fn stand(&self, t: f64) -> Option<Stand> {
         let [centre, velocity, _] = self.side.cubic.path(t);
         let tangent = velocity.try_normalize()?;
@@ -76,19 +76,18 @@ impl Surface<'_> {
         Some(Stand { centre, tangent, frame, sizes, roll })
     }
 
-    /// No less than a section that stands so reaches in a direction whose length is 1, whatever its
-    /// roll, mm.
+    /// Upper bound of the section's reach in a direction of length 1, whatever its roll, mm.
     pub(super) fn reach(&self, stand: &Stand, direction: DVec3) -> f64 {
         stand.across(direction).length() * self.side.support.extent()
     }
 
-    /// The place near `t` whose cross-section `point` lies in.
+    /// The parameter near `t` whose cross-section holds `point`.
     pub(super) fn level_with(&self, point: DVec3, mut t: f64) -> f64 {
         for _ in 0..STEPS {
             let [position, velocity, acceleration] = self.side.cubic.path(t);
             let apart = point - position;
             let (along, flat) = (apart.dot(velocity), velocity.length_squared());
-            // Beyond the centre of a bend the straight line's step.
+            // Beyond the centre of a bend the straight line's step is taken.
             let bent = flat - apart.dot(acceleration);
             let step = along / if bent > 0.1 * flat { bent } else { flat + f64::MIN_POSITIVE };
             let next = (t + step).clamp(-STRAY, 1.0 + STRAY);
@@ -101,9 +100,9 @@ impl Surface<'_> {
         t
     }
 
-    /// The factor by which the section grows until the surface meets `point`, and where: near `t`.
-    /// None where that is no longer this interval's, or so far from the centreline that it is more
-    /// than `most`.
+    /// The factor by which the section grows until the surface meets `point`, and the parameter
+    /// near `t` where it does. None where that place belongs to another interval, or where the
+    /// point is so far from the centreline that the factor exceeds `most`.
     pub(super) fn growth_at(&self, point: DVec3, t: f64, most: f64) -> Option<(f64, f64)> {
         let t = self.level_with(point, t);
         let reach = most * self.side.support.extent() * self.side.cubic.sizes(t).max_element();

@@ -1,9 +1,24 @@
-//! Where the surfaces of two intervals touch as both sections grow, of whatever section, flattening
-//! and roll.
+//! Where the surfaces of two intervals touch as both sections grow, for any section, flattening and
+//! roll.
 //!
-//! Points of one surface are tried against the other one, at the growth at which something touched
-//! so far: most of them lie outside and are done with. From those that lie inside, or nearly so,
-//! the way leads downhill to where the surfaces touch at the least growth close by.
+//! The idea is simple: grow both yarns until they touch. The *growth* is the factor on both
+//! sections, 1 for the yarns as they are. A point of the thinner surface touches the thicker one at
+//! some growth, and the least growth over all points is the contact's ratio. Most points need more
+//! growth than the best one so far, and one test at that growth rejects them.
+//!
+//! ```text
+//! best = the least growth found from the approaches of the centrelines
+//! for each section along the thinner yarn:
+//!     for each place of the thicker yarn that is level with it:
+//!         skip the section if both surfaces are out of reach at growth best
+//!         for each point of the section's outline:
+//!             skip it if it lies outside the thicker surface at growth best
+//!             growth = where the point's ray meets the thicker surface, by secants
+//!             best = min(best, growth after a descent along the yarn and round it)
+//! ```
+//!
+//! Sections that neither turn nor have lobes need one descent only, from where their tubes touch
+//! ([`touch_near`]).
 
 use std::f64::consts::TAU;
 
@@ -14,66 +29,67 @@ use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
 use super::tubes::{self, Nearest};
 
-/// Points of an outline that are tried: of one without and of one with lobes or corners.
+/// Points tried of an outline: without lobes and corners, and with them.
 const POINTS: usize = 48;
 const POINTS_LOBED: usize = 96;
 
-/// The step along the yarn from one section that is tried to the next, in the sum of both yarns'
-/// least half widths or heights.
+/// The step along the yarn between sections that are tried, in the sum of both yarns' least half
+/// widths or heights.
 const STEP: f64 = 0.25;
 
-/// The same, in turns of either yarn's roll.
+/// The step along the yarn between sections that are tried, in turns of either yarn's roll. The
+/// shorter of both steps counts.
 const STEP_TURNS: f64 = 1.0 / 72.0;
 
-/// Lobes and flat sides that are no higher than this share of how far both surfaces reach don't
-/// show: so fine a yarn may turn as it likes beside such a thick one.
+/// The height of lobes and flat sides, as a share of the reach of both surfaces, up to which they
+/// don't show. So fine a yarn may turn at will beside such a thick one.
 const RELIEF: f64 = 1e-3;
 
-/// Sections of an interval that are tried at most.
+/// The most sections of an interval that are tried.
 const SECTIONS_MAX: usize = 4096;
 
-/// By which share of the least growth so far the growth at a place that is tried may exceed it for
-/// the way to lead downhill from there: as much as a lobe rises between two places.
+/// The share by which the growth at a place may exceed the least growth so far for a descent to
+/// start there: as much as a lobe rises between two places.
 const SLACK: f64 = 0.015;
 
-/// After so many places only those count that touch at less than the least growth so far.
+/// The number of descents after which only places start one that touch at less than the least
+/// growth so far.
 const PLACES: usize = 16;
 
-/// Surfaces that touch at less than this growth pierce one another so deeply that nobody asks how
-/// deeply.
+/// The growth below which no lesser one is looked for: the surfaces pierce one another deeply.
 const DEEP: f64 = 0.25;
 
-/// How much further from the other yarn's tangent than its surface a point may lie and still be
-/// inside of it, where the yarn bends.
+/// How much further than its surface a point may lie from the other yarn's tangent and still be
+/// inside, where the yarn bends.
 const BENT: f64 = 1.3;
 
-/// How far, in intervals, the place that a point is level with may lie from where the yarn's
-/// tangent has it.
+/// How far the place that a point is level with may lie from where the yarn's tangent has it, in
+/// intervals.
 const SLANT: f64 = 0.2;
 
-/// The cosine of the angle up to which an interval may turn and have one place only that is level
+/// The cosine of the angle up to which an interval may turn and still have a single place level
 /// with a point near it.
 const STRAIGHT: f64 = 0.7;
 
-/// Places of the other yarn this near to one another are one, in intervals.
+/// The distance up to which two places of the other yarn are one, in intervals.
 const SAME: f64 = 1e-3;
 
-/// The way downhill ends with steps this much shorter than those between places that are tried.
+/// The last steps of a descent, as a share of the steps between places that are tried.
 const FINEST: f64 = 1.0 / 32.0;
 
-/// By how much tubes may be wrong, and where the way to there has an end.
+/// The error of the tubes' ratio: where their steps have not converged, and where they have.
 const OFF: f64 = 0.1;
 const OFF_ENDED: f64 = 0.01;
 
-/// How exact a growth is worked out.
+/// The accuracy of a growth.
 const EXACT: f64 = 2e-5;
 
 /// Where surfaces touch: parameters of both, and the growth.
 type Touch = (DVec2, f64);
 
-/// The least growth at which the surfaces touch, and where, found from parameters `starts` on.
-/// `counts` says whether two parameters may touch. None where that is another interval's, or at
-/// more than [`CLEARANCE_NEAR`].
+/// The least growth at which the surfaces touch, and where. `starts` are parameters of approaches
+/// of the centrelines; `counts` says whether two parameters may touch. None where the place belongs
+/// to another interval, or at more than [`CLEARANCE_NEAR`].
 pub(super) fn touch(
     surfaces: [&Surface<'_>; 2],
     starts: &[DVec2],
@@ -91,8 +107,8 @@ pub(super) fn touch(
     }
 }
 
-/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch: none
-/// where that is seen to be beyond `most`.
+/// The least growth of surfaces that neither turn nor have lobes, close to where their tubes touch.
+/// None where the tubes show that it is beyond `most`.
 pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest) -> Option<Touch> {
     if tubes.ratio > most + if tubes.ended { OFF_ENDED } else { OFF } {
         return None;
@@ -101,7 +117,7 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest)
         return within(surfaces, &tubes, found);
     }
     if tubes.ended {
-        // The point that the tubes touch in is clear of the true surface: the tubes have to do.
+        // The point in which the tubes touch is clear of the true surface. The tubes have to do.
         return own(surfaces, (tubes.place, tubes.ratio));
     }
     let [one, other] = surfaces;
@@ -109,15 +125,15 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest)
     within(surfaces, &beside, near(surfaces, &beside).unwrap_or((beside.place, beside.ratio)))
 }
 
-/// What the way downhill from where tubes touch has found, if their touch is these intervals': the
-/// way may lead on into a neighbour, whose own tubes may touch elsewhere or nowhere.
+/// The result of a descent from where tubes touch, if the tubes' touch belongs to these intervals.
+/// The descent itself may lead on into a neighbour, whose own tubes may touch elsewhere or nowhere.
 fn within(surfaces: [&Surface<'_>; 2], tubes: &Nearest, (place, growth): Touch) -> Option<Touch> {
     own(surfaces, (tubes.place, growth))?;
     Some((place.clamp(DVec2::ZERO, DVec2::ONE), growth))
 }
 
-/// Where the surfaces touch, downhill from where their tubes do; none where that point is clear of
-/// the true surface.
+/// Where the surfaces touch, by a descent from where their tubes do. None where that point is clear
+/// of the true surface.
 fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     let Nearest { place, ratio, normal, .. } = *tubes;
     let [one, other] = surfaces;
@@ -129,13 +145,13 @@ fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     }
 }
 
-/// Whether the second is the thinner one, whose points are tried: so none of its shape falls
-/// between two points of the other.
+/// Whether the second surface is the thinner one. Points of the thinner one are tried, so that none
+/// of its shape falls between two points of the other.
 fn exchanged([one, other]: [&Surface<'_>; 2]) -> bool {
     other.side.cubic.half_bound() < one.side.cubic.half_bound()
 }
 
-/// A touch, if it is these intervals'.
+/// A touch, if it belongs to these intervals.
 fn own([one, other]: [&Surface<'_>; 2], (place, growth): Touch) -> Option<Touch> {
     Some((DVec2::new(one.side.own(place.x)?, other.side.own(place.y)?), growth))
 }
@@ -146,8 +162,8 @@ struct Search<'a, F> {
     counts: F,
 }
 
-/// A point of the thinner surface, its parameter along the yarn and its share of the way round the
-/// outline, and the other one's place and growth where they touch.
+/// A point of the thinner surface (its parameter along the yarn and its share of the way round the
+/// outline), and the other surface's parameter and the growth at which they touch.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     t: f64,
@@ -156,7 +172,7 @@ struct Found {
     growth: f64,
 }
 
-/// From where the way has led downhill so far, and where to.
+/// The descents so far: where they started and ended, and the best end.
 #[derive(Debug, Default)]
 struct Tried {
     best: Option<Found>,
@@ -177,7 +193,7 @@ impl Tried {
         self.best.map_or(CLEARANCE_NEAR, |found| found.growth)
     }
 
-    /// By how much the growth at a place may exceed that for the way to lead downhill from there.
+    /// How much the growth at a place may exceed the least one for a descent to start there.
     fn slack(&self) -> f64 {
         if self.places.len() < PLACES { SLACK * self.level() } else { 0.0 }
     }
@@ -197,7 +213,7 @@ impl Found {
 }
 
 impl<F: Fn(DVec2) -> bool> Search<'_, F> {
-    /// Downhill from the point of a section that reaches furthest along `normal`.
+    /// The end of a descent from the point of a section that reaches furthest along `normal`.
     fn near(&self, start: DVec2, growth: f64, normal: DVec3) -> Option<Touch> {
         let thin = self.surfaces[0];
         let round = if thin.side.support.is_circle() {
@@ -220,7 +236,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let steps = DVec2::new((high - low) / sections as f64, 1.0 / POINTS_LOBED as f64);
         let outline: Vec<(f64, DVec2)> =
             rounds.iter().map(|&round| (round, thin.side.support.point(round))).collect();
-        // From the approaches on, so that the rest is soon done with.
+        // The approaches come first, so that the rest is soon done with.
         let first = |start: &DVec2| {
             let towards = thick.side.cubic.position(start.y) - thin.side.cubic.position(start.x);
             let round = self.facing(start.x, towards, &rounds)?;
@@ -229,7 +245,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         };
         let mut tried = Tried::default();
         starts.iter().filter_map(first).for_each(|found| tried.add(None, found));
-        // One that bends back has several places level with a point.
+        // An interval that bends back has several places level with a point.
         let [leaving, _, arriving] = thick.side.cubic.velocities();
         let bent = leaving.dot(arriving) < STRAIGHT * leaving.length() * arriving.length();
         let mut besides: Vec<f64> = if bent { vec![0.1, 0.5, 0.9] } else { vec![] };
@@ -262,7 +278,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let Some(other) = thick.stand(beside) else { return };
         let towards = other.centre - stand.centre;
         let level = tried.level() + tried.slack();
-        // Too far for anything to touch here.
+        // Nothing can touch at this distance.
         let (direction, apart) = (towards.normalize_or_zero(), towards.length());
         if apart > BENT * level * (thin.reach(stand, direction) + thick.reach(&other, direction)) {
             return;
@@ -278,7 +294,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
                 continue;
             }
-            // Others lie level with a place of a neighbour of the other yarn's interval.
+            // Other points lie level with a place of a neighbour of the other yarn's interval.
             let level_with = beside + along / speed;
             let at = DVec2::new(t, round);
             if level_with < low - SLANT || level_with > high + SLANT || tried.is_near(at, 2.0 * steps) {
@@ -293,15 +309,15 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         }
     }
 
-    /// Which place of the outline, of `rounds`, reaches furthest in a direction from the section at
-    /// `t`.
+    /// The place of the outline, out of `rounds`, that reaches furthest in a direction from the
+    /// section at `t`.
     fn facing(&self, t: f64, direction: DVec3, rounds: &[f64]) -> Option<f64> {
         let seen = self.surfaces[0].stand(t)?.seen(direction);
         let reach = |round: &f64| self.surfaces[0].side.support.point(*round).dot(seen);
         rounds.iter().copied().max_by(|a, b| reach(a).total_cmp(&reach(b)))
     }
 
-    /// How many steps the thinner interval is tried in.
+    /// Number of steps in which the thinner interval is tried.
     fn sections(&self) -> usize {
         let [thin, thick] = self.surfaces.map(|surface| &surface.side);
         let least = |side: &Side<'_>| side.cubic.floors().into_iter().fold(f64::INFINITY, f64::min);
@@ -318,15 +334,15 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }
 
-    /// By how much more the other surface must grow to meet a point of a section grown by `growth`,
-    /// and where it does; none where that is far.
+    /// How much more the other surface must grow to meet a point of a section grown by `growth`,
+    /// and the parameter where it does. None where that is far.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
         let (needed, other) = self.surfaces[1].growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))
     }
 
-    /// Where the surfaces touch on the ray through the point `round` the outline of the section at
-    /// `t`, at `level` at most; near place `beside` of the other yarn.
+    /// Where the surfaces touch on the ray through the outline's point `round` of the section at
+    /// `t`: at `level` at most, near place `beside` of the other yarn.
     fn solve(&self, t: f64, round: f64, level: f64, beside: f64) -> Option<Found> {
         self.solve_at(&self.surfaces[0].stand(t)?, DVec2::new(t, round), level, beside)
     }
@@ -339,7 +355,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             self.excess(stand, way, high, beside).filter(|(excess, _)| *excess <= 0.0)?;
         let (mut low, mut under) = (0.0, f64::INFINITY);
         while high - low > EXACT && over < 0.0 {
-            // The secant, or half way where there is none yet or it leads nowhere.
+            // The secant, or the middle where there is no secant yet or it leads nowhere.
             let secant = low + (high - low) * under / (under - over);
             let middle = f64::midpoint(low, high);
             let inner = (high - low) * 0.02;
@@ -353,7 +369,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         (self.counts)(DVec2::new(t, other)).then_some(Found { t, round, other, growth: high })
     }
 
-    /// From `found` to the least growth close by, with steps that get shorter.
+    /// The descent from `found` to the least growth close by, with steps that get shorter.
     fn downhill(&self, mut found: Found, mut steps: DVec2) -> Found {
         let finest = steps * FINEST;
         while steps.x > finest.x {

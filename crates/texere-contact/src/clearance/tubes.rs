@@ -1,5 +1,7 @@
-//! Where two intervals come nearest to one another if each is taken for the straight tube along its
-//! tangent: near the truth for sections that neither turn nor have lobes, and soon found.
+//! Where two intervals come nearest to one another, each taken for the straight tube along its
+//! tangent.
+//!
+//! That is near the truth for sections that neither turn nor have lobes, and found in a few steps.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,37 +11,37 @@ use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
 use super::contact::CLEARANCE_NEAR;
 use super::interval::At;
 
-/// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by
-/// its neighbours.
+/// The sine of the angle below which two tangents count as parallel. The neighbours of so flat a
+/// crossing find it.
 const PARALLEL: f64 = 0.02;
 
-/// Tubes so far apart say that the surfaces are, too.
+/// The ratio of tubes above which their surfaces are taken to be apart, too.
 const FAR: f64 = CLEARANCE_NEAR + 0.1;
 
-/// The cosine of the angle up to which two yarns run beside one another.
+/// The cosine of the angle up to which two yarns count as running side by side.
 const BESIDE: f64 = 0.9;
 
-/// Steps of the golden section to the direction that separates two parallel yarns best, out of half
-/// a turn: they leave 5e-3 rad, and a ratio off by the square of that.
+/// Steps of the golden-section search for the direction that separates two parallel yarns best,
+/// over half a turn. They leave 5e-3 rad, and a ratio off by the square of that.
 const AROUND: usize = 13;
 
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Where two tubes touch: parameters, the factor by which both sections could grow until then, and
-/// the way from the first to the other at right angles to both surfaces.
+/// the direction from the first to the other at right angles to both surfaces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
     pub(super) place: DVec2,
     pub(super) ratio: f64,
     pub(super) normal: DVec3,
-    /// Whether the way to there has an end. Of two that run nearly side by side the touching point
-    /// may leap to and fro.
+    /// Whether the steps to there have converged. Between two yarns that run nearly side by side
+    /// the touching point may leap to and fro.
     pub(super) ended: bool,
 }
 
-/// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each
-/// the touching point lies from its place, in intervals.
+/// A touch of both yarns' tangent tubes at two places: the factor at which they touch, and how far
+/// along each the touching point lies from its place, in intervals.
 struct Touch {
     ratio: f64,
     offset: DVec2,
@@ -47,9 +49,8 @@ struct Touch {
     normal: DVec3,
 }
 
-/// Slides both places from `start` to where the tubes touch: parameters, and the factor by which
-/// both sections could grow until then. None where that leads to other intervals, or touches
-/// nothing.
+/// Slides both places from `start` to where the tubes touch. None where that leads to other
+/// intervals, or where nothing touches.
 ///
 /// Straight tubes touch where their common normal is N = t₁ × t₂; scaled by λ = N·Δ / (h₁(N) +
 /// h₂(-N)), h the sections' support functions, their surfaces meet in one point. On bent tubes that
@@ -65,7 +66,7 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
         if one.is_gone(place.x, last.offset.x) || other.is_gone(place.y, last.offset.y) {
             return None;
         }
-        // Outside a tight bend the whole way would overshoot.
+        // Outside a tight bend a whole step would overshoot.
         let step = (0.6 * last.offset).clamp(DVec2::splat(-STRIDE), DVec2::splat(STRIDE));
         let next = DVec2::new(one.held(place.x + step.x), other.held(place.y + step.y));
         let moved = (next - place).abs().max_element();
@@ -83,7 +84,7 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
 }
 
 /// Where two tubes that run nearly side by side are nearest to one another: where their centrelines
-/// are.
+/// are nearest.
 pub(super) fn nearest_beside(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let place = refine(one, other, start).own?;
     let Touch { ratio, normal, .. } = Meeting::new(one, other, place)?.beside();
@@ -115,7 +116,8 @@ impl<'a> Meeting<'a> {
         DVec2::new(self.at[0].velocity.length(), self.at[1].velocity.length())
     }
 
-    /// How far both surfaces reach along a normal towards the other one, and their points that do.
+    /// Reach of both surfaces along a normal towards the other one, and the points that reach
+    /// furthest.
     fn reach(&self, normal: DVec3) -> (f64, [DVec3; 2]) {
         let furthest = |yarn: usize, normal: DVec3| {
             self.sides[yarn].support.furthest(self.frames[yarn], self.at[yarn].sizes(), normal)
@@ -124,8 +126,8 @@ impl<'a> Meeting<'a> {
         (normal.dot(on[0]) - normal.dot(on[1]), on)
     }
 
-    /// Whether both run beside one another, clear of one another by the way from one centreline to
-    /// the other: no direction separates them better than the best one does.
+    /// Whether both run side by side and the direction between their centrelines already separates
+    /// them. The best direction separates them at least as well.
     fn passes_far_beside(&self) -> bool {
         let ([tangent, other], apart) = (self.tangents, self.apart());
         let level = apart - apart.dot(tangent) * tangent;
@@ -153,8 +155,8 @@ impl<'a> Meeting<'a> {
         Touch { ratio, offset: DVec2::new(alpha, beta) / self.speeds(), normal }
     }
 
-    /// Side by side: the direction that separates best, level with one another. The ratio, a linear
-    /// function of the direction over a convex one, has one maximum.
+    /// The touch of yarns side by side: the direction that separates best, with both places level.
+    /// The ratio is a linear function of the direction over a convex one, and has one maximum.
     fn beside(&self) -> Touch {
         let ([tangent, tangent_b], apart) = (self.tangents, self.apart());
         let along = apart.dot(tangent);
@@ -181,7 +183,8 @@ impl<'a> Meeting<'a> {
             }
         }
         let (best, angle) = if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
-        // Half of the way each; of two that run against one another both go forward or back.
+        // Each takes half of the way. Of two that run against one another both go forward or both
+        // back.
         let forward = tangent.dot(tangent_b).signum();
         let offset = 0.5 * along * DVec2::new(1.0, -forward) / self.speeds();
         Touch { ratio: best, offset, normal: turned(angle) }

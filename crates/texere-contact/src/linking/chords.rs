@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-/// The linking integral of two polygons, over all pairs of their chords.
+/// The linking integral of two polygons: the sum over all pairs of their chords.
 ///
-/// That of two chords is 1/4π of the solid angle of the spherical quadrilateral whose corners are
-/// the directions between their ends.
+/// The integral of two chords is 1/4π of the solid angle of the spherical quadrilateral whose
+/// corners are the directions between their ends.
 ///
 /// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA",
 /// Biopolymers 54, 2000, method 1a. The solid angle is that of two triangles, each by van Oosterom
@@ -29,8 +29,8 @@ pub(super) fn integral(one: &[DVec3], other: &[DVec3]) -> f64 {
     sum / TAU
 }
 
-/// Half the solid angle of two chords, rad: the ways with their lengths from the first chord's
-/// start and end to the second's start, then to its end.
+/// Half the solid angle of two chords, rad. The arguments are vectors with their lengths: from the
+/// first chord's start and end to the second chord's start, then to its end.
 fn half_angle(
     [(p, p_long), (s, s_long)]: [(DVec3, f64); 2],
     [(q, q_long), (r, r_long)]: [(DVec3, f64); 2],
@@ -83,7 +83,7 @@ mod tests {
                 let mut upright = ring(DVec3::new(x, 0.1, 0.05), true, count);
                 let sum = integral(&flat, &upright);
                 assert!((sum.abs() - f64::abs(linked)).abs() < 1e-9, "{count} chords, {x}: {sum}");
-                // Either comes first; the other way round along one of them it changes its sign.
+                // The order of the two does not matter. Reversing one of them changes the sign.
                 assert!((integral(&upright, &flat) - sum).abs() < 1e-9);
                 upright.reverse();
                 assert!((integral(&flat, &upright) + sum).abs() < 1e-9);

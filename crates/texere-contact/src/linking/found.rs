@@ -1,10 +1,10 @@
-//! The passages that were found: counted, and the worst of them kept.
+//! Passages as they are found: all are counted, the worst are kept.
 
 use std::cmp::Ordering;
 
 use super::passage::{LINKING_CHANGE, Linking, PASSAGES_LISTED, Passage};
 
-/// What one task has found.
+/// The passages of one task.
 #[derive(Default)]
 pub(super) struct Found {
     largest: f64,
@@ -49,8 +49,8 @@ impl Found {
     }
 }
 
-/// Worst first; of two alike the one that comes first along the yarns, whatever order they were
-/// found in.
+/// Worst first. Of two alike the first along the yarns comes first, in whatever order they were
+/// found.
 fn by_change(a: &Passage, b: &Passage) -> Ordering {
     let place = |passage: &Passage| passage.places.map(|place| (place.yarn, place.interval));
     b.change.abs().total_cmp(&a.change.abs()).then_with(|| place(a).cmp(&place(b)))

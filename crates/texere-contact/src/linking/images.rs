@@ -7,15 +7,16 @@ use super::shapes::Span;
 use crate::ContactError;
 use crate::grid::Bounds;
 
-/// The most intervals that are compared, with their copies.
+/// The most intervals that are compared, copies included.
 const LIMIT: u64 = 1 << 29;
 
-/// Which copies of an interval's box are looked at: the one that begins within the first repeat,
-/// and those some repeats before it that still reach into that. Any two boxes that meet do so once
-/// among them in such a way that of each axis one of them begins within the repeat.
+/// The copies of an interval's box that are looked at: the copy that begins within the first
+/// repeat, and the copies some repeats before it that still reach into the first repeat. Any two
+/// boxes that meet do so once among these copies, with one of them beginning within the repeat
+/// along each axis.
 #[derive(Debug)]
 pub(super) struct Images {
-    /// 0 where there is none, mm.
+    /// Lengths of the repeat along x and y, mm; 0 where nothing repeats.
     repeat: [f64; 2],
     /// Copies along each axis, at most.
     most: [u64; 2],
@@ -25,22 +26,22 @@ pub(super) struct Images {
 /// One copy of an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Image {
-    /// How many repeats it begins before the first one.
+    /// Number of repeats that it begins before the first one, along x and y.
     pub(super) back: [u64; 2],
-    /// By how many whole repeats it is moved from where its control points are.
+    /// Number of whole repeats that it is moved from its control points, along x and y.
     pub(super) moved: [f64; 2],
 }
 
 impl Image {
-    /// By how many whole repeats this copy is moved against another.
+    /// Number of whole repeats that this copy is moved against another.
     pub(super) fn from(&self, other: &Self) -> [f64; 2] {
         [0, 1].map(|axis| self.moved[axis] - other.moved[axis])
     }
 }
 
 impl Images {
-    /// Those of the boxes in `spans`, which are numbered by the control points of which there are
-    /// `points`.
+    /// Copies of the boxes in `spans`, which are numbered by their control points; `points` is the
+    /// number of all control points.
     ///
     /// **Errors**: [`ContactError::LinkingSize`].
     pub(super) fn new<'s, I: Iterator<Item = (usize, Bounds)>>(
@@ -67,7 +68,7 @@ impl Images {
         Ok(images)
     }
 
-    /// By how many repeats a box is moved to begin within the first one.
+    /// Number of repeats that a box is moved to begin within the first one.
     fn home(&self, each: &Bounds) -> [f64; 2] {
         [0, 1].map(|axis| match self.repeat[axis] {
             0.0 => 0.0,
@@ -75,7 +76,7 @@ impl Images {
         })
     }
 
-    /// How many of its copies are looked at, along each axis.
+    /// Number of its copies that are looked at, along each axis.
     fn count(&self, each: &Bounds) -> [u64; 2] {
         let home = self.home(each);
         [0, 1].map(|axis| match self.repeat[axis] {
@@ -84,8 +85,7 @@ impl Images {
         })
     }
 
-    /// The copies of interval `number` that are looked at, with a number for each, and its box in
-    /// each.
+    /// The copies of interval `number` that are looked at: a number for each, and its box.
     pub(super) fn of(&self, (number, each): (usize, Bounds)) -> impl Iterator<Item = (usize, Bounds)> {
         let count = self.count(&each);
         (0..count[1]).flat_map(move |y| (0..count[0]).map(move |x| [x, y])).map(move |back| {
@@ -95,7 +95,7 @@ impl Images {
         })
     }
 
-    /// The interval that copy `number` is of, and how many repeats it begins before the first one.
+    /// The interval of copy `number`, and how many repeats the copy begins before the first one.
     pub(super) fn decode(&self, number: usize) -> (usize, [u64; 2]) {
         let (point, copy) = (number as u64 % self.points, number as u64 / self.points);
         (point as usize, [copy % self.most[0], copy / self.most[0]])
@@ -107,7 +107,7 @@ impl Images {
         Image { back, moved: [0, 1].map(|axis| home[axis] - back[axis] as f64) }
     }
 
-    /// How far so many repeats are, mm.
+    /// The vector of a number of repeats, mm.
     pub(super) fn offset(&self, moved: [f64; 2]) -> DVec3 {
         DVec3::new(moved[0] * self.repeat[0], moved[1] * self.repeat[1], 0.0)
     }

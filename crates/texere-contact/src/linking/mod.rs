@@ -16,10 +16,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use texere_core::{Boundary, Yarns};
 
-pub use self::passage::{
-    LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
-    WINDOW_REACH,
-};
+pub use self::passage::{LINKING_CHANGE, Linking, Passage};
 
 use self::found::Found;
 use self::images::Images;
@@ -32,41 +29,39 @@ use crate::watch::{Report, Watch};
 /// Cells, and intervals, that one task takes.
 const TASK: usize = 1024;
 
-/// Compares the same yarns in two shapes, before and after they were moved, and says where they
-/// have passed through one another.
+/// Finds the places where yarns have passed through one another, from their shapes before and after
+/// they were moved.
 ///
-/// How two pieces of yarn wind round one another is their Gauss linking integral. However they are
-/// bent it changes little, but it changes by 1 where one passes through the other. So a window of
-/// either yarn is taken round each place where that may have happened, and the integral of the two
-/// before is compared with that after. They have passed where it has changed by more than
+/// The measure is the Gauss linking integral of two pieces of yarn. Bending the pieces changes it
+/// little; one passing through the other changes it by 1. A window of either yarn is taken round
+/// each place where a passage may have happened, and the integral of both windows before is
+/// compared with that after. The yarns have passed where it has changed by more than
 /// [`LINKING_CHANGE`]. Cloth that is bent, stretched, sheared or rolled up changes it by 0.13 at
-/// most; an end that changes sides, a dropped stitch and a pulled one by 0.86 to 1.03 (0.8 half a
-/// pitch from an edge).
+/// most. An end that changes sides, a dropped stitch and a pulled one change it by 0.86 to 1.03
+/// (0.8 half a pitch from an edge).
 ///
-/// A window has [`WINDOW_INTERVALS`] control intervals, or reaches [`WINDOW_REACH`] diameters each
-/// way where that is more: so much that it holds a crossing and what leads to it, and less than
-/// what cancels out. A loop that slips off another does so on both its sides, and windows of more
-/// than 1.3 loops don't see that.
+/// A window has eight control intervals, or reaches five diameters each way where that is more. It
+/// holds a crossing and what leads to it, and is too short for passages to cancel out in it. A loop
+/// that slips off another passes on both its sides: windows of more than 1.3 loops don't see that.
 ///
 /// Most pairs of windows are left out, because nothing can have passed there. Let all control
-/// points move straight on from where they are before to where they are after. If two intervals
-/// stay apart all the way, then there is a way on which neither passes through the other. They can
-/// only meet if they are no further from one another, before or after, than they move against one
-/// another, so only such pairs are looked at. Of what moves further than a quarter of a window only
-/// those are that are as near as that, and their windows are compared wherever they have moved too
-/// far to say. So whatever is shifted, bent or stretched together, and yarns that slide beside one
-/// another, take no integral.
+/// points move straight from their places before to their places after. Two intervals that stay
+/// apart all the way have not passed through one another. They can only meet if they are no further
+/// from one another, before or after, than they move against one another, so only such pairs are
+/// looked at. Intervals that move further than a quarter of a window are looked at within that
+/// distance only, and their windows are compared wherever they have moved too far to say. Yarns
+/// that are shifted, bent or stretched together, or slide beside one another, take no integral.
 ///
-/// Pieces of one yarn count as those of two do, where their windows are apart. Where a yarn is cut
-/// off it may slip past another. With a repeat in `boundary` yarns meet their neighbours' copies,
-/// and windows go on over the edge; `after` must have its points where they have moved to, not
-/// brought back into the repeat. Sections don't matter: it is the centrelines that are compared.
+/// Two pieces of one yarn count like pieces of two yarns, where their windows are apart. A yarn may
+/// slip past another at its cut end. With a repeat in `boundary` yarns meet their neighbours'
+/// copies, and windows go on over the edge. Points of `after` must stand where they have moved to,
+/// not be brought back into the repeat. Sections don't matter: centrelines are compared.
 ///
-/// Time grows with the control points and with how far they have moved: a million take half a
-/// second on two cores where that is little, one where it is half a diameter and 2.5 where it is
-/// several; a hundred times as long where the whole cloth was turned over in its plane, for then
-/// everything is compared. Memory is 17 bytes a control point beside the yarns. The same yarns give
-/// the same result, whatever the number of threads.
+/// Time grows with the control points and with how far they have moved. A million control points
+/// take half a second on two cores where they moved little, one second where they moved half a
+/// diameter, and 2.5 where they moved several. Turning the whole cloth over in its plane takes a
+/// hundred times as long, for then everything is compared. Memory is 17 bytes a control point
+/// beside the yarns. The result does not depend on the number of threads.
 ///
 /// **Errors**: [`ContactError::OtherLayout`] for yarns of other counts, [`ContactError::Yarns`] for
 /// yarns of another tension, [`ContactError::Boundary`] for a boundary that is not theirs,
@@ -98,8 +93,8 @@ pub fn linking(before: &Yarns, after: &Yarns, boundary: &Boundary) -> Result<Lin
     linking_with_progress(before, after, boundary, |_| ControlFlow::Continue(()))
 }
 
-/// [`linking()`] that calls `progress` with the share of the work that is done, from 0 to 1, from
-/// any thread. `Break` ends it.
+/// [`linking()`] that calls `progress` with the share of the work done, from 0 to 1, from any
+/// thread. `Break` ends the comparison.
 ///
 /// **Errors**: those of [`linking()`]; [`ContactError::Cancelled`] where `progress` asked to stop.
 ///
@@ -139,7 +134,8 @@ fn compared(
     boundary.check(before.layout())?;
     let shapes = Shapes::new(before, after, boundary)?;
     let points = before.points().len() as u64;
-    // What was not near before and has met on its way has come from afar, and may be near after.
+    // Intervals that were not near before and have met on the way came from afar, and may be near
+    // after.
     let searches: &[Shape] =
         if shapes.any_is_far() { &[Shape::Before, Shape::After] } else { &[Shape::Before] };
     let watch = Watch::new(searches.len() as u64 * SEARCH, progress);
@@ -157,7 +153,7 @@ fn compared(
             .try_reduce(Found::default, |one, other| Ok(one.joined(other)))?;
         found = found.joined(more);
     }
-    // What rounding has left out.
+    // Progress that rounding has left out.
     watch.advance(SEARCH)?;
     Ok(found.linking())
 }

@@ -2,7 +2,7 @@
 
 use glam::Vec3A;
 
-/// How often a stretch of time is halved before the chords are taken to meet in it.
+/// The most halvings of a stretch of time. Chords that may still meet in it count as meeting.
 const HALVINGS: u32 = 10;
 
 /// A chord whose ends move straight on from one time to another.
@@ -17,15 +17,15 @@ impl Chord {
         [0, 1].map(|end| self.before[end].lerp(self.after[end], time))
     }
 
-    /// How far the other chord moves against this one, at most, mm.
+    /// Upper bound of how far the other chord moves against this one, mm.
     pub(super) fn motion(&self, other: &Self) -> f32 {
         let [one, two] = [self, other].map(|chord| [0, 1].map(|end| chord.after[end] - chord.before[end]));
         let squared = |a: usize, b: usize| one[a].distance_squared(two[b]);
         squared(0, 0).max(squared(0, 1)).max(squared(1, 0)).max(squared(1, 1)).sqrt()
     }
 
-    /// Whether the two may come within `apart` mm on the way; `motion` is how far they move against
-    /// one another at most.
+    /// Whether the two may come within `apart` mm of one another on the way; `motion` bounds how
+    /// far they move against one another, mm.
     pub(super) fn may_meet(&self, other: &Self, motion: f32, apart: f32) -> bool {
         let distance = |time: f32| distance(self.at(time), other.at(time));
         let start = distance(0.0);
@@ -34,8 +34,8 @@ impl Chord {
     }
 }
 
-/// Whether a distance that changes by `motion` at most in the time from 0 to 1 may fall to `apart`
-/// between two times at which it is known.
+/// Whether a distance may fall to `apart` between two times at which it is known. It changes by
+/// `motion` at most in the time from 0 to 1.
 fn meets(
     distance: &impl Fn(f32) -> f32,
     motion: f32,
@@ -43,7 +43,7 @@ fn meets(
     [start, end]: [(f32, f32); 2],
     halvings: u32,
 ) -> bool {
-    // From both ends it falls no faster than that, and is least where the two falls meet.
+    // The distance falls no faster than that from either end, and is least where both falls meet.
     if start.1 + end.1 - motion * (end.0 - start.0) > 2.0 * apart {
         return false;
     }

@@ -1,4 +1,4 @@
-//! Control intervals, as the cells of the search hold them.
+//! Control intervals as the cells of the search hold them.
 
 use glam::{UVec3, Vec3A};
 
@@ -19,15 +19,16 @@ pub(super) struct Part {
     pub(super) cell: UVec3,
     /// Its start, middle and end before and after.
     corners: [[Vec3A; 3]; 2],
-    /// How far the centreline may lie from the chords between these, with all rounding, mm.
-    sagitta: f32,
-    /// How far the ends lie from the middle before and after, and how differently they have moved,
+    /// Upper bound of the centreline's distance from the chords between these, with all rounding,
     /// mm.
+    sagitta: f32,
+    /// How far the ends lie from the middle before, how far after, and how differently they have
+    /// moved, mm.
     spread: [f32; 3],
 }
 
 impl Part {
-    /// The copy of interval `number` that begins `back` repeats before the first one in the shape
+    /// The copy of interval `number` that begins `back` repeats before the first one, in the shape
     /// that `grid` is of.
     pub(super) fn new(
         shapes: &Shapes<'_>,
@@ -62,8 +63,8 @@ impl Part {
         }
     }
 
-    /// Whether one has moved so far against the other that near places don't tell what has met on
-    /// the way.
+    /// Whether one has moved so far against the other that the places near it don't tell what it
+    /// met on the way.
     fn is_afar(&self, other: &Self, motion: f32) -> bool {
         motion > 2.0 * (self.motion.margin + other.motion.margin)
     }

@@ -1,5 +1,5 @@
-//! The search: which intervals are near one another, which of them may have passed, and by how much
-//! their linking has changed.
+//! The search: which intervals are near one another, which of them may have passed, and how their
+//! linking has changed.
 
 use std::ops::Range;
 
@@ -25,11 +25,11 @@ pub(super) const SEARCH: u64 = 1 << 32;
 /// Intervals between two reports of progress.
 const REPORT_EVERY: u64 = 256;
 
-/// Two intervals of one yarn that follow one another sooner than that are not compared: their
-/// windows, an interval apart, would be too short to see a passage.
+/// The least number of intervals between two intervals of one yarn that are compared. Windows of
+/// nearer ones would be too short to see a passage.
 const NEIGHBOURS: f64 = 6.0;
 
-/// The yarns in both shapes, and the cells that their intervals lie in in one of them.
+/// The yarns in both shapes, with the cells of their intervals in one of the shapes.
 pub(super) struct Search<'a> {
     shapes: &'a Shapes<'a>,
     images: &'a Images,
@@ -94,8 +94,9 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Whether two intervals of a cell are near one another, and are compared here and now: two
-    /// copies of them may meet in several cells, and be near both before and after.
+    /// Whether two intervals of a cell are near one another and are to be compared in this cell.
+    /// Two copies may meet in several cells, and be near both before and after; each pair is
+    /// compared once.
     fn counts(&self, one: &Part, other: &Part, cell: usize) -> bool {
         let meet = |shape: Shape| one.bounds[shape as usize].meets(&other.bounds[shape as usize]);
         let begins_here = (0..2).all(|axis| one.image.back[axis] == 0 || other.image.back[axis] == 0)
@@ -107,7 +108,7 @@ impl<'a> Search<'a> {
             && self.gap(one, other) >= NEIGHBOURS
     }
 
-    /// How many intervals lie between two along one yarn; of two yarns, endless.
+    /// Number of intervals between two along one yarn; infinite for two yarns.
     fn gap(&self, one: &Part, other: &Part) -> f64 {
         if one.yarn != other.yarn {
             return f64::INFINITY;
@@ -116,7 +117,7 @@ impl<'a> Search<'a> {
         strand.gap(one.interval, other.interval, other.image.from(&one.image)).unwrap_or(f64::INFINITY)
     }
 
-    /// By how much the linking of the windows round two intervals has changed.
+    /// Compares the linking of the windows round two intervals before and after.
     fn compare(&self, one: &Part, other: &Part, found: &mut Found) {
         let in_order = (one.yarn, one.interval) <= (other.yarn, other.interval);
         let pair = if in_order { [one, other] } else { [other, one] };
@@ -125,7 +126,7 @@ impl<'a> Search<'a> {
         let most = self.gap(one, other) - 1.0;
         let windows =
             [0, 1].map(|side| Window::around(&strands[side][0], pair[side].interval, diameter, most));
-        // The second one is moved beside the first.
+        // The second window is moved beside the first.
         let offset = self.images.offset(pair[1].image.from(&pair[0].image));
         let [before, after] = [0, 1].map(|shape| {
             let [one, other] = [0, 1].map(|side| windows[side].corners(&strands[side][shape]));
@@ -137,7 +138,7 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// The middle of an interval as it lies after.
+    /// The middle of an interval after the move.
     fn place(&self, part: &Part, [_, after]: &[Strand<'_>; 2], offset: DVec3) -> YarnPlace {
         let (yarn, interval) = (part.yarn, part.interval);
         let position = (after.at(interval as f64 + 0.5) + offset).to_array();

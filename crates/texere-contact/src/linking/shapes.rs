@@ -1,4 +1,4 @@
-//! The yarns in both their shapes, interval by interval.
+//! The yarns in both shapes, interval by interval.
 
 use std::ops::Range;
 
@@ -23,39 +23,40 @@ pub(super) enum Shape {
     After,
 }
 
-/// Some intervals of one yarn that follow one another.
+/// Consecutive intervals of one yarn.
 #[derive(Debug)]
 pub(super) struct Span {
     yarn: usize,
     intervals: Range<usize>,
 }
 
-/// How far an interval has moved against the cloth as a whole, and how far from it others are near.
+/// Motion of an interval against the cloth as a whole, and the distance within which others are
+/// near it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Motion {
-    /// The furthest that a place of it has moved, mm.
+    /// The furthest motion of any of its places, mm.
     moved: f32,
     /// Two intervals are near where they come within the sum of their margins, mm.
     pub(super) margin: f32,
 }
 
 impl Motion {
-    /// Whether the interval has moved further than its margin. Of two that have met and were not
-    /// near before one has.
+    /// Whether the interval has moved further than its margin. Of two intervals that have met
+    /// without being near before, one has.
     pub(super) fn is_far(&self) -> bool {
         self.moved > self.margin
     }
 }
 
-/// The same yarns in two shapes. An interval bears the number, in the fabric, of the control point
-/// that it starts from.
+/// The same yarns in two shapes. An interval's number is that of the control point that it starts
+/// from, counted over the fabric.
 #[derive(Debug)]
 pub(super) struct Shapes<'a> {
     yarns: [&'a Yarns; 2],
     boundary: &'a Boundary,
     /// The factor of the spline's tangents.
     s: f64,
-    /// Of each interval, by its number.
+    /// The motion of each interval, by its number.
     motions: Vec<Motion>,
 }
 
@@ -110,8 +111,8 @@ impl<'a> Shapes<'a> {
         (yarn, number - offsets[yarn] as usize)
     }
 
-    /// The source of the middle of an interval, as [`YarnPlace`](texere_core::YarnPlace) has it, if
-    /// the yarns before have sources.
+    /// The source of an interval's middle, as [`YarnPlace`](texere_core::YarnPlace) defines it.
+    /// None where the yarns before have no sources.
     pub(super) fn source(&self, yarn: usize, interval: usize) -> Option<u32> {
         let range = self.yarns[0].range(yarn)?;
         let nearer = range.start + (interval + 1) % range.len();
@@ -130,8 +131,8 @@ impl<'a> Shapes<'a> {
             .collect()
     }
 
-    /// The numbers of a span's intervals, and the boxes that these and all that is near them reach
-    /// into in one shape.
+    /// The numbers of a span's intervals, each with a box in one shape that holds the interval and
+    /// its margin.
     pub(super) fn rooms(&self, span: &Span, shape: Shape) -> impl Iterator<Item = (usize, Bounds)> {
         let strand = self.strands(span.yarn)[shape as usize];
         let first = self.yarns[0].layout().offsets()[span.yarn] as usize;
@@ -141,7 +142,7 @@ impl<'a> Shapes<'a> {
         })
     }
 
-    /// How far interval `number` has moved.
+    /// The motion of interval `number`.
     pub(super) fn motion(&self, number: usize) -> Motion {
         self.motions[number]
     }
@@ -152,8 +153,7 @@ impl<'a> Shapes<'a> {
     }
 
     /// Two places that meet on a straight way are no further from one another before than they move
-    /// against one another. So that is how far the margins reach, as far as that makes a difference
-    /// to windows.
+    /// against one another. The margin is that motion, up to the length that matters to windows.
     fn measure(&self, number: usize, shift: Vec3A) -> Motion {
         let (yarn, interval) = self.yarn_of(number);
         let strands = self.strands(yarn);
@@ -165,8 +165,8 @@ impl<'a> Shapes<'a> {
         let moved = moved.fold(0.0, f32::max).sqrt();
         let half = strands.iter().map(|strand| strand.half(interval)).fold(0.0, f32::max);
         let length = before[0].distance(before[1]) + before[1].distance(before[2]);
-        // A quarter of half a window: at twice that from one another windows are linked by a third
-        // of a passage.
+        // A quarter of half a window. Windows at twice that distance are linked by a third of a
+        // passage.
         let most = (WINDOW_INTERVALS as f32 / 8.0 * length).max(WINDOW_REACH as f32 / 2.0 * half);
         Motion { moved, margin: moved.min(most) }
     }
@@ -178,8 +178,7 @@ pub(super) fn room([low, high]: [Vec3A; 2], margin: f32) -> Bounds {
     Bounds { low: low - margin, high: high + margin }
 }
 
-/// How far all points have moved on average, mm: the same to the bit whatever the number of
-/// threads.
+/// Mean motion of all points, mm. It is the same to the bit for any number of threads.
 fn shift(before: &[ControlPoint], after: &[ControlPoint]) -> DVec3 {
     let sum = |(before, after): (&[ControlPoint], &[ControlPoint])| -> DVec3 {
         let moves = before.iter().zip(after);

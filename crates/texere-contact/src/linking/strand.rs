@@ -1,4 +1,4 @@
-//! One yarn in one of its shapes, as a curve that goes on where its ends say so.
+//! One yarn in one of its shapes: a curve that goes on where its ends say so.
 
 use glam::{DVec3, Vec3A};
 use texere_core::{ControlPoint, Ends};
@@ -9,14 +9,14 @@ use texere_core::{ControlPoint, Ends};
 pub(super) struct Strand<'a> {
     pub(super) points: &'a [ControlPoint],
     pub(super) ends: Ends,
-    /// From one round to the next, mm.
+    /// The vector from one round to the next, mm.
     pub(super) onward: DVec3,
     /// The factor of the spline's tangents.
     pub(super) s: f64,
 }
 
-/// The corners of an interval's Bézier polygon, whose hull holds the centreline, in single
-/// precision: for finding out what may have passed.
+/// The corners of an interval's Bézier polygon, whose hull holds the centreline. They are in single
+/// precision, for finding out what may have passed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hull([Vec3A; 4]);
 
@@ -51,14 +51,14 @@ impl Strand<'_> {
         Hull([start, start + (end - before) * third, end - (after - start) * third, end])
     }
 
-    /// The larger half of an interval's width and height at its ends, mm.
+    /// The larger of an interval's half widths and half heights at its ends, mm.
     pub(super) fn half(&self, interval: usize) -> f32 {
         let ends = [interval, (interval + 1) % self.points.len()].map(|index| self.points[index]);
         ends.iter().map(|point| point.half_width().max(point.half_height())).fold(0.0, f32::max)
     }
 
-    /// The centreline at `way` intervals from the first control point; of an open yarn no further
-    /// than its ends.
+    /// The centreline at `way` intervals from the first control point. An open yarn stops at its
+    /// ends.
     pub(super) fn at(&self, way: f64) -> DVec3 {
         let last = match self.ends {
             Ends::Open => self.points.len() as f64 - 2.0,
@@ -76,9 +76,9 @@ impl Strand<'_> {
         (from..to).map(|index| self.point(index).distance(self.point(index + 1))).sum()
     }
 
-    /// How many intervals further along the same yarn `to` lies than `from`, where the yarn that
-    /// `to` is on is moved by `moved` whole repeats; the shorter way round of a closed yarn. None
-    /// where that makes it a copy, another yarn.
+    /// Number of intervals from `from` to `to` along one yarn, by the shorter way round a closed
+    /// yarn. `to` is on a yarn moved by `moved` whole repeats. None where the move makes that a
+    /// copy, which is another yarn.
     pub(super) fn gap(&self, from: usize, to: usize, moved: [f64; 2]) -> Option<f64> {
         let (ahead, count) = (to as f64 - from as f64, self.points.len() as f64);
         match self.ends {
@@ -95,7 +95,7 @@ impl Strand<'_> {
 }
 
 impl Hull {
-    /// The lowest and the highest coordinates in it.
+    /// The lowest and the highest coordinates of the hull.
     pub(super) fn bounds(&self) -> [Vec3A; 2] {
         let [a, b, c, d] = self.0;
         [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
@@ -107,8 +107,8 @@ impl Hull {
         [start, (start + end + (leaving + arriving) * 3.0) / 8.0, end]
     }
 
-    /// How far the centreline may lie from these chords, mm: an eighth of the second derivative
-    /// times the square of their half.
+    /// Upper bound of the centreline's distance from these chords, mm: an eighth of the second
+    /// derivative times the square of half the interval.
     pub(super) fn sagitta(&self) -> f32 {
         let [start, leaving, arriving, end] = self.0;
         let bend = |a: Vec3A, b: Vec3A, c: Vec3A| (a - 2.0 * b + c).length_squared();

@@ -1,10 +1,10 @@
-//! What can be wrong with a boundary.
+//! Errors of boundaries.
 
 use thiserror::Error;
 
 use crate::counted;
 
-/// A boundary that is not one of these yarns. Yarns are counted from 0.
+/// A boundary that does not fit its yarns. Yarns are counted from 0.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BoundaryError {
@@ -15,10 +15,10 @@ pub enum BoundaryError {
         axis: char,
         /// Its length, mm.
         length: f32,
-        /// The longest taken, mm.
+        /// The largest accepted, mm.
         limit: f32,
     },
-    /// Ends must be one per yarn.
+    /// There must be one `Ends` per yarn.
     #[error("ends of {ends} where there are {yarns}", ends = counted(*.ends, "yarn"))]
     EndsCount {
         /// Given.
@@ -26,12 +26,12 @@ pub enum BoundaryError {
         /// Needed.
         yarns: usize,
     },
-    /// A closed yarn must be closed here too, and no other.
+    /// The layout and the ends must agree on whether a yarn is closed.
     #[error("yarn {yarn} is {}closed, unlike its ends", if *.closed { "" } else { "not " })]
     Closed {
         /// The yarn.
         yarn: usize,
-        /// Whether its layout says that it is closed.
+        /// Whether the layout has it closed.
         closed: bool,
     },
     /// A yarn goes on along an axis that has no period.
@@ -42,7 +42,8 @@ pub enum BoundaryError {
         /// `x` or `y`.
         axis: char,
     },
-    /// A yarn that repeats must go on by a repeat at least; one that ends where it began is closed.
+    /// A repeating yarn must go on by at least one repeat. A yarn that ends where it began is
+    /// closed.
     #[error("yarn {yarn} goes on by no repeat")]
     NoWayOn {
         /// The yarn.

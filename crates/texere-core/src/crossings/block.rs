@@ -1,24 +1,27 @@
-//! What pulls at a crossing: eight equations.
+//! The eight equations of a crossing.
 
-/// Unknowns of a crossing: shift, height, half width and half height of the end, then of the pick.
+/// The unknowns of a crossing: shift, height, half width and half height of the end, then of the
+/// pick.
 const UNKNOWNS: usize = 8;
 
-/// What is added to the equations' diagonal: a share of it, and so much where nothing pulls.
+/// The damping of the equations: this share of each diagonal element is added to it, and this
+/// number for unknowns that nothing pulls at.
 pub const DAMPING: f32 = 1e-3;
 
-/// A pivot is never less than that.
+/// The least pivot of Cholesky's method, which rounding could otherwise take to zero or below.
 pub const PIVOT: f32 = 1e-9;
 
-/// The energy's slope and curvature in the eight unknowns of a crossing, by Gauss and Newton: every
-/// term is a weight times the square of a residual.
+/// The energy's gradient and curvature in the eight unknowns of a crossing, by Gauss and Newton:
+/// every term is a weight times the square of a residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossingBlock {
     /// Half the energy's gradient.
     pub gradient: [f32; UNKNOWNS],
-    /// At least half the energy's curvature, when neighbours step as well: up to the diagonal, as
-    /// it is symmetric.
+    /// An upper bound on half the energy's curvature while neighbours step as well. It is
+    /// symmetric, and only the lower triangle is filled.
     pub curvature: [[f32; UNKNOWNS]; UNKNOWNS],
-    /// The least distance of two threads here, over what they need: 1 where they touch.
+    /// The least distance of two threads here, divided by the distance that they need: 1 where they
+    /// touch.
     pub clearance: f32,
 }
 
@@ -26,12 +29,12 @@ impl CrossingBlock {
     pub(crate) const NOTHING: Self =
         Self { gradient: [0.0; UNKNOWNS], curvature: [[0.0; UNKNOWNS]; UNKNOWNS], clearance: f32::INFINITY };
 
-    /// Adds the term `weight` times `residual` squared, whose residual has these slopes in the
-    /// unknowns of this crossing.
+    /// Adds the term `weight` times `residual` squared. `slopes` are the residual's derivatives by
+    /// unknowns of this crossing, each with the unknown's number.
     ///
-    /// All crossings step at once. `share` is by how much this one's step has to be shorter than if
-    /// it stepped alone: the sum of all crossings' slopes over its own, which keeps the term from
-    /// growing.
+    /// All crossings step at once. `share` is the factor by which this one's step must be shorter
+    /// than if it stepped alone: the sum of all crossings' slopes over its own, which keeps the
+    /// term from growing.
     pub(crate) fn add<const N: usize>(
         &mut self,
         weight: f32,
@@ -49,12 +52,12 @@ impl CrossingBlock {
         }
     }
 
-    /// A distance of two threads over what they need.
+    /// Notes a distance of two threads, divided by the distance that they need.
     pub(crate) const fn see(&mut self, clearance: f32) {
         self.clearance = self.clearance.min(clearance);
     }
 
-    /// The step down to the least of these equations, by Cholesky's method.
+    /// The step to the minimum of these equations, by Cholesky's method.
     #[must_use]
     pub fn step(&self) -> [f32; UNKNOWNS] {
         let mut lower = [[0.0_f32; UNKNOWNS]; UNKNOWNS];

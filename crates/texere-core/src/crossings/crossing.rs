@@ -1,4 +1,4 @@
-//! What is unknown at a crossing.
+//! The state of a crossing: its unknowns.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -28,7 +28,7 @@ impl Set {
         }
     }
 
-    /// Where this set's four unknowns begin among a crossing's eight.
+    /// The number of this set's first unknown among a crossing's eight.
     pub(crate) const fn first(self) -> usize {
         match self {
             Self::Warp => 0,
@@ -37,12 +37,12 @@ impl Set {
     }
 }
 
-/// How a thread lies at a crossing. All lengths are in the plan's
+/// The state of a thread at a crossing. All lengths are in the plan's
 /// [`unit`](super::CrossingsPlan::unit).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 #[repr(C)]
-pub struct Lie {
-    /// How far it has moved sideways: an end along x, a pick along y.
+pub struct ThreadState {
+    /// The shift sideways: of an end along x, of a pick along y.
     pub shift: f32,
     /// The height of its middle.
     pub height: f32,
@@ -52,37 +52,37 @@ pub struct Lie {
     pub half_height: f32,
 }
 
-/// How both threads lie at a crossing.
+/// The state of both threads at a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct CrossingState {
     /// The end.
-    pub warp: Lie,
+    pub warp: ThreadState,
     /// The pick.
-    pub weft: Lie,
+    pub weft: ThreadState,
 }
 
 impl CrossingState {
     /// The thread of a set.
     ///
     /// ```
-    /// use texere_core::crossings::{CrossingState, Lie, Set};
-    /// let crossing = CrossingState { weft: Lie { height: 0.5, ..Lie::default() }, ..CrossingState::default() };
-    /// assert_eq!(crossing.lie(Set::Weft).height, 0.5);
+    /// use texere_core::crossings::{CrossingState, ThreadState, Set};
+    /// let crossing = CrossingState { weft: ThreadState { height: 0.5, ..ThreadState::default() }, ..CrossingState::default() };
+    /// assert_eq!(crossing.thread(Set::Weft).height, 0.5);
     /// ```
     #[must_use]
-    pub const fn lie(&self, set: Set) -> &Lie {
+    pub const fn thread(&self, set: Set) -> &ThreadState {
         match set {
             Set::Warp => &self.warp,
             Set::Weft => &self.weft,
         }
     }
 
-    /// By how much that unknown differs which differs most.
+    /// The largest difference of any unknown.
     ///
     /// ```
-    /// use texere_core::crossings::{CrossingState, Lie};
-    /// let risen = CrossingState { weft: Lie { height: 0.5, ..Lie::default() }, ..CrossingState::default() };
+    /// use texere_core::crossings::{CrossingState, ThreadState};
+    /// let risen = CrossingState { weft: ThreadState { height: 0.5, ..ThreadState::default() }, ..CrossingState::default() };
     /// assert_eq!(risen.difference(&CrossingState::default()), 0.5);
     /// ```
     #[must_use]
@@ -91,7 +91,7 @@ impl CrossingState {
         one.iter().zip(other).fold(0.0, |most, (one, other)| most.max((one - other).abs()))
     }
 
-    pub(crate) const fn lie_mut(&mut self, set: Set) -> &mut Lie {
+    pub(crate) const fn thread_mut(&mut self, set: Set) -> &mut ThreadState {
         match set {
             Set::Warp => &mut self.warp,
             Set::Weft => &mut self.weft,

@@ -1,4 +1,4 @@
-//! What may be wrong with a problem.
+//! Errors of crossings.
 
 use crate::{OutOfMemory, counted};
 use thiserror::Error;
@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CrossingsError {
-    /// A drawdown of another size than the threads'.
+    /// The drawdown's size differs from the numbers of threads.
     #[error("a drawdown of {ups} does not fit {ends} and {picks}", ups = counted(*.ups, "crossing"), ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Drawdown {
         /// Its crossings.
@@ -22,34 +22,34 @@ pub enum CrossingsError {
     TooFew {
         /// `end` or `pick`.
         what: &'static str,
-        /// How many.
+        /// Their number.
         count: usize,
-        /// The least that are taken.
+        /// The least that are accepted.
         least: usize,
     },
-    /// More than can be counted.
+    /// A count above its limit.
     #[error("{count} {what} are more than {limit}")]
     TooMany {
-        /// What.
+        /// The things that are counted.
         what: &'static str,
-        /// How many.
+        /// Their number.
         count: u64,
-        /// How many are taken at most.
+        /// The most that are accepted.
         limit: u64,
     },
-    /// A setting that is out of its range.
+    /// A setting out of its range.
     #[error("{setting} is {value}, not between {low} and {high}")]
     Setting {
         /// Its name.
         setting: &'static str,
-        /// What was given.
+        /// Its value.
         value: f32,
-        /// The least that is taken.
+        /// The least that is accepted.
         low: f32,
-        /// The most that is taken.
+        /// The most that is accepted.
         high: f32,
     },
-    /// A value of a thread that is out of its range.
+    /// A value of a thread out of its range.
     #[error("{setting} of {} {} is {value}, not between {low} and {high}", if *.set == "warp" { "end" } else { "pick" }, .thread + 1)]
     Thread {
         /// `warp` or `weft`.
@@ -58,14 +58,14 @@ pub enum CrossingsError {
         thread: usize,
         /// `pitch`, `diameter` or `stiffness`.
         setting: &'static str,
-        /// What was given.
+        /// Its value.
         value: f32,
-        /// The least that is taken.
+        /// The least that is accepted.
         low: f32,
-        /// The most that is taken.
+        /// The most that is accepted.
         high: f32,
     },
-    /// Memory could not be had.
+    /// An allocation failed.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
 }

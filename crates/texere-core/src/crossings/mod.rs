@@ -1,31 +1,37 @@
-//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so nothing has
-//! to be searched: at every crossing both threads shift sideways, rise, widen and flatten, until an
-//! energy is least that keeps them from piercing one another.
+//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so no search
+//! is needed. At every crossing both threads shift sideways, rise, widen and flatten until an
+//! energy is least. The energy keeps threads from piercing one another.
 //!
-//! A [`Crossings`] says what is asked, a [`CrossingsPlan`] works out every table, a
-//! [`CrossingsSettler`] does the passes on a device, and [`settle`] leads it. What all devices
-//! agree on is here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
-//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] says where its neighbours meet
-//! it next.
+//! A [`Crossings`] is the problem, a [`CrossingsPlan`] holds its tables, a [`CrossingsSettler`]
+//! does the passes on a device, and [`settle`] drives it. The definitions that all devices share
+//! are here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
+//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] gives the state that its
+//! neighbours see in the next pass.
 
 mod block;
 mod crossing;
 pub(crate) mod error;
+mod pass;
 mod passage;
 mod plan;
 mod problem;
+mod rows;
 mod run;
 mod settler;
+mod step;
 mod terms;
 
 pub use block::{CrossingBlock, DAMPING, PIVOT};
-pub use crossing::{CrossingState, Lie, Set};
+pub use crossing::{CrossingState, Set, ThreadState};
 use error::CrossingsError;
+pub use pass::CrossingsPass;
 pub use passage::{CURVED, STEPS, StraightPassage, TURN};
-pub use plan::{CrossingsPlan, HALF_HEIGHT, HALF_WIDTH, MOMENTUM, Row, STEP, Site};
+pub use plan::CrossingsPlan;
 pub use problem::{CrossingThread, Crossings};
-pub use run::{CrossingsPass, CrossingsRest, settle};
+pub use rows::{Row, Site};
+pub use run::{CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
+pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP};
 pub use terms::{
     AREA_GAIN, AREA_LOSS, ASPECT, BEND, MARGIN, NEAR, PRESS, SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH,
     STEEPER, TENSION,

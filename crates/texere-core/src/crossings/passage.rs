@@ -1,36 +1,37 @@
-//! A thread that changes sides between two threads of the other set.
+//! The passage of a thread that changes sides between two threads of the other set.
 
-/// Newton's steps towards the best slope.
+/// The steps of Newton's method towards the best slope.
 pub const STEPS: u32 = 5;
 
-/// Newton's method is followed where the room curves by more than that share of the distance.
+/// The least curvature of the room, as a share of the distance, at which Newton's step is used.
+/// Below it the step follows the slope alone.
 pub const CURVED: f32 = 0.1;
 
-/// The longest turn of a step, radians.
+/// The longest turn of one step, radians.
 pub const TURN: f32 = 0.5;
 
-/// A straight passage over the first of two crossed threads and under the second one, at the slope
-/// that leaves most room.
+/// A straight passage over the first of two crossed threads and under the second, at the slope that
+/// leaves most room.
 ///
-/// A line at slope t clears an upright ellipse by its support, sqrt((a sin t)² + (b cos t)²). So
-/// between two ellipses that lie `across` and `rise` apart a thread of half thicknesses `b` fits
-/// where across sin t + rise cos t is at least both supports and both half thicknesses.
+/// A line at slope t clears an upright ellipse by its support, sqrt((a sin t)² + (b cos t)²). Let
+/// two ellipses lie `across` and `rise` apart. A thread fits between them if across sin t + rise
+/// cos t is at least the sum of both supports and of both half heights of the thread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightPassage {
     /// Cosine and sine of the slope, 0 to a right angle.
     pub slope: [f32; 2],
-    /// How far both ellipses reach across the slope.
+    /// The reach of both ellipses across the slope.
     pub reach: [f32; 2],
-    /// Between the middles of both ellipses, across the slope.
+    /// The distance of the middles of both ellipses, across the slope.
     pub between: f32,
-    /// What is left when both ellipses and the thread have theirs; below 0 they pierce.
+    /// The room that remains beside both ellipses and the thread. Below 0 they pierce.
     pub room: f32,
 }
 
 impl StraightPassage {
-    /// The passage between two ellipses `across` and `rise` apart (the second one's middle above
-    /// the first one's counts as positive), with the half width and half height of each; `thread`
-    /// is what the passing thread takes, both its half heights.
+    /// The passage between two ellipses `across` and `rise` apart. `rise` counts as positive if the
+    /// second one's middle lies above the first one's. `halves` are the half width and half height
+    /// of each. `thread` is the sum of the passing thread's two half heights.
     ///
     /// ```
     /// use texere_core::crossings::StraightPassage;
@@ -42,8 +43,8 @@ impl StraightPassage {
     pub fn new(across: f32, rise: f32, halves: [[f32; 2]; 2], thread: f32) -> Self {
         let distance = (across * across + rise * rise).sqrt();
         let excess = halves.map(|[a, b]| a * a - b * b);
-        // The best slope of round threads, level or upright: wide ellipses leave most room at one
-        // of these.
+        // Candidates: the best slope of round threads, level, and upright. Wide ellipses leave most
+        // room at one of these.
         let round = if rise > 0.0 { [rise / distance, across / distance] } else { [0.0, 1.0] };
         let left = |[c, s]: [f32; 2]| {
             let [first, second] = reach(c, s, halves);
@@ -74,14 +75,15 @@ impl StraightPassage {
         Self { slope: [c, s], reach, between, room: between - reach[0] - reach[1] - thread }
     }
 
-    /// The distance of both ellipses over what they and the thread need: 1 where they touch.
+    /// The distance of both ellipses, divided by the distance that they and the thread need: 1
+    /// where they touch.
     #[must_use]
     pub fn clearance(&self) -> f32 {
         self.between / (self.between - self.room)
     }
 }
 
-/// How far ellipses reach across a slope.
+/// The reach of ellipses across a slope.
 fn reach(c: f32, s: f32, halves: [[f32; 2]; 2]) -> [f32; 2] {
     halves.map(|[a, b]| {
         let (x, z) = (a * s, b * c);

@@ -1,93 +1,35 @@
 //! The plan: every count and table of a problem, made on the host before anything is launched.
 
-use super::{
-    CrossingBlock, CrossingState, CrossingThread, Crossings, CrossingsError, CrossingsPass, Lie, Set, terms,
-};
+use super::rows::{further, rows};
+use super::{CrossingState, CrossingThread, Crossings, CrossingsError, Row, Set, Site, ThreadState};
 use crate::backend::{room, zeroed};
 use crate::{BackendError, RADIUS_MAX, RADIUS_MIN};
 
-/// A repeat has at least so many threads of either set.
+/// The least number of threads of each set.
 const THREADS_MIN: usize = 2;
 
-/// Crossings that can be counted.
+/// The most crossings of a plan.
 const CROSSINGS_MAX: u64 = 1 << 31;
 
-/// Ranges of pitch and diameter in units, and of a thread's stiffness.
+/// The ranges of pitch and diameter, in units, and of a thread's stiffness.
 const PITCH: [f32; 2] = [0.2, 1000.0];
 const DIAMETER: [f32; 2] = [0.1, 10.0];
 const STIFFNESS: [f32; 2] = [0.01, 100.0];
 
-/// Levels that a set may have.
+/// The most levels of a set.
 const LEVELS_MAX: u32 = 8;
 
-/// Threads of one level are neighbours up to so many threads apart.
-const BESIDE_MAX: i32 = 16;
-
-/// The longest step of an unknown, in units.
-pub const STEP: f32 = 0.1;
-
-/// The share of a step that a crossing goes on by.
-pub const MOMENTUM: f32 = 0.8;
-
-/// How far threads go sideways: a quarter of a unit, and two fifths of the way to a neighbour.
-const SIDEWAYS: [f32; 2] = [0.25, 0.4];
-
-/// How far up and down, in units, for each level of the set that has most.
+/// The largest height up and down, in units, per level of the set with most levels.
 const HEIGHT: f32 = 1.5;
 
-/// From one level to the next where threads start, in units.
+/// The distance of levels at the start, in units.
 const RISE: f32 = 1.5;
 
-/// The least and the most of a half width, in radii.
-pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
-
-/// The least and the most of a half height, in radii.
-pub const HALF_HEIGHT: [f32; 2] = [0.3, 2.0];
-
-/// The share of its area with which a thread starts, as a share of its radius.
+/// The share of its radius with which a thread starts: the root of 0.4, so that it has 0.4 of its
+/// area.
 const THIN: f32 = 0.632_455_5;
 
-/// A thread, in units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
-    /// To the next thread.
-    pub gap: f32,
-    /// Its radius.
-    pub radius: f32,
-    /// Its stiffness against bending, 1 for cotton.
-    pub stiffness: f32,
-    /// How far it may shift.
-    pub freedom: f32,
-    /// How far it may go up and down.
-    pub height: f32,
-    /// Its level.
-    pub level: i32,
-    /// How many threads before it, and after it, the next one of its level lies; 0 where there is
-    /// none near enough to touch it.
-    pub beside: [i32; 2],
-}
-
-/// A crossing by its end and its pick, from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Site {
-    /// The end.
-    pub end: usize,
-    /// The pick.
-    pub pick: usize,
-}
-
-impl Site {
-    /// The number of its thread of a set.
-    #[must_use]
-    pub const fn thread(self, set: Set) -> usize {
-        match set {
-            Set::Warp => self.end,
-            Set::Weft => self.pick,
-        }
-    }
-}
-
-/// All tables of a problem. Lengths are in its unit, the mean diameter of warp and weft.
+/// The tables of a problem. Lengths are in its unit, the mean diameter of warp and weft.
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, CrossingThread};
@@ -112,10 +54,10 @@ pub struct CrossingsPlan {
 }
 
 impl CrossingsPlan {
-    /// Checks a problem and makes its tables.
+    /// The plan of a problem, which is checked.
     ///
     /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a
-    /// set, and values that are out of range or not finite.
+    /// set, and values out of range or not finite.
     pub fn new(problem: &Crossings) -> Result<Self, CrossingsError> {
         let [ends, picks] = [0, 1].map(|set| problem.threads[set].len());
         for (what, count) in [("end", ends), ("pick", picks)] {
@@ -162,14 +104,14 @@ impl CrossingsPlan {
         })
     }
 
-    /// How many crossings there are.
+    /// The number of crossings.
     #[must_use]
     pub const fn crossings(&self) -> usize {
         self.ups.len()
     }
 
-    /// Bytes that a settler holds beside the plan: all crossings as they are, as others find them,
-    /// and as they will find them.
+    /// The bytes that a settler holds besides the plan: three states of each crossing. They are the
+    /// present one, the one that neighbours see, and the one that they will see.
     #[must_use]
     pub const fn settler_bytes(&self) -> u64 {
         3 * size_of::<CrossingState>() as u64 * self.ups.len() as u64
@@ -190,13 +132,14 @@ impl CrossingsPlan {
         }
     }
 
-    /// Whether the first end comes again after the last one, and the first pick after the last one.
+    /// Whether the first end follows the last one again, and whether the first pick does.
     #[must_use]
     pub const fn repeats(&self) -> [bool; 2] {
         self.repeats
     }
 
-    /// Whether a level of both sets is a layer of the cloth: they have as many, and more than one.
+    /// Whether a level of both sets is a layer of the cloth: both sets have the same number of
+    /// levels, and more than one.
     #[must_use]
     pub const fn is_layered(&self) -> bool {
         self.is_layered
@@ -206,11 +149,11 @@ impl CrossingsPlan {
     ///
     /// **Panics** past the last crossing.
     #[must_use]
-    pub fn are_apart(&self, site: Site) -> bool {
+    pub(super) fn are_apart(&self, site: Site) -> bool {
         self.is_layered && self.rows[0][site.end].level != self.rows[1][site.pick].level
     }
 
-    /// How taut a set is.
+    /// The tension of a set, 1 for relaxed cloth.
     #[must_use]
     pub const fn tension(&self, set: Set) -> f32 {
         match set {
@@ -219,32 +162,33 @@ impl CrossingsPlan {
         }
     }
 
-    /// How strongly the cloth is pressed.
+    /// The strength of the press, 1 for relaxed cloth.
     #[must_use]
     pub const fn press(&self) -> f32 {
         self.press
     }
 
-    /// The most passes.
+    /// The largest number of passes.
     #[must_use]
     pub const fn passes(&self) -> u32 {
         self.passes
     }
 
-    /// The number of a crossing: pick after pick, and in each pick end after end.
+    /// The number of a crossing. Crossings are numbered pick after pick, and end after end in each
+    /// pick.
     #[must_use]
     pub fn number(&self, site: Site) -> usize {
         site.pick * self.rows[0].len() + site.end
     }
 
-    /// The crossing of a number.
+    /// The crossing with this number.
     #[must_use]
     pub fn site(&self, number: usize) -> Site {
         let ends = self.rows[0].len();
         Site { end: number % ends, pick: number / ends }
     }
 
-    /// The side on which a set's thread lies: 1 on the face, -1 on the back.
+    /// The side of a set's thread: 1 on the face, -1 on the back.
     ///
     /// **Panics** past the last crossing.
     #[must_use]
@@ -252,8 +196,8 @@ impl CrossingsPlan {
         if self.ups[self.number(site)] == (set == Set::Warp) { 1.0 } else { -1.0 }
     }
 
-    /// The crossing so many further along a thread of `set`, and so many threads of that set
-    /// across, as far as there are threads. None beyond an edge.
+    /// The crossing `along` threads further along a thread of `set`, and `across` threads of that
+    /// set to the side. `None` beyond an edge.
     #[must_use]
     pub fn beside(&self, site: Site, set: Set, along: i32, across: i32) -> Option<Site> {
         let [ends, picks] = match set {
@@ -265,8 +209,8 @@ impl CrossingsPlan {
         Some(Site { end, pick })
     }
 
-    /// All crossings before the first pass: thin round threads at the heights of their levels;
-    /// where these do not part them, one on top of the other.
+    /// All crossings before the first pass: thin round threads at the heights of their levels. If
+    /// the levels leave them piercing, they lie one on top of the other.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn start(&self) -> Result<Vec<CrossingState>, BackendError> {
@@ -288,7 +232,7 @@ impl CrossingsPlan {
                 let middle = 0.5 * (warp + weft);
                 [middle + 0.5 * touching, middle - 0.5 * touching]
             };
-            let lie = |set: Set, radius: f32| Lie {
+            let lie = |set: Set, radius: f32| ThreadState {
                 shift: 0.0,
                 height: heights[set as usize],
                 half_width: radius,
@@ -298,94 +242,9 @@ impl CrossingsPlan {
         }
         Ok(all)
     }
-
-    /// What pulls at a crossing while all lie as `crossings` says.
-    ///
-    /// **Panics** where `crossings` has fewer than the plan.
-    #[must_use]
-    pub fn block(&self, pass: &CrossingsPass, crossings: &[CrossingState], site: Site) -> CrossingBlock {
-        terms::gather(self, pass, crossings, site)
-    }
-
-    /// A crossing after its step.
-    #[must_use]
-    pub fn moved(&self, crossing: &CrossingState, block: &CrossingBlock, site: Site) -> CrossingState {
-        let step = block.step();
-        let longest = step.iter().fold(0.0, |longest: f32, step| longest.max(step.abs()));
-        let share = if longest > STEP { STEP / longest } else { 1.0 };
-        self.bounded(crossing, step.map(|step| share * step), site)
-    }
-
-    /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum
-    /// carries it on.
-    #[must_use]
-    pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
-        let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];
-        let on = std::array::from_fn(|unknown| MOMENTUM * (after[unknown] - before[unknown]));
-        self.bounded(is, on, site)
-    }
-
-    /// A crossing moved by `step`, as far as its unknowns may go.
-    fn bounded(&self, crossing: &CrossingState, step: [f32; 8], site: Site) -> CrossingState {
-        let mut moved = *crossing;
-        for set in Set::BOTH {
-            let row = self.rows(set)[site.thread(set)];
-            let by = |unknown: usize| step[set.first() + unknown];
-            let lie = moved.lie_mut(set);
-            lie.shift = (lie.shift + by(0)).clamp(-row.freedom, row.freedom);
-            lie.height = (lie.height + by(1)).clamp(-row.height, row.height);
-            let within = |value: f32, [low, high]: [f32; 2]| value.clamp(low * row.radius, high * row.radius);
-            lie.half_width = within(lie.half_width + by(2), HALF_WIDTH);
-            lie.half_height = within(lie.half_height + by(3), HALF_HEIGHT);
-        }
-        moved
-    }
 }
 
-/// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
-fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
-    let to = at.wrapping_add_signed(by as isize);
-    if to < count {
-        return Some(to);
-    }
-    // Before the first one it has wrapped round.
-    repeats.then(|| if by < 0 { to.wrapping_add(count) } else { to - count })
-}
-
-/// A set's threads in units.
-fn rows(
-    threads: &[CrossingThread],
-    unit: f32,
-    height: f32,
-    repeat: bool,
-) -> Result<Vec<Row>, CrossingsError> {
-    let mut rows = room("threads", threads.len())?;
-    let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
-    for (number, thread) in threads.iter().enumerate() {
-        let beside = |step: i32| {
-            let is_level = |steps: &i32| {
-                let other = further(number, step * steps, threads.len(), repeat);
-                other.is_some_and(|other| threads[other].level == thread.level)
-            };
-            (1..=BESIDE_MAX.min(threads.len() as i32)).find(is_level).unwrap_or(0)
-        };
-        let gap = thread.pitch / unit;
-        let [most, share] = SIDEWAYS;
-        rows.push(Row {
-            gap,
-            radius: 0.5 * thread.diameter / unit,
-            stiffness: thread.stiffness,
-            freedom: most.min(share * gap.min(before)),
-            height,
-            level: thread.level as i32,
-            beside: [beside(-1), beside(1)],
-        });
-        before = gap;
-    }
-    Ok(rows)
-}
-
-/// How many levels a set has.
+/// The number of levels of a set.
 fn levels(threads: &[CrossingThread]) -> u32 {
     threads.iter().map(|thread| thread.level).max().unwrap_or(0) + 1
 }

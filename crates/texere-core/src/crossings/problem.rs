@@ -1,22 +1,23 @@
-//! The problem: which thread lies on top where, and what threads there are.
+//! The problem: the drawdown and the threads of a cloth.
 
 /// A thread of the warp or the weft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingThread {
-    /// From its middle to that of the next thread of its set, mm. The last one's leads to the first
-    /// of the next repeat.
+    /// The distance from its middle to that of the next thread of its set, mm. The last one's leads
+    /// to the first of the next repeat.
     pub pitch: f32,
-    /// The diameter of a circle with its section's area, mm, before it loses any.
+    /// The diameter of a circle with its section's area, mm, before it loses any area.
     pub diameter: f32,
-    /// How stiff it is against bending, 1 for a cotton yarn of its diameter.
+    /// The stiffness against bending, 1 for a cotton yarn of its diameter.
     pub stiffness: f32,
-    /// Its level among the threads of its set, 0 for the lowest one. Threads of one level lie side
-    /// by side, those of others above or below: the picks of a double cloth have two levels by
-    /// turns. Where warp and weft have as many, a level of both is a layer of the cloth.
+    /// The level among the threads of its set, 0 for the lowest. Threads of one level lie side by
+    /// side, those of others above or below: the picks of a double cloth alternate between two
+    /// levels. If warp and weft have the same number of levels, a level of both is a layer of the
+    /// cloth.
     pub level: u32,
 }
 
-/// Woven cloth that is to come to rest.
+/// The problem of woven cloth that is to come to rest.
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, CrossingThread};
@@ -37,37 +38,38 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// A repeat, endless along both axes. `ups` says where the warp lies on the face: pick after
-    /// pick, and in each pick end after end.
+    /// A repeat that is endless along both axes. `ups` says where the warp lies on the face: pick
+    /// after pick, and end after end in each pick.
     #[must_use]
     pub const fn new(ups: Vec<bool>, warp: Vec<CrossingThread>, weft: Vec<CrossingThread>) -> Self {
         Self { ups, threads: [warp, weft], repeats: [true; 2], tension: [1.0; 2], press: 1.0, passes: 400 }
     }
 
-    /// Whether the cloth goes on beyond its last end, and beyond its last pick. Where it does not,
-    /// nothing holds its edge.
+    /// Sets whether the cloth goes on beyond its last end, and beyond its last pick. If not,
+    /// nothing holds its edge. The default is both.
     #[must_use]
     pub const fn repeats(mut self, ends: bool, picks: bool) -> Self {
         self.repeats = [ends, picks];
         self
     }
 
-    /// How taut warp and weft are, 1 for relaxed cloth: more of it straightens a set at the cost of
-    /// the other one. 0 to 10.
+    /// Sets the tension of warp and weft, 0 to 10, 1 for relaxed cloth. More of it straightens a
+    /// set at the cost of the other.
     #[must_use]
     pub const fn tension(mut self, warp: f32, weft: f32) -> Self {
         self.tension = [warp, weft];
         self
     }
 
-    /// How strongly a finish presses the cloth flat, 1 for relaxed cloth. 0 to 10.
+    /// Sets the strength with which a finish presses the cloth flat, 0 to 10, 1 for relaxed cloth.
     #[must_use]
     pub const fn press(mut self, press: f32) -> Self {
         self.press = press;
         self
     }
 
-    /// The most passes, 1 to a million. In the first fifty threads grow to their full area.
+    /// Sets the largest number of passes, 1 to a million. Threads grow to their full area in the
+    /// first fifty.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

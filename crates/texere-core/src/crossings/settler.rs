@@ -1,4 +1,4 @@
-//! What a device does for crossings.
+//! The work of a device for crossings.
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -8,43 +8,45 @@ use std::sync::Arc;
 use super::{CrossingState, CrossingsPass, CrossingsPlan};
 use crate::BackendError;
 
-/// What a pass has seen.
+/// The measures of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingsSeen {
     /// The longest step of any unknown, in the plan's unit.
     pub step: f32,
-    /// The least distance of two threads before the step, over what they need: 1 where they touch.
+    /// The least distance of two threads before the step, divided by the distance that they need: 1
+    /// where they touch.
     pub clearance: f32,
 }
 
 impl CrossingsSeen {
-    /// Nothing yet.
+    /// The measures of no pass.
     pub const NOTHING: Self = Self { step: 0.0, clearance: f32::INFINITY };
 
-    /// What either has seen.
+    /// The measures of two passes or parts of a pass together.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self { step: self.step.max(other.step), clearance: self.clearance.min(other.clearance) }
     }
 }
 
-/// Crossings on one device. [`settle`](super::settle) calls it: `upload` comes first, with as many
+/// Crossings on one device. [`settle`](super::settle) calls it: first `upload`, with as many
 /// crossings as the plan has.
 ///
-/// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
+/// **Errors**: all methods return a [`BackendError`] for failures that could not be foreseen, and
+/// for nothing else.
 pub trait CrossingsSettler: Any + Debug + Send {
-    /// The plan that it works on.
+    /// The plan of the settler.
     fn plan(&self) -> &Arc<CrossingsPlan>;
 
-    /// Takes all crossings, none of which is moving.
+    /// Takes the states of all crossings, all at rest.
     fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError>;
 
-    /// Moves every crossing once. Each reads where all were found before the pass, and says where
-    /// it is found after it.
+    /// Moves every crossing once. Each reads the states that all crossings showed before the pass,
+    /// and afterwards shows its own new state.
     fn pass(&mut self, pass: &CrossingsPass) -> Result<CrossingsSeen, BackendError>;
 
-    /// Makes passes one after the other, and hands over what each has seen. A device that is waited
-    /// for may make all of them first; another one makes no more where `watch` breaks off.
+    /// Makes several passes, and calls `watch` with the measures of each. A device that the host
+    /// waits for may make all of them first. Any other makes no more after `watch` breaks off.
     fn passes(
         &mut self,
         passes: &[CrossingsPass],
@@ -58,7 +60,7 @@ pub trait CrossingsSettler: Any + Debug + Send {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Writes the present crossings.
+    /// Writes the present states of all crossings.
     fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError>;
 }
 

@@ -1,96 +1,124 @@
-//! The energy: what threads want, and what keeps them apart.
+//! The terms of the energy of crossings.
 //!
-//! Each term is a weight times the square of a residual. A term of several crossings is worked out
-//! by each of them, which keeps the slopes in its own unknowns: so all is gathered and nothing
-//! scattered. The sum over all crossings counts each term once.
+//! The idea is simple. The energy is a list of wishes: a thread wants to be straight, flat and of
+//! its own area, and clear of every thread beside it. A wish is a weight times the square of a
+//! residual, which is 0 where the wish comes true. A pass is one step of Gauss and Newton's method
+//! for the sum of all wishes, at every crossing at once.
+//!
+//! ```text
+//! for each crossing:
+//!     block = no equations                  8 unknowns: shift, height, half width, half height
+//!                                                       of the end, then of the pick
+//!     for the end, then the pick:
+//!         own        half width is ASPECT half heights; area is the yarn's; height is 0
+//!         bends      second differences along the thread are 0
+//!         steps      first differences along the thread are 0
+//!         for the crossing before and the one after, and the next ones of the same level:
+//!             meeting: on the same side     the thread clears the shoulder under its upper end
+//!                      on the other side    it fits between the two threads that it passes
+//!         for the nearest threads of its level, before and after:
+//!             neighbour                     they are clear side by side
+//!         for the threads beside it, if they have another level:
+//!             stacked                       they are clear as ellipses
+//!     contact        end and pick lie one on top of the other
+//! ```
+//!
+//! A term of several crossings is computed by each of them, which keeps the slopes in its own
+//! unknowns. So everything is gathered and nothing is scattered. The sum over all crossings counts
+//! each term once.
 
-use super::{CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Lie, Set, Site, StraightPassage};
+use super::{
+    CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Set, Site, StraightPassage, ThreadState,
+};
 
-/// Weights of second differences of heights and of shifts, times the fourth power of a diameter
-/// over the third power of a pitch.
+/// The weight of second differences of heights, times the fourth power of a diameter over the third
+/// power of a pitch.
 pub const BEND: f32 = 1.0;
-/// See [`BEND`]. Threads that skew collide at corners that no passage sees.
+/// The weight of second differences of shifts, in the same units as [`BEND`]. It is higher because
+/// skewed threads collide at corners that no passage sees.
 pub const SIDEWAYS_BEND: f32 = 20.0;
 
-/// Weights of first differences of heights and of shifts, times the square of a diameter over a
-/// pitch.
+/// The weight of first differences of heights, times the square of a diameter over a pitch.
 pub const TENSION: f32 = 1.0;
-/// See [`TENSION`].
+/// The weight of first differences of shifts, in the same units as [`TENSION`].
 pub const SIDEWAYS_TENSION: f32 = 0.1;
 
-/// Weight of heights, times the square of a diameter: a finish presses the cloth flat.
+/// The weight of heights, times the square of a diameter: a finish presses the cloth flat.
 pub const PRESS: f32 = 0.3;
 
-/// Weight of first differences of half widths and half heights along a thread, in radii.
+/// The weight of first differences of half widths and half heights along a thread, in radii.
 pub const SMOOTH: f32 = 3.0;
 
-/// A thread wants to be so many times as wide as thick, with that weight.
+/// The ratio of width to thickness that a thread tends to.
 pub const ASPECT: f32 = 1.4;
-/// See [`ASPECT`].
+/// The weight of the difference from [`ASPECT`].
 pub const SHAPE: f32 = 0.5;
 
-/// Weights of what its section lacks of its area, and of what it has too much.
+/// The weight of area that a section has lost.
 pub const AREA_LOSS: f32 = 6.0;
-/// See [`AREA_LOSS`].
+/// The weight of area that a section has gained.
 pub const AREA_GAIN: f32 = 100.0;
 
-/// Threads are kept so far apart, in units, since penalties give way a little.
+/// The distance that threads are kept apart, in units, since penalties give way a little.
 pub const MARGIN: f32 = 0.003;
 
-/// Threads that are so near to touching, in units, are felt already: they do not pull, but make
-/// each other's steps short. Without it contacts that come and go make momentum swing.
+/// The distance, in units, below which threads that do not touch yet are felt already: they do not
+/// push, but make each other's steps shorter. Without it momentum swings, since contacts come and
+/// go.
 pub const NEAR: f32 = 0.02;
 
-/// Between two crossings a thread of a layer is so many times steeper than the straight line, since
-/// it bends where it binds.
+/// The slope of a layer's thread over that of the straight line between two crossings. It is
+/// steeper since it bends where it binds.
 pub const STEEPER: f32 = 1.4;
 
-// Unknowns of a thread, after the first of its set.
+// The unknowns of a thread, counted from the first of its set.
 const SHIFT: usize = 0;
 const HEIGHT: usize = 1;
 const WIDTH: usize = 2;
 const THICKNESS: usize = 3;
 
-/// Gathers all terms that the crossing at `site` is part of.
-pub(super) fn gather(
-    plan: &CrossingsPlan,
-    pass: &CrossingsPass,
-    all: &[CrossingState],
-    site: Site,
-) -> CrossingBlock {
-    let mut block = CrossingBlock::NOTHING;
-    let both = Set::BOTH.map(|set| Here { plan, pass, all, site, set, row: set.first() });
-    for here in both {
-        let set = here.set;
-        here.own(&mut block);
-        here.bends(&mut block);
-        here.steps(&mut block);
-        for steps in [-1, 1] {
-            here.meeting(&mut block, steps);
-        }
-        for (sign, steps) in here.of_level(set) {
-            here.neighbour(&mut block, sign * steps);
-            if steps != 1 {
-                here.stacked(&mut block, sign);
+impl CrossingsPlan {
+    /// The equations of the crossing at `site`, gathered from all terms that it is part of, in the
+    /// states `crossings`.
+    ///
+    /// **Panics** where `crossings` has fewer than the plan.
+    #[must_use]
+    pub fn block(&self, pass: &CrossingsPass, crossings: &[CrossingState], site: Site) -> CrossingBlock {
+        let mut block = CrossingBlock::NOTHING;
+        let both =
+            Set::BOTH.map(|set| Here { plan: self, pass, all: crossings, site, set, row: set.first() });
+        for here in both {
+            let set = here.set;
+            here.own(&mut block);
+            here.bends(&mut block);
+            here.steps(&mut block);
+            for steps in [-1, 1] {
+                here.meeting(&mut block, steps);
+            }
+            for (sign, steps) in here.of_level(set) {
+                here.neighbour(&mut block, sign * steps);
+                if steps != 1 {
+                    here.stacked(&mut block, sign);
+                }
+            }
+            for (sign, steps) in here.of_level(set.other()) {
+                if steps > 1 {
+                    here.meeting(&mut block, sign * steps);
+                }
             }
         }
-        for (sign, steps) in here.of_level(set.other()) {
-            if steps > 1 {
-                here.meeting(&mut block, sign * steps);
-            }
-        }
+        contact(&both, &mut block);
+        block
     }
-    contact(&both, &mut block);
-    block
 }
 
-/// Both threads of a crossing lie one on top of the other.
+/// Contact: both threads of a crossing lie one on top of the other.
 fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
     let Here { plan, pass, site, .. } = *warp;
-    let [end, pick] = [warp, weft].map(|thread| thread.lie(site));
+    let [end, pick] = [warp, weft].map(|thread| thread.thread(site));
     let side = plan.side(site, Set::Warp);
     let apart = side * (end.height - pick.height);
-    // Threads of two layers slope where they cross: along the slope of the other one an ellipse
+    // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
     // reaches further.
     let reaches = [(end, weft), (pick, warp)].map(|(lie, other)| {
         Reach::new(lie, if plan.are_apart(site) { STEEPER * other.steepest() } else { 0.0 })
@@ -112,8 +140,8 @@ fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
     }
 }
 
-/// How far an ellipse reaches upright where what lies on it slopes, and the slopes of that in the
-/// slope, its half width and its half height.
+/// The upright reach of an ellipse under a slope, and its derivatives by the slope, the half width
+/// and the half height.
 struct Reach {
     reach: f32,
     steeper: f32,
@@ -122,7 +150,7 @@ struct Reach {
 }
 
 impl Reach {
-    fn new(lie: &Lie, slope: f32) -> Self {
+    fn new(lie: &ThreadState, slope: f32) -> Self {
         let (x, z) = (lie.half_width * slope, lie.half_height);
         let reach = (x * x + z * z).sqrt();
         Self { reach, steeper: lie.half_width * x / reach, wider: x * slope / reach, thicker: z / reach }
@@ -146,20 +174,20 @@ impl Here<'_> {
         &self.all[self.plan.number(site)]
     }
 
-    fn lie(&self, site: Site) -> &Lie {
-        self.crossing(site).lie(self.set)
+    fn thread(&self, site: Site) -> &ThreadState {
+        self.crossing(site).thread(self.set)
     }
 
     fn along(&self, steps: i32) -> Option<Site> {
         self.plan.beside(self.site, self.set, steps, 0)
     }
 
-    /// From the crossing at `site` to the next one along the thread.
+    /// The distance from the crossing at `site` to the next one along the thread.
     fn pitch(&self, site: Site) -> f32 {
         self.way(self.set.other(), site, 1)
     }
 
-    /// From the thread of a set at `site` to the one so many after it.
+    /// The distance from the thread of a set at `site` to the one `steps` after it.
     fn way(&self, set: Set, site: Site, steps: i32) -> f32 {
         let rows = self.plan.rows(set);
         let mut way = rows[site.thread(set)].gap;
@@ -170,19 +198,19 @@ impl Here<'_> {
         way
     }
 
-    /// The way to the nearest threads of a set on the level of the one here: -1 or 1, and how many
-    /// threads that is. 0 where there is none.
+    /// The nearest threads of a set on the level of the one here, before (-1) and after (1): the
+    /// direction, and the distance in threads. 0 if there is none.
     fn of_level(&self, set: Set) -> [(i32, i32); 2] {
         let [before, after] = self.plan.rows(set)[self.site.thread(set)].beside;
         [(-1, before), (1, after)]
     }
 
-    /// How steeply the thread rises or falls next to the crossing, on the steeper side.
+    /// The slope of the thread next to the crossing, on its steeper side.
     fn steepest(&self) -> f32 {
         let slope = |steps: i32| {
             self.along(steps).map_or(0.0, |other| {
                 let pitch = self.pitch(if steps < 0 { other } else { self.site });
-                ((self.lie(other).height - self.lie(self.site).height) / pitch).abs()
+                ((self.thread(other).height - self.thread(self.site).height) / pitch).abs()
             })
         };
         slope(-1).max(slope(1))
@@ -192,9 +220,9 @@ impl Here<'_> {
         self.plan.rows(self.set)[self.site.thread(self.set)].radius
     }
 
-    /// Shape, area, and the press.
+    /// The thread's own terms: shape, area, and press.
     fn own(&self, block: &mut CrossingBlock) {
-        let (lie, radius, row) = (self.lie(self.site), self.radius(), self.row);
+        let (lie, radius, row) = (self.thread(self.site), self.radius(), self.row);
         let (wide, thick) = (lie.half_width / radius, lie.half_height / radius);
         let aspect = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -ASPECT / radius)];
         block.add(SHAPE, 1.0, wide - ASPECT * thick, aspect);
@@ -205,7 +233,8 @@ impl Here<'_> {
         block.add(press, 1.0, lie.height, [(row + HEIGHT, 1.0)]);
     }
 
-    /// Second differences along the thread, at this crossing and at those before and after.
+    /// Bending: second differences along the thread, at this crossing and at those before and
+    /// after.
     fn bends(&self, block: &mut CrossingBlock) {
         let thread = self.plan.rows(self.set)[self.site.thread(self.set)];
         let square = 4.0 * thread.radius * thread.radius;
@@ -214,9 +243,9 @@ impl Here<'_> {
             let [Some(before), Some(at), Some(after)] = sites else { continue };
             let pitch = 0.5 * (self.pitch(before) + self.pitch(at));
             let stiff = thread.stiffness * square * square / (pitch * pitch * pitch);
-            // Slopes are 1, -2 and 1.
+            // The slopes of a second difference are 1, -2 and 1.
             let (slope, share) = if middle == 0 { (-2.0, 2.0) } else { (1.0, 4.0) };
-            let [before, at, after] = [before, at, after].map(|site| self.lie(site));
+            let [before, at, after] = [before, at, after].map(|site| self.thread(site));
             let bend = before.height - 2.0 * at.height + after.height;
             block.add(BEND * stiff, share, bend, [(self.row + HEIGHT, slope)]);
             let bend = before.shift - 2.0 * at.shift + after.shift;
@@ -226,12 +255,12 @@ impl Here<'_> {
 
     /// First differences along the thread: tension, and sections that change little.
     fn steps(&self, block: &mut CrossingBlock) {
-        let (lie, radius) = (self.lie(self.site), self.radius());
+        let (lie, radius) = (self.thread(self.site), self.radius());
         let tension = self.plan.tension(self.set) * 4.0 * radius * radius;
         let smooth = SMOOTH / (radius * radius);
         for steps in [-1, 1] {
             let Some(site) = self.along(steps) else { continue };
-            let other = self.lie(site);
+            let other = self.thread(site);
             let taut = tension / self.pitch(if steps < 0 { site } else { self.site });
             block.add(TENSION * taut, 2.0, lie.height - other.height, [(self.row + HEIGHT, 1.0)]);
             block.add(SIDEWAYS_TENSION * taut, 2.0, lie.shift - other.shift, [(self.row + SHIFT, 1.0)]);
@@ -240,7 +269,7 @@ impl Here<'_> {
         }
     }
 
-    /// What the thread has to clear between this crossing and the one so many further along it.
+    /// Clearance between this crossing and the one `steps` further along the thread.
     fn meeting(&self, block: &mut CrossingBlock, steps: i32) {
         let Some(other) = self.along(steps) else { return };
         let second = steps < 0;
@@ -253,19 +282,19 @@ impl Here<'_> {
         }
     }
 
-    /// The thread stays on its side between two crossings `way` apart, the `second` of which is
-    /// this one or else the first. Where it slopes it clears the shoulder of the thread under its
-    /// upper end.
+    /// The thread stays on its side between two crossings `way` apart. Where it slopes, it clears
+    /// the shoulder of the thread under its upper end. This crossing is the `second` or the first
+    /// of the two.
     fn shoulder(&self, block: &mut CrossingBlock, sites: [Site; 2], way: f32, second: bool) {
         let crossed = self.set.other();
         let [first, last] = sites.map(|site| self.crossing(site));
         let side = self.plan.side(sites[0], self.set);
-        let rises = side * (last.lie(self.set).height - first.lie(self.set).height) > 0.0;
+        let rises = side * (last.thread(self.set).height - first.thread(self.set).height) > 0.0;
         let [upper, lower] = if rises { [last, first] } else { [first, last] };
-        let (own, other, under) = (upper.lie(self.set), lower.lie(self.set), upper.lie(crossed));
-        let across = way + last.lie(crossed).shift - first.lie(crossed).shift;
+        let (own, other, under) = (upper.thread(self.set), lower.thread(self.set), upper.thread(crossed));
+        let across = way + last.thread(crossed).shift - first.thread(crossed).shift;
         let slope = side * (own.height - other.height) / across;
-        // Upright, not across the slope.
+        // Measured upright, not across the slope.
         let length = (1.0 + slope * slope).sqrt();
         let Reach { reach, steeper, wider: widens, thicker: thickens } = Reach::new(under, slope);
         let above = side * (own.height - under.height);
@@ -295,22 +324,22 @@ impl Here<'_> {
         }
     }
 
-    /// The thread changes sides between two crossings `way` apart, the `second` of which is this
-    /// one or else the first.
+    /// The thread changes sides between two crossings `way` apart. This crossing is the `second` or
+    /// the first of the two.
     fn passage(&self, block: &mut CrossingBlock, [first, last]: [Site; 2], way: f32, second: bool) {
         let side = self.plan.side(first, self.set);
         let crossed = self.set.other();
-        let [one, two] = [first, last].map(|site| self.crossing(site).lie(crossed));
+        let [one, two] = [first, last].map(|site| self.crossing(site).thread(crossed));
         let across = way + two.shift - one.shift;
         let rise = side * (two.height - one.height);
         let halves = [one, two].map(|lie| [lie.half_width, lie.half_height]);
-        let thread = self.lie(first).half_height + self.lie(last).half_height;
+        let thread = self.thread(first).half_height + self.thread(last).half_height;
         let passage = StraightPassage::new(across, rise, halves, thread);
         block.see(passage.clearance());
         let room = passage.room - MARGIN;
         if room < NEAR {
             let [c, s] = passage.slope;
-            // This crossing's share of it.
+            // This crossing's slopes of the term.
             let (sign, lie, reach) =
                 if second { (1.0, two, passage.reach[1]) } else { (-1.0, one, passage.reach[0]) };
             let row = crossed.first();
@@ -325,20 +354,21 @@ impl Here<'_> {
         }
     }
 
-    /// From this thread's place to that of the one so many after it, or before it.
+    /// The distance from this thread's place to that of the one `across` after it, or before it if
+    /// negative.
     fn gap(&self, neighbour: Site, across: i32) -> f32 {
         let lower = if across < 0 { neighbour } else { self.site };
         self.way(self.set, lower, across.abs())
     }
 
-    /// Neighbours of one level keep to their own places at a crossing, whatever their heights, and
-    /// are clear of one another beside it.
+    /// Neighbours of one level keep their places at a crossing, whatever their heights, and are
+    /// clear of one another beside it.
     fn neighbour(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
         if across == 0 {
             return;
         }
-        let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across.signum() as f32);
+        let (lie, other, sign) = (self.thread(self.site), self.thread(neighbour), across.signum() as f32);
         let gap = self.gap(neighbour, across);
         let apart = gap + sign * (other.shift - lie.shift);
         let need = lie.half_width + other.half_width;
@@ -353,10 +383,10 @@ impl Here<'_> {
         }
     }
 
-    /// Neighbours of two levels lie side by side or one above the other, as ellipses.
+    /// Neighbours of two levels lie side by side or one above the other, clear as ellipses.
     fn stacked(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
-        let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across as f32);
+        let (lie, other, sign) = (self.thread(self.site), self.thread(neighbour), across as f32);
         let gap = self.gap(neighbour, across);
         let apart = gap + sign * (other.shift - lie.shift);
         let rise = other.height - lie.height;
@@ -372,12 +402,12 @@ impl Here<'_> {
         }
     }
 
-    /// Neighbours `gap` apart half way between two crossings, as ellipses.
+    /// Neighbours `gap` apart are clear as ellipses half way between two crossings.
     fn half_way(&self, block: &mut CrossingBlock, along: i32, across: i32, gap: f32) {
         let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
         let sites = [beside(along, 0), beside(0, across), beside(along, across)];
         let [Some(next), Some(neighbour), Some(opposite)] = sites else { return };
-        let lies = [self.site, next, neighbour, opposite].map(|site| *self.lie(site));
+        let lies = [self.site, next, neighbour, opposite].map(|site| *self.thread(site));
         let [own, next, neighbour, opposite] = lies;
         let sign = across.signum() as f32;
         let ellipses = Ellipses {
@@ -389,7 +419,8 @@ impl Here<'_> {
         self.keep_clear(block, &ellipses, sign, 0.5);
     }
 
-    /// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
+    /// Keeps two ellipses clear of one another. `part` is the share of this crossing's thread in
+    /// them.
     fn keep_clear(&self, block: &mut CrossingBlock, ellipses: &Ellipses, sign: f32, part: f32) {
         let Ellipses { apart, rise, wide, thick } = *ellipses;
         let (x, z) = (apart / wide, rise / thick);
@@ -403,14 +434,14 @@ impl Here<'_> {
                 (self.row + WIDTH, part * (clearance - 1.0 - x * x / clearance)),
                 (self.row + THICKNESS, -part * z * z * wide / (thick * clearance)),
             ];
-            // As many crossings step as have a part.
+            // All crossings that have a part step at once.
             block.add(self.pass.penalty, 2.0 / part, room.min(0.0), slopes);
         }
     }
 }
 
-/// Two sections beside one another: from the middle of the one to that of the other, and both half
-/// widths and half heights together.
+/// Two sections side by side: the way from the middle of one to that of the other, and the sums of
+/// both half widths and of both half heights.
 struct Ellipses {
     apart: f32,
     rise: f32,

@@ -1,14 +1,15 @@
-//! What a backend can fail at.
+//! Errors of backends.
 
 use thiserror::Error;
 
 use crate::{OutOfMemory, counted};
 
-/// A failure of a backend. Whatever the core can check beforehand is not among these.
+/// A failure of a backend. Errors that the core finds before it calls a backend have types of their
+/// own.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BackendError {
-    /// No device answers to the name.
+    /// No device has the name.
     #[error("no device \"{wanted}\"; there are: {}", if .found.is_empty() { "none".into() } else { .found.join(", ") })]
     NoDevice {
         /// The name asked for.
@@ -16,26 +17,26 @@ pub enum BackendError {
         /// Names that would have worked.
         found: Vec<String>,
     },
-    /// The name is that of a device which this build of texere can't open.
+    /// The name is of a device that this build of texere can't open.
     #[error("no device \"{wanted}\" in this build; texere opens it with its feature \"{feature}\"")]
     NoFeature {
         /// The name asked for.
         wanted: String,
-        /// The feature of the crate `texere`.
+        /// The feature of the crate `texere` that adds the device.
         feature: &'static str,
     },
-    /// An environment variable names vector instructions that the processor does not have, or that
-    /// texere does not know.
+    /// An environment variable names vector instructions that the processor lacks or that texere
+    /// does not know.
     #[error("{variable} is \"{wanted}\"; this processor has: {}", .found.join(", "))]
     NoInstructionSet {
         /// The variable.
         variable: &'static str,
-        /// What it says.
+        /// Its value.
         wanted: String,
         /// Names that would have worked.
         found: Vec<&'static str>,
     },
-    /// The device, or its schedule, makes no attributes.
+    /// The device, or its schedule, makes no attributes of vertices.
     #[error("no attributes are made on this device, or not in its schedule")]
     NoAttributes,
     /// The device, or its schedule, packs no vertices.
@@ -56,36 +57,35 @@ pub enum BackendError {
         /// The backend's name.
         name: String,
     },
-    /// Memory could not be had.
+    /// An allocation failed.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// Yarns that lie so thick over one another that a settling would have to look at too many
-    /// pairs of them.
+    /// Too many yarns lie in one place: a settling would have to look at too many pairs of chords.
     #[error(
         "more than {limit} pairs of neighbours among {chords}: too many yarns lie in one place to settle", chords = counted(*.chords, "chord"))]
     Crowded {
-        /// Chords of all yarns.
+        /// The chords of all yarns.
         chords: u64,
-        /// Pairs that are listed at most for so many.
+        /// The most pairs that are listed for this number of chords.
         limit: u64,
     },
-    /// The device is lost, and the session with it. A new session on a healthy device works.
+    /// The device is lost, and with it the session. A new session on a healthy device works.
     #[error("device {device} is lost")]
     DeviceLost {
         /// Its name.
         device: String,
-        /// What the driver said.
+        /// The driver's message.
         source: Option<Box<dyn std::error::Error + Send + Sync>>,
     },
-    /// The backend or its schedule does not do this.
+    /// The backend, or its schedule, can't do what was asked for.
     #[error("{schedule} does not do {what}")]
     Unsupported {
         /// Backend and schedule.
         schedule: String,
-        /// What was asked for.
+        /// The thing asked for.
         what: String,
     },
-    /// A kernel that the driver would not compile.
+    /// The driver refused to compile a kernel.
     #[error("kernel {kernel} does not compile:\n{log}")]
     Compile {
         /// The kernel.
@@ -93,19 +93,19 @@ pub enum BackendError {
         /// The driver's whole log.
         log: String,
     },
-    /// An engine was asked to work on a chunk that is not loaded, or belongs to another plan. A
-    /// session never does this.
+    /// An engine was asked to work on a chunk that is not loaded, or that belongs to another plan.
+    /// A session never does this.
     #[error("chunk {chunk} is not loaded")]
     NotLoaded {
         /// The chunk's index.
         chunk: u64,
     },
-    /// A driver call that failed.
+    /// A call of the driver failed.
     #[error("{call} failed")]
     Driver {
         /// The call.
         call: &'static str,
-        /// What the driver said.
+        /// The driver's message.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
 }

@@ -1,4 +1,4 @@
-//! Yarns of a live mesh that become others, and control points that move.
+//! Edits of a live mesh: yarns that are replaced, and control points that move.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,11 +13,12 @@ use crate::yarns::check_points;
 use crate::{ControlPoint, PlanError, Yarn};
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
-    /// Takes control points, the first of which is number `first` of the fabric as it is now. All
-    /// rings that they have a part in are made again by the next [`LiveMesh::update`].
+    /// Takes control points, the first of which is number `first` of the present fabric. The next
+    /// [`LiveMesh::update`] makes again all rings that they affect.
     ///
     /// **Errors**: [`SessionError::UploadRange`] past the last control point,
-    /// [`SessionError::Yarns`] for a point that is not sound, and what the device says.
+    /// [`SessionError::Yarns`] for a point that is not sound, [`SessionError::Plan`] for a yarn
+    /// with up directions of its own, and [`SessionError::Backend`].
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
         let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
         if end > total {
@@ -27,7 +28,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         for yarn in yarns.clone() {
             let [own, sent] = self.plan.layout().points_of(yarn, &(first..end));
             check_points(yarn, &points[sent.clone()])?;
-            // Up directions that were given belong to the points that they were given with.
+            // Given up directions belong to the points that they were given with.
             let given = self.plan.layout().leaning(yarn).filter(|leaning| leaning.given);
             if given.is_some_and(|leaning| leaning.points[own] != points[sent]) {
                 let what = "moved, where yarns have up directions of their own";
@@ -43,16 +44,16 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Makes yarn number `yarn`, from 0, another one, of other control points, perhaps of more or
-    /// fewer.
+    /// Replaces yarn number `yarn`, from 0, by another one with other control points, perhaps more
+    /// or fewer.
     ///
-    /// **Errors**: those of [`LiveMesh::set_yarns`].
+    /// **Errors**: the errors of [`LiveMesh::set_yarns`].
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), SessionError> {
         self.set_yarns(&Edits::from([(yarn, (what, points))]))
     }
 
-    /// Makes many yarns others at once, each of other control points, perhaps of more or fewer. The
-    /// mesh is planned once for all of them.
+    /// Replaces many yarns at once, each by another one with other control points, perhaps more or
+    /// fewer. The mesh is planned once for all of them.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -76,12 +77,11 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// Their splines have the tension of the plan's [layout](crate::Layout::tension), as those of
-    /// all other yarns.
+    /// Their splines have the tension of the plan's [layout](crate::Layout::tension).
     ///
-    /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited_all`]; [`SessionError::Yarns`]
-    /// for a point that is not sound; and what the device says. All but the last leave everything
-    /// as it was, whichever of the yarns is refused.
+    /// **Errors**: [`SessionError::NoYarn`], the errors of [`Plan::edited_all`],
+    /// [`SessionError::Yarns`] for a point that is not sound, and [`SessionError::Backend`]. All
+    /// but the last leave everything unchanged, whichever yarn is refused.
     pub fn set_yarns(&mut self, edits: &Edits<'_>) -> Result<(), SessionError> {
         let yarns = self.plan.layout().yarns().len();
         if let Some((&yarn, _)) = edits.range(yarns..).next() {
@@ -105,8 +105,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Takes control points of some yarns, and notes which of them stand otherwise with these: have
-    /// become steep, lie flat again, or lean in another way.
+    /// Takes control points of some yarns, and notes the yarns whose stand changes with them: those
+    /// that become steep, lie flat again, or lean in another way.
     fn note_stands(
         &mut self,
         first: u64,
@@ -130,7 +130,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Takes a plan that differs from the present one in some of `yarns`, which are in order.
+    /// Takes a plan that differs from the present one in `yarns`, which are in order.
     fn replan(&mut self, yarns: &[usize], plan: Plan) -> Result<(), SessionError> {
         let plan = Arc::new(plan);
         for run in runs(yarns) {
@@ -139,7 +139,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         self.plan = plan;
         let mut cut = 0;
         for run in runs(yarns) {
-            // Runs may share a chunk, which is cut again once.
+            // Runs may share a chunk, which is cut again only once.
             let chunks = self.chunks_of(run.start).start..self.chunks_of(run.end - 1).end;
             for number in chunks.start.max(cut)..chunks.end {
                 self.chunks[number] = self.plan.recut(&self.chunks[number]);
@@ -149,14 +149,14 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// The rings that control points `own` of `yarn`, counted from its first, have a part in. A
-    /// yarn with rolls has all of them: what turns at one place turns the rest.
+    /// The rings affected by control points `own` of `yarn`, counted from its first. A yarn with
+    /// rolls is affected as a whole: a turn at one place turns the rest.
     fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
         let rings = self.plan.rings(yarn);
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
         let (first, end) = (own.start as u64, own.end as u64);
-        // A point has a part in the two intervals before it and the two behind, the last ring of
-        // which is that of a knot.
+        // A point affects the two intervals before it and the two behind, whose last ring is that
+        // of a knot.
         let (from, to) = (first.saturating_sub(2) * per_interval, (end + 1).saturating_mul(per_interval) + 1);
         if self.attributes || self.plan.needs_scan() || self.plan.yarn(yarn).closed {
             return 0..rings;
@@ -165,7 +165,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 }
 
-/// How `yarn` stands with the control points that it has now.
+/// The stand of `yarn` with its present control points.
 fn stands_now(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Stand {
     let offsets = plan.layout().offsets();
     let count = (offsets[yarn + 1] - offsets[yarn]) as usize;

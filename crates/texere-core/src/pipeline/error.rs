@@ -1,11 +1,11 @@
-//! What can end a run of the pipeline.
+//! Errors of pipelines.
 
 use thiserror::Error;
 
 use crate::backend::SessionError;
 use crate::{BackendError, OutOfMemory, PlanError};
 
-/// What can end a run of the whole pipeline.
+/// A failed run of a pipeline.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PipelineError {
@@ -15,7 +15,7 @@ pub enum PipelineError {
     /// The backend failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// A call of the session that the pipeline should not have made.
+    /// A misused session. The pipeline should never cause it.
     #[error(transparent)]
     Session(SessionError),
     /// The progress callback asked to stop.

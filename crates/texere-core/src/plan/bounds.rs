@@ -1,4 +1,4 @@
-//! Boxes that hold the mesh, from control points alone.
+//! Bounds of the mesh, from control points alone.
 
 use std::ops::Range;
 
@@ -22,20 +22,21 @@ use crate::definitions::Segment;
 pub struct Bounds {
     /// The least x, y and z, mm.
     pub low: [f32; 3],
-    /// The greatest, mm.
+    /// The greatest x, y and z, mm.
     pub high: [f32; 3],
 }
 
-/// What a frame, a roll and the products with half widths may be too long by: sines and cosines are
-/// within 1.2e-7, a tangent within 1e-6 of z stands for z.
+/// The factor for rounding in frames, rolls and products with half widths. Sines and cosines are
+/// within 1.2e-7, and a tangent within 1e-6 of z counts as z.
 const FRAME_SLACK: f32 = 1.0 + 1e-5;
 
-/// What sums and differences of coordinates may be off by, as a share of the largest coordinate: on
-/// a CPU they round as the box's own do, on other devices by a few units in the last place more.
+/// The slack for rounding in sums of coordinates, as a share of the largest coordinate. A CPU
+/// rounds them as the box's own sums are rounded. Other devices may be off by a few units in the
+/// last place more.
 const SUM_SLACK: f32 = 8.0 * f32::EPSILON;
 
 impl Bounds {
-    /// The box that holds nothing.
+    /// The empty box.
     pub const NOTHING: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// The smallest box that holds both.
@@ -47,14 +48,14 @@ impl Bounds {
         }
     }
 
-    /// All that lies over and under a rectangle, given by its lower left and its upper right
-    /// corner, mm.
+    /// The box of everything over and under a rectangle, given by its lower left and upper right
+    /// corners, mm.
     #[must_use]
     pub const fn rectangle(low: [f32; 2], high: [f32; 2]) -> Self {
         Self { low: [low[0], low[1], f32::NEG_INFINITY], high: [high[0], high[1], f32::INFINITY] }
     }
 
-    /// Whether both have a point in common.
+    /// Whether two boxes have a point in common.
     ///
     /// ```
     /// use texere_core::Bounds;
@@ -75,8 +76,8 @@ impl Bounds {
 }
 
 impl Plan {
-    /// A box that holds every vertex of the mesh of `points`, which were made for this plan and
-    /// [uploaded](PaddedPoints::upload). A `Picker` of texere-cpu keeps such boxes of a cloth that
+    /// A box that holds every vertex of the mesh. `points` must have been made for this plan and
+    /// [uploaded](PaddedPoints::upload). A `Picker` of texere-cpu keeps such boxes for a cloth that
     /// is edited.
     ///
     /// **Panics** for points that were made for another plan.
@@ -114,12 +115,11 @@ impl Plan {
         self.part_bounds(points, yarn, 0..self.rings(yarn))
     }
 
-    /// A box that holds the vertices of some rings of `yarn`, and so all triangles between them;
-    /// [`Bounds::NOTHING`] for no rings. Rings past the last are left out.
+    /// A box that holds the vertices of some rings of `yarn`, and so all triangles between them.
+    /// [`Bounds::NOTHING`] for no rings. Rings past the last are ignored.
     ///
-    /// It is the Bézier hull of the spline, made wider by as much as the section may reach out
-    /// there: along z by no more than the yarn's height, along x and y by the larger of height and
-    /// width.
+    /// The box is the Bézier hull of the spline, widened by the section's reach there: along z by
+    /// at most the yarn's height, along x and y by the larger of height and width.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -129,8 +129,7 @@ impl Plan {
         self.stretches(yarn, rings).fold(Bounds::NOTHING, |all, (interval, from, to)| {
             let window = [padded[interval], padded[interval + 1], padded[interval + 2], padded[interval + 3]];
             let hull = Segment::new(&window, self.sampling().s()).hull(from, to);
-            // Across the yarn the frame's side is level, so a section reaches out along z by its
-            // height alone.
+            // The frame's side is level, so a section reaches along z by its height alone.
             let level = level * hull.half_width.max(hull.half_height);
             let rising = if self.leans(yarn).is_some() { level } else { upright * hull.half_height };
             let reach = Vec3::new(level, level, rising) * FRAME_SLACK;
@@ -141,8 +140,8 @@ impl Plan {
         })
     }
 
-    /// How far the section of `yarn` reaches from its centre, in half widths or half heights
-    /// whatever way it is turned, and how far along the frame's up.
+    /// The reach of the section of `yarn` from its centre, in half widths or half heights: in any
+    /// direction, and along the frame's up.
     pub(crate) fn reach(&self, yarn: usize) -> [f32; 2] {
         let outline = self.outline(self.yarn(yarn).section as usize);
         let most = |reach: fn(f32, f32) -> f32| {
@@ -153,7 +152,8 @@ impl Plan {
         [any, if turns { any } else { most(|_, y| y.abs()) }]
     }
 
-    /// The intervals that `rings` of `yarn` lie in, each with where in it they begin and end.
+    /// The intervals that contain `rings` of `yarn`, each with the parameters at which the rings
+    /// begin and end.
     fn stretches(&self, yarn: usize, rings: Range<u32>) -> impl Iterator<Item = (usize, f32, f32)> {
         let (per_interval, step) = (self.settings().subdivisions + 1, self.sampling().step());
         let all = self.rings(yarn);
@@ -161,8 +161,8 @@ impl Plan {
         let last = end.saturating_sub(1);
         let at = move |ring: u32| (ring / per_interval, (ring % per_interval) as f32 * step);
         let (mut first, mut last) = (at(rings.start), at(last));
-        // A ring at a knot is the end of the interval before it as well, and an open yarn has none
-        // behind its last ring.
+        // A ring at a knot also ends the interval before it. An open yarn has no interval behind
+        // its last ring.
         if last.1 == 0.0 && (last.0 > first.0 || (end == all && !self.yarn(yarn).closed)) {
             last = (last.0 - 1, 1.0);
         }

@@ -1,48 +1,48 @@
-//! Chunks: ranges of blocks that fit a device, cut also inside a yarn.
+//! Chunks: ranges of blocks that fit a device. A cut may lie inside a yarn.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{Block, PlanId};
+use super::Block;
+use super::identity::{PlanId, TablesId};
 use crate::End;
 
-/// A run of one yarn's rings in a chunk. All but `yarn` and `first_ring` count from the start of
-/// the chunk.
+/// A run of one yarn's rings in a chunk. All fields but `yarn` and `first_ring` count from the
+/// start of the chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
     /// The yarn, from 0 among all.
     pub yarn: u32,
     /// The first ring, from the yarn's start.
     pub first_ring: u32,
-    /// Rings, the one that a cut repeats included.
+    /// The number of rings, with the one that a cut repeats.
     pub rings: u32,
     /// The first vertex; `rings * sides` follow.
     pub first_vertex: u32,
-    /// The first index; `(rings - 1) * sides * 6` follow where the topology is indexed.
+    /// The first index; `(rings - 1) * sides * 6` follow if the topology is indexed.
     pub first_index: u32,
 }
 
-/// The closed end of a yarn: `sides` vertices after all tube vertices of the chunk.
+/// The cap on an end of a yarn: `sides` vertices after all tube vertices of the chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cap {
     /// The yarn, from 0 among all.
     pub yarn: u32,
-    /// Which end.
+    /// The end that the cap closes.
     pub end: End,
-    /// The ring that the cap closes, among the chunk's.
+    /// The ring under the cap, among the chunk's.
     pub chunk_ring: u32,
     /// The first vertex, from the start of the chunk.
     pub first_vertex: u32,
-    /// The first index, from the start of the chunk, where the topology is indexed.
+    /// The first index, from the start of the chunk, if the topology is indexed.
     pub first_index: u32,
 }
 
 /// A range of blocks that is launched, read and drawn together.
 ///
-/// It holds all that a launch needs: the block table, the parts that it makes, and its place in the
-/// whole. Where it ends inside a yarn it repeats the next ring, so that its triangles use its own
-/// vertices alone. Only [`Plan::chunks`](crate::backend::Plan::chunks) makes chunks, and they can't
-/// be changed, so a kernel need not check their tables.
+/// It holds the tables for a launch: the block table, its parts, and its place in the whole. If it
+/// ends inside a yarn it repeats the next ring, so that its triangles use only its own vertices.
+/// Only [`Plan::chunks`](crate::backend::Plan::chunks) makes chunks, and they can't be changed, so
+/// a kernel need not check their tables.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -63,7 +63,7 @@ pub struct Chunk {
     pub(super) plan: PlanId,
     pub(super) index: u64,
     pub(super) tables: TablesId,
-    /// The blocks that it holds, in order.
+    /// The blocks of the chunk, in order.
     pub(super) runs: Vec<Range<u64>>,
     pub(super) window: Range<u64>,
     pub(super) blocks: Vec<Block>,
@@ -78,32 +78,32 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    /// The plan that it was cut from.
+    /// The plan of the chunk.
     pub(crate) const fn plan(&self) -> PlanId {
         self.plan
     }
 
-    /// Its number among the chunks of the same cut, from 0.
+    /// The chunk's number among the chunks of the same cut, from 0.
     #[must_use]
     pub const fn index(&self) -> u64 {
         self.index
     }
 
-    /// Its blocks among all blocks of the plan, the first to the last; those of a plan of a
-    /// [region](crate::backend::Plan::within) may be fewer. The table has a row more for each ring
-    /// that is repeated.
+    /// The range of the chunk's blocks among all of the plan. A chunk of a
+    /// [region](crate::backend::Plan::within) may skip some. The table has one more row for each
+    /// repeated ring.
     #[must_use]
-    pub const fn block_range(&self) -> Range<u64> {
+    pub(crate) const fn block_range(&self) -> Range<u64> {
         self.tables.blocks.start..self.tables.blocks.end
     }
 
-    /// What its tables are known by.
+    /// The identity of the chunk's tables.
     #[must_use]
     pub const fn tables(&self) -> &TablesId {
         &self.tables
     }
 
-    /// The padded control points that it reads, from a multiple of
+    /// The padded control points that the chunk reads, from a multiple of
     /// [`WINDOW_POINTS`](crate::backend::WINDOW_POINTS) on.
     #[must_use]
     pub const fn window(&self) -> Range<u64> {
@@ -116,13 +116,13 @@ impl Chunk {
         &self.blocks
     }
 
-    /// Its parts: one run of rings for each yarn that it holds some of.
+    /// The chunk's parts: one run of rings for each of its yarns.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
-    /// Its caps, in order; none unless [`Settings::caps`](crate::Settings::caps) asks for them.
+    /// The chunk's caps, in order. Empty without [`Settings::caps`](crate::Settings::caps).
     #[must_use]
     pub fn caps(&self) -> &[Cap] {
         &self.caps
@@ -134,27 +134,27 @@ impl Chunk {
         self.repeats_ring
     }
 
-    /// Rings, the repeated one included, and those that there is only
+    /// The number of rings, with the repeated one and with those that there is only
     /// [room](crate::backend::Plan::with_room) for.
     #[must_use]
     pub const fn rings(&self) -> u32 {
         self.rings
     }
 
-    /// Vertices, caps included, likewise.
+    /// The number of vertices, with caps and room.
     #[must_use]
     pub const fn vertices(&self) -> u32 {
         self.vertices
     }
 
-    /// Indices that it holds, likewise; none but with
+    /// The number of indices, with caps and room. 0 unless the topology is
     /// [`Topology::Indexed`](crate::Topology::Indexed).
     #[must_use]
     pub const fn indices(&self) -> u32 {
         self.indices
     }
 
-    /// The rows of the block table that hold a ring of `rings` of `yarn`.
+    /// The rows of the block table that hold some of `rings` of `yarn`.
     #[must_use]
     pub fn rows(&self, yarn: usize, rings: Range<u32>) -> Range<usize> {
         let before = |yarn: usize, ring: u32| {
@@ -167,39 +167,22 @@ impl Chunk {
         first..end.max(first)
     }
 
-    /// Vertices of all chunks before it.
+    /// The number of vertices in all chunks before.
     #[must_use]
     pub const fn first_vertex(&self) -> u64 {
         self.first_vertex
     }
 
-    /// Indices of all chunks before it.
+    /// The number of indices in all chunks before.
     #[must_use]
     pub const fn first_index(&self) -> u64 {
         self.first_index
     }
 }
 
-/// Identifies the tables of a chunk within its plan: chunks of one plan with the same identity have
-/// the same tables, and differ at most in their place in the whole.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TablesId {
-    pub(super) blocks: Range<u64>,
-    /// 0 for a chunk as the plan cuts it. A patch, and a chunk that was cut again, has a number
-    /// that no other has.
-    pub(super) edit: u64,
-}
-
-impl TablesId {
-    pub(super) fn next(blocks: Range<u64>) -> Self {
-        static EDITS: AtomicU64 = AtomicU64::new(1);
-        Self { blocks, edit: EDITS.fetch_add(1, Ordering::Relaxed) }
-    }
-}
-
 impl Cap {
-    /// At place `place` among the chunk's caps; where their vertices and indices begin is known
-    /// only after the last tube's.
+    /// The cap at place `place` among the chunk's caps. The starts of vertices and indices are
+    /// counted in caps until the last tube is known.
     pub(super) fn at(place: u32, yarn: usize, end: End, chunk_ring: u32) -> Self {
         Self { yarn: yarn as u32, end, chunk_ring, first_vertex: place, first_index: place }
     }

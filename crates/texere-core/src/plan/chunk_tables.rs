@@ -1,17 +1,18 @@
-//! What lies in a chunk: its block table, parts and caps; as the plan cuts it, cut again after an
-//! edit, or patched.
+//! The tables of a chunk: blocks, parts and caps. They are filled when the plan is cut, filled
+//! again after an edit, or copied in part for a patch.
 
 use std::ops::Range;
 
-use super::chunk::{Cap, Chunk, Part, TablesId};
+use super::chunk::{Cap, Chunk, Part};
+use super::identity::TablesId;
 use super::{BLOCK_RINGS, Block, Plan};
 use crate::{End, Topology};
 
 impl Plan {
-    /// `chunk`, one of this plan or of one that it was [edited](Plan::edited) from, with the block
-    /// table, the parts and the caps that it has in this plan.
+    /// `chunk` with the block table, parts and caps that it has in this plan. It must be a chunk of
+    /// this plan or of one that this plan was [edited](Plan::edited) from.
     #[must_use]
-    pub fn recut(&self, chunk: &Chunk) -> Chunk {
+    pub(crate) fn recut(&self, chunk: &Chunk) -> Chunk {
         let mut cut = Chunk {
             window: chunk.window(),
             tables: TablesId::next(chunk.block_range()),
@@ -29,13 +30,13 @@ impl Plan {
         cut
     }
 
-    /// A chunk of some rows of the block table of `chunk`, one of this plan's, with the caps of
-    /// their yarns. All that it makes lies where `chunk` has it, so memory for that is room for it.
+    /// A patch: a chunk of some rows of the block table of `chunk`, with the caps of their yarns.
+    /// All its results have the places that they have in `chunk`, so memory for `chunk` is enough.
     /// `rows` are in order and do not overlap.
     ///
-    /// **Panics** for no rows, for rows past the last, and for a chunk of another plan.
+    /// **Panics** for no rows, rows past the last, and a chunk of another plan.
     #[must_use]
-    pub fn patch(&self, chunk: &Chunk, rows: &[Range<usize>]) -> Chunk {
+    pub(crate) fn patch(&self, chunk: &Chunk, rows: &[Range<usize>]) -> Chunk {
         let blocks: Vec<_> = rows.iter().flat_map(|rows| &chunk.blocks[rows.clone()]).copied().collect();
         let number =
             |row: &Block| self.block_offsets()[row.yarn as usize] + u64::from(row.first_ring / BLOCK_RINGS);
@@ -60,8 +61,8 @@ impl Plan {
 }
 
 impl Plan {
-    /// Rings of block `block` of `yarn` that there is room for: first, count, and whether the yarn
-    /// may go on after it.
+    /// The rings of block `block` of `yarn`, room included: the first, their number, and whether
+    /// the yarn may go on after it.
     pub(super) fn block_rings(&self, yarn: usize, block: u64) -> (u32, u32, bool) {
         let offsets = self.ring_offsets();
         let first = (block - self.block_offsets()[yarn]) as u32 * BLOCK_RINGS;
@@ -69,8 +70,8 @@ impl Plan {
         (first, left.min(BLOCK_RINGS), left > BLOCK_RINGS)
     }
 
-    /// Writes the block table, the parts and the caps of `chunk`. What there is room for has a
-    /// place, but only the rings that yarns have get a row.
+    /// Fills the block table, the parts and the caps of `chunk`. Room has a place in the chunk, but
+    /// only rings that exist get a row.
     pub(super) fn fill(&self, chunk: &mut Chunk) {
         let (settings, roomy) = (self.settings(), self.is_roomy());
         let (sides, indexed) = (settings.sides, settings.topology == Topology::Indexed);
@@ -99,7 +100,7 @@ impl Plan {
                         chunk.caps.push(Cap::at(caps, yarn, End::Start, here[0]));
                         caps += 1;
                     }
-                    // A yarn that may be resized may end anywhere in the chunk.
+                    // A yarn with room may end anywhere in the chunk.
                     let has_finish = if roomy { starts_part } else { !may_go_on };
                     if has_finish {
                         finish = caps;
@@ -118,7 +119,7 @@ impl Plan {
                 if indexed {
                     chunk.indices += (if may_go_on { room } else { room - 1 }) * sides * 6;
                 }
-                // After the last run, that of the next chunk, or one that nothing holds.
+                // The repeated ring is the next chunk's first, or one that no chunk holds.
                 chunk.repeats_ring = goes_on && ends_run && self.makes(number + 1);
                 if goes_on && ends_run {
                     self.push_block(chunk, yarn, first + rings, 1, 0);
@@ -139,11 +140,11 @@ impl Plan {
         chunk.indices += caps * cap_indices;
     }
 
-    /// A row for the rings that come next.
+    /// Adds a row for the next rings.
     fn push_block(&self, chunk: &mut Chunk, yarn: usize, first_ring: u32, rings: u32, quads: u32) {
         let settings = self.settings();
-        // Kernels work out interval and remainder alike for all rings, so the table has the plain
-        // interval of the first.
+        // Kernels work out interval and remainder in the same way for all rings, so the row has the
+        // plain interval of its first ring.
         let interval = u64::from(first_ring) / (u64::from(settings.subdivisions) + 1);
         let point = self.padded_offsets()[yarn] + interval;
         chunk.blocks.push(Block {

@@ -1,17 +1,18 @@
-//! How a plan is cut into chunks.
+//! The cutting of a plan into chunks.
 
 use std::ops::Range;
 
-use super::chunk::{Chunk, TablesId};
+use super::chunk::Chunk;
+use super::identity::TablesId;
 use super::{BLOCK_RINGS, Block, Limits, Plan};
 use crate::definitions::Ring;
 use crate::{ControlPoint, PlanError, Topology, Vertex};
 
-/// Windows start at multiples of this many control points: 256 bytes, an offset that every device
-/// allows for a binding.
+/// Windows start at multiples of this number of control points: 256 bytes, an offset that every
+/// device allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;
 
-/// What a chunk takes, in the units of [`Limits`].
+/// The size of a chunk, in the units of [`Limits`].
 #[derive(Debug, Clone, Copy, Default)]
 struct Size {
     blocks: u64,
@@ -36,7 +37,7 @@ impl Size {
     /// The first limit that is exceeded.
     fn excess(&self, resident: u64, limits: &Limits) -> Option<PlanError> {
         let rings = self.rings as u32;
-        // Of an indexed draw the first index is a `u32`, the first vertex an `i32`.
+        // In an indexed draw the first index is a `u32`, the first vertex an `i32`.
         let (index_limit, vertex_limit) = (u64::from(u32::MAX), i32::MAX as u64);
         let counts = [
             ("blocks", self.blocks, limits.blocks),
@@ -46,7 +47,7 @@ impl Size {
         if let Some((what, needed, limit)) = counts.into_iter().find(|(_, needed, limit)| needed > limit) {
             return Some(PlanError::BlockOverCount { rings, what, needed, limit });
         }
-        // Two chunks in flight; the window is part of the resident control points.
+        // Two chunks are in flight. The window is part of the resident control points.
         let each: u64 = self.buffers()[..4].iter().map(|(_, bytes)| bytes).sum();
         let memory = [("all buffers", resident + 2 * each, limits.memory_bytes)];
         let bindings = self.buffers().into_iter().map(|(what, bytes)| (what, bytes, limits.binding_bytes));
@@ -57,31 +58,30 @@ impl Size {
 }
 
 impl Plan {
-    /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
-    /// `limits.memory_bytes` together.
+    /// Cuts the plan into chunks that fit `limits`, in order. Two chunks and the control points
+    /// together fit `limits.memory_bytes`.
     ///
-    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one
+    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] if not even one
     /// block fits.
     pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
         Chunks::new(self, *limits)
     }
 }
 
-/// The chunks of a plan, cut as they are asked for.
+/// An iterator over the chunks of a plan, each cut when it is asked for.
 #[derive(Debug, Clone)]
 pub struct Chunks<'a> {
     plan: &'a Plan,
     limits: Limits,
     index: u64,
     next: Cursor,
-    /// What the plan's region is known by; 0 for all of it.
+    /// The identity of the plan's region; 0 for the whole plan.
     region: u64,
     first_vertex: u64,
     first_index: u64,
 }
 
-/// A block of a plan: the run that it lies in, its number and its yarn. Past the last run there is
-/// none.
+/// A block of a plan: its run, its number and its yarn. There is none past the last run.
 #[derive(Debug, Clone, Copy)]
 struct Cursor {
     run: usize,
@@ -107,14 +107,14 @@ impl<'a> Chunks<'a> {
 
     pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
         let chunks = Self::of(plan, limits);
-        // Where any block fits, yarns need not be looked at one by one: a session asks for chunks
-        // with each scan.
+        // If the largest block fits, yarns need not be checked one by one. A session asks for
+        // chunks with each scan.
         if chunks.largest_block().excess(plan.resident_bytes(), &limits).is_none() {
             return Ok(chunks);
         }
         for yarn in 0..plan.layout().yarns().len() {
             let offsets = plan.block_offsets();
-            // The first, the last and, standing for those between, the second block of the yarn.
+            // The first, the last, and the second block of the yarn, which stands for all others.
             let (first, end) = (offsets[yarn], offsets[yarn + 1]);
             for block in [first, (first + 1).min(end - 1), end - 1] {
                 let size = chunks.extended(&Size::default(), None, yarn, block).1;
@@ -131,7 +131,7 @@ impl<'a> Chunks<'a> {
         Cursor { run, block, yarn: self.plan.yarn_of_block(block) }
     }
 
-    /// The block after `at`, and whether it lies elsewhere.
+    /// The block after `at`, and whether it starts another run.
     fn after(&self, at: Cursor) -> (Cursor, bool) {
         let block = at.block + 1;
         if block == self.plan.runs()[at.run].end {
@@ -141,7 +141,7 @@ impl<'a> Chunks<'a> {
         (Cursor { block, yarn, ..at }, false)
     }
 
-    /// No less than any block takes, with both its caps and the ring that it may repeat.
+    /// An upper bound on the size of any block, with both its caps and the ring that it may repeat.
     fn largest_block(&self) -> Size {
         let (sides, rings) = (u64::from(self.plan.settings().sides), u64::from(BLOCK_RINGS) + 1);
         Size {
@@ -149,36 +149,36 @@ impl<'a> Chunks<'a> {
             rings,
             vertices: (rings + 2) * sides,
             indices: (rings + 1) * sides * 6,
-            // Each ring in an interval of its own, then the other points that the last one and the
-            // step to the next ring read.
+            // Each ring in an interval of its own, and the other points that the last ring and the
+            // step to the next one read.
             window: rings + 5 + WINDOW_POINTS,
         }
     }
 
-    /// The padded control points that `count` rings of `yarn` from `first` read, and the step to
+    /// The padded control points read by `count` rings of `yarn` from `first`, and by the step to
     /// the ring after them.
     fn points_read(&self, yarn: usize, first: u32, count: u32) -> Range<u64> {
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
         let start = self.plan.padded_offsets()[yarn];
         let end = self.plan.padded_offsets()[yarn + 1];
-        // The ring after the last one read falls in interval (first + count) / (K + 1), which reads
-        // four points.
+        // The ring after the last one falls in interval (first + count) / (K + 1), which reads four
+        // points.
         let last = (u64::from(first) + u64::from(count)) / per_interval + 4;
         start + self.first_interval(yarn, first)..(start + last).min(end)
     }
 
-    /// The interval whose points ring `ring` of `yarn` is evaluated from: the last ring of an open
-    /// yarn is t = 1 of the interval before.
+    /// The interval that ring `ring` of `yarn` is evaluated in: the last ring of an open yarn is t
+    /// = 1 of the interval before.
     fn first_interval(&self, yarn: usize, ring: u32) -> u64 {
         let interval = u64::from(ring) / (u64::from(self.plan.settings().subdivisions) + 1);
-        // Where the yarn may be resized, any ring may become its last.
+        // In a yarn with room any ring may become the last.
         let last = |ring: u32| self.plan.is_roomy() && ring > 0 || ring + 1 == self.plan.rings(yarn);
         let at_end = !self.plan.yarn(yarn).closed && last(ring);
         if at_end { interval.saturating_sub(1) } else { interval }
     }
 
-    /// Caps of a block that there is room for. A yarn that may be resized may end in any of its
-    /// blocks, but only in one.
+    /// The caps of a block, room included. A yarn with room may end in any of its blocks, but only
+    /// in one.
     fn cap_count(&self, yarn: usize, first: u32, goes_on: bool) -> u64 {
         if self.plan.settings().caps && !self.plan.yarn(yarn).closed {
             u64::from(first == 0) + u64::from(!goes_on || self.plan.is_roomy())
@@ -187,15 +187,14 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// `size` with one block more: as it is when others follow, and as it is when the chunk ends
-    /// there, where a ring may have to be repeated. `window` is where the chunk's control points
-    /// start.
+    /// `size` with one more block, for two cases: other blocks follow, or the chunk ends there and
+    /// may have to repeat a ring. `window` is the start of the chunk's control points.
     fn extended(&self, size: &Size, window: Option<u64>, yarn: usize, block: u64) -> (Size, Size) {
         self.with_rings(size, window, yarn, self.plan.block_rings(yarn, block))
     }
 
-    /// The same with rings of a yarn that are one block: the first, how many, and whether others
-    /// follow.
+    /// [`Chunks::extended`] for the rings of one block of a yarn: the first, their number, and
+    /// whether others follow.
     fn with_rings(
         &self,
         size: &Size,
@@ -208,8 +207,8 @@ impl<'a> Chunks<'a> {
         let caps = self.cap_count(yarn, first, goes_on);
         let quads = u64::from(if goes_on { rings } else { rings - 1 });
         let points = self.points_read(yarn, first, rings + u32::from(goes_on));
-        // Where the window is not known yet, the worst case: it starts up to WINDOW_POINTS - 1
-        // points earlier, to be aligned.
+        // An unknown window gets the worst case: it starts up to WINDOW_POINTS - 1 points earlier,
+        // to be aligned.
         let window = window.unwrap_or(points.start.saturating_sub(WINDOW_POINTS - 1));
         let inner = Size {
             blocks: size.blocks + 1,
@@ -228,9 +227,8 @@ impl<'a> Chunks<'a> {
         (inner, ended)
     }
 
-    /// `size` with the whole yarn that begins at `at`, and the block after it. None where the run
-    /// ends before that, or the yarn has room: then what its blocks take is not what they take
-    /// together.
+    /// `size` with the whole yarn that begins at `at`, and the block after it. `None` if the run
+    /// ends before that, or if the yarn has room: the sizes of its blocks then do not add up.
     fn with_yarn(&self, size: &Size, window: u64, at: Cursor) -> Option<(Size, Cursor)> {
         let blocks = &self.plan.block_offsets()[at.yarn..at.yarn + 2];
         let is_whole = at.block == blocks[0] && blocks[1] < self.plan.runs()[at.run].end;
@@ -242,13 +240,12 @@ impl<'a> Chunks<'a> {
         Some((size, Cursor { block: blocks[1], yarn: at.yarn + 1, ..at }))
     }
 
-    /// The end of the next chunk: the block that the one after it begins with, and the end of its
-    /// window.
+    /// The end of the next chunk: the first block of the chunk after it, and the end of its window.
     fn cut(&self, window: u64) -> (Cursor, u64) {
         let (mut size, mut at) = (Size::default(), self.next);
         let mut cut = (at, window);
         while at.run < self.plan.runs().len() {
-            // Most yarns fit as a whole, and need not be looked at block by block.
+            // Most yarns fit as a whole and need not be checked block by block.
             let with_yarn = self.with_yarn(&size, window, at);
             if let Some((with, after)) =
                 with_yarn.filter(|(with, _)| with.excess(self.plan.resident_bytes(), &self.limits).is_none())

@@ -1,36 +1,31 @@
-//! A plan with other yarns: what it takes, and how those stand then.
+//! Edited plans: plans with other yarns, the conditions for them, and the stands of those yarns.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::Plan;
-use crate::definitions::Turn;
+use crate::backend::Edits;
 use crate::stand::Stand;
 use crate::{ControlPoint, PlanError, TWIST_LIMIT, Yarn};
 
-/// Yarns that become others, by their numbers from 0: what each is then, and its control points.
-pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
-
 impl Plan {
-    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which
-    /// say whether it is [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). Offsets
-    /// stay, and so both plans own one another's chunks: of those, the ones that hold some of the
-    /// yarn are out of date ([`Plan::recut`]).
+    /// This plan with `what` and `points` as yarn number `yarn`. The points decide whether it is
+    /// [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). All offsets stay, so both
+    /// plans own one another's chunks. Chunks that hold some of the yarn are out of date.
     ///
-    /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points,
-    /// [`PlanError::TooFewPoints`], and [`PlanError::OtherPlan`] for what takes a new plan: an open
-    /// yarn that is closed or the other way round, a section that the layout lacks, a twist that is
-    /// not sound, or one where no yarn's rolls are scanned.
+    /// **Errors**: [`PlanError::NoRoom`] for more points than there is [room](Plan::with_room) for,
+    /// [`PlanError::TooFewPoints`], and [`PlanError::OtherPlan`] for changes that take a new plan:
+    /// an open yarn that becomes closed or the other way round, a section that the layout lacks, a
+    /// twist that is not sound, or a twist where no yarn's rolls are scanned.
     ///
     /// **Panics** past the last yarn.
     pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
         self.edited_all(&Edits::from([(yarn, (what, points))]))
     }
 
-    /// Makes many yarns others at once, in the time of one new plan. Each is judged by this plan: a
-    /// twist is refused where no yarn's rolls are scanned in it, though another edit may make a
+    /// Edits many yarns at once, in the time of one new plan. Each edit is checked against this
+    /// plan: a twist is refused if no yarn's rolls are scanned in it, even if another edit makes a
     /// yarn steep.
     ///
     /// ```
@@ -64,7 +59,7 @@ impl Plan {
         Ok(plan.standing(stands))
     }
 
-    /// The same plan but that some yarns, by their numbers, stand so.
+    /// This plan with other stands for some yarns, by their numbers.
     pub(crate) fn standing(mut self, stands: impl IntoIterator<Item = (usize, Stand)>) -> Self {
         for (yarn, stand) in stands {
             let leans = stand.leaning.is_some();
@@ -74,22 +69,13 @@ impl Plan {
             } else {
                 self.leans.remove(&yarn);
             }
-            // A yarn that has become steep turns where none did.
+            // A yarn that has become steep may be the first whose rolls are scanned.
             self.needs_scan |= self.turns(yarn);
         }
         self
     }
 
-    /// The lean of each ring of a yarn that leans, worked out.
-    pub(super) fn leans_of(&self, yarn: usize) -> Arc<[Turn]> {
-        let leaning = self.layout.leaning(yarn);
-        leaning
-            .map(|leaning| leaning.rings(self.yarn(yarn).closed, &self.sampling))
-            .unwrap_or_default()
-            .into()
-    }
-
-    /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number
+    /// Checks whether [`Plan::edited`] accepts `what` with `points` control points as yarn number
     /// `yarn`. No plan is made.
     ///
     /// **Errors** and **panics**: those of [`Plan::edited`].

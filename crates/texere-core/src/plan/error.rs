@@ -1,4 +1,4 @@
-//! What can't be planned for.
+//! Errors of plans.
 
 use thiserror::Error;
 
@@ -8,7 +8,7 @@ use crate::counted;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// Too many inserted points.
+    /// Too many points inserted between control points.
     #[error("{subdivisions}, more than {limit}", subdivisions = counted(*.subdivisions, "subdivision"))]
     Subdivisions {
         /// Given.
@@ -26,7 +26,7 @@ pub enum PlanError {
         /// Most allowed.
         high: u32,
     },
-    /// A polygon section needs as many sides as it has corners.
+    /// The number of sides differs from a polygon section's number of corners.
     #[error(
         "section {section} is a polygon of {corners}, but tubes have {sides}; set sides to {}", .corners, corners = counted(*.corners, "corner"), sides = counted(*.sides, "side"))]
     PolygonSides {
@@ -75,37 +75,36 @@ pub enum PlanError {
         /// Least allowed.
         least: u64,
     },
-    /// A yarn is to become what takes a new plan.
+    /// An edit that takes a new plan.
     #[error("yarn {yarn} can't be {what}: that takes a new plan")]
     OtherPlan {
         /// The yarn, from 0.
         yarn: usize,
-        /// What it would be.
+        /// The change.
         what: &'static str,
     },
-    /// Not even one block fits the limits of memory.
+    /// Not even one block fits a limit of bytes.
     #[error("one block of {rings} needs {needed} for {what}, but the limit is {limit}", rings = counted(*.rings, "ring"), needed = counted(*.needed, "byte"), limit = counted(*.limit, "byte"))]
     BlockTooLarge {
         /// Rings in the block.
         rings: u32,
-        /// For which buffer.
+        /// The buffer.
         what: &'static str,
-        /// Bytes that it needs.
+        /// The bytes needed.
         needed: u64,
-        /// Bytes allowed.
+        /// The bytes allowed.
         limit: u64,
     },
-    /// Not even one block fits what a launch may count: see
-    /// [`Limits::blocks`](crate::Limits::blocks).
+    /// Not even one block fits a limit of counts: see [`Limits::blocks`](crate::Limits::blocks).
     #[error("one block of {rings} takes {needed} {what}, but the limit is {limit}", rings = counted(*.rings, "ring"))]
     BlockOverCount {
         /// Rings in the block.
         rings: u32,
-        /// What is counted: blocks, vertices or indices.
+        /// The things that are counted: blocks, vertices or indices.
         what: &'static str,
-        /// How many it takes.
+        /// The number needed.
         needed: u64,
-        /// How many are allowed.
+        /// The number allowed.
         limit: u64,
     },
 }

@@ -1,27 +1,27 @@
-//! Which yarn, which ring and which side a vertex or a triangle of a chunk belongs to.
+//! The yarn, ring and side of a vertex or a triangle of a chunk.
 
 use super::{Chunk, Plan};
 use crate::{End, Topology};
 
-/// Where on its yarn a vertex or a triangle lies.
+/// The place of a vertex or a triangle on its yarn.
 ///
-/// A triangle has the place of the vertex of its quad that comes first: between that ring and the
-/// next, between that side and the next.
+/// A triangle has the place of the first vertex of its quad: it lies between that ring and the
+/// next, and between that side and the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MeshPlace {
     /// The yarn, from 0 among all.
     pub yarn: u32,
     /// The ring, from the yarn's start.
     pub ring: u32,
-    /// The corner of the section, from 0; of a cap's triangle 0.
+    /// The corner of the section, from 0. For a cap's triangle it is 0.
     pub side: u32,
-    /// The end that it closes, where it is a cap's.
+    /// The end of the yarn, if it belongs to a cap.
     pub cap: Option<End>,
 }
 
 impl Plan {
-    /// Where vertex number `vertex` of `chunk`, one of this plan's, lies: in time that grows with
-    /// the logarithm of the chunk's blocks. None past the last vertex, and where there is only
+    /// The place of vertex number `vertex` of `chunk`, a chunk of this plan. The time grows with
+    /// the logarithm of the chunk's blocks. `None` past the last vertex, and in unused
     /// [room](Plan::with_room).
     ///
     /// ```
@@ -56,16 +56,16 @@ impl Plan {
         Some(MeshPlace { side: vertex - cap.first_vertex, ..self.place_of_cap(cap.yarn, cap.end) })
     }
 
-    /// Where triangle number `triangle` of `chunk`, one of this plan's, lies, likewise: that of its
-    /// indices `3 * triangle` and the two behind it. None past the last, where there is only room,
-    /// and with another topology than [`Topology::Indexed`].
+    /// The place of triangle number `triangle` of `chunk`, a chunk of this plan: the triangle of
+    /// indices `3 * triangle` and the two after it. `None` past the last, in unused room, and with
+    /// another topology than [`Topology::Indexed`].
     #[must_use]
     pub fn place_of_triangle(&self, chunk: &Chunk, triangle: u32) -> Option<MeshPlace> {
         if self.settings().topology != Topology::Indexed {
             return None;
         }
         let (sides, index) = (self.settings().sides, triangle.checked_mul(3)?);
-        // A row without quads begins where the next one does.
+        // A row without quads begins at the same index as the next one.
         let after = chunk.blocks().partition_point(|block| block.first_index <= index);
         if let Some(block) = chunk.blocks()[..after].iter().rev().find(|block| block.quads > 0) {
             let own = index - block.first_index;
@@ -79,8 +79,8 @@ impl Plan {
         Some(self.place_of_cap(cap.yarn, cap.end))
     }
 
-    /// The control interval of a ring, from 0 along its yarn, and how far along it the ring lies,
-    /// in \[0, 1). The last ring of an open yarn is at the start of one interval more.
+    /// The control interval of a ring, from 0 along its yarn, and the ring's parameter in it, in
+    /// \[0, 1). The last ring of an open yarn is at the start of one more interval.
     #[must_use]
     pub fn interval(&self, ring: u32) -> (u32, f32) {
         let per_interval = self.settings().subdivisions + 1;

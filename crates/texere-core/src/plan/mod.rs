@@ -8,72 +8,40 @@ mod counts;
 mod cut;
 mod edits;
 mod error;
+mod identity;
+mod leans;
 mod limits;
 mod locate;
 mod offsets;
 mod region;
+mod settings;
 
 pub use block::{BLOCK_RINGS, Block};
 pub use bounds::Bounds;
-pub use chunk::{Cap, Chunk, Part, TablesId};
+pub use chunk::{Cap, Chunk, Part};
 pub use counts::Counts;
 pub use cut::{Chunks, WINDOW_POINTS};
-pub use edits::Edits;
 pub use error::PlanError;
+pub use identity::TablesId;
 pub use limits::Limits;
 pub use locate::MeshPlace;
+pub use offsets::{RINGS_MAX, YARN_RINGS_MAX};
+pub use settings::Settings;
 
+use identity::PlanId;
 use offsets::Offsets;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use crate::definitions::{Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Turn, triangulate};
-use crate::{ControlPoint, Frame, Layout, Quantum, Section, SectionPoint, Topology, Yarn};
+use crate::definitions::{Ring, SIDES_MAX, Sample, Sampling, Turn};
+use crate::section::{SIDES_MIN, triangulate};
+use crate::{ControlPoint, Frame, Layout, Section, SectionPoint, Yarn};
 
-/// The choices that a mesh is made with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// Points inserted between two control points (the paper's K).
-    pub subdivisions: u32,
-    /// Sides of the tube (the paper's nc).
-    pub sides: u32,
-    /// How sections are oriented.
-    pub frame: Frame,
-    /// How triangles are encoded.
-    pub topology: Topology,
-    /// Whether the ends of open yarns are closed with a cap, which makes every yarn watertight.
-    pub caps: bool,
-    /// The grid that [packed](crate::PackedVertex) positions lie on.
-    pub quantum: Quantum,
-}
-
-impl Default for Settings {
-    /// The paper's: K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹² mm.
-    fn default() -> Self {
-        Self {
-            subdivisions: 1,
-            sides: 6,
-            frame: Frame::Upright,
-            topology: Topology::Indexed,
-            caps: false,
-            quantum: Quantum::USUAL,
-        }
-    }
-}
-
-/// The most rings that one plan may have, 2³⁶. More would be over ten terabytes of mesh with six
-/// sides: a mistake in the input.
-pub const RINGS_MAX: u64 = 1 << 36;
-
-/// The most rings that one yarn may have: what a `u32` counts.
-pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
-
-/// A fabric's counts and offsets for one choice of settings.
+/// The counts and offsets of a fabric for one choice of settings.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -92,7 +60,8 @@ pub struct Plan {
     settings: Settings,
     sampling: Sampling,
     offsets: Arc<Offsets>,
-    /// The blocks that it makes, in order: all, unless it is of a [region](Plan::within).
+    /// The blocks that the plan makes, in order: all of them, unless it is of a
+    /// [region](Plan::within).
     runs: Arc<[Range<u64>]>,
     needs_scan: bool,
     /// The lean of each ring of the yarns that lean, by their numbers.
@@ -103,17 +72,18 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Plans `layout` with `settings`.
+    /// The plan of `layout` with `settings`.
     ///
-    /// **Errors**: [`PlanError`] for settings out of range, a polygon section whose corners are not
-    /// as many as the sides, more than [`YARN_RINGS_MAX`] rings in a yarn or [`RINGS_MAX`] in all.
+    /// **Errors**: [`PlanError`] for settings out of range, a polygon section whose corners differ
+    /// in number from the sides, more than [`YARN_RINGS_MAX`] rings in a yarn, and more than
+    /// [`RINGS_MAX`] in all.
     pub fn new(layout: Arc<Layout>, settings: Settings) -> Result<Self, PlanError> {
         Self::planned(layout, settings, None)
     }
 
-    /// The same with room for more control points: `room` says how many a yarn, by its number, may
-    /// have at most. So many lie between the offsets of one yarn and the next, and [`Plan::edited`]
-    /// changes how many of them there are, but no offset.
+    /// A plan with room for more control points: `room` gives the most that a yarn, by its number,
+    /// may have. The offsets leave space for them, and [`Plan::edited`] changes the number of
+    /// points, but no offset.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -130,7 +100,7 @@ impl Plan {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// **Errors**: those of [`Plan::new`], also for the rings that there is room for.
+    /// **Errors**: the errors of [`Plan::new`], with the rings of the room counted too.
     pub fn with_room(
         layout: Arc<Layout>,
         settings: Settings,
@@ -182,24 +152,31 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether `chunk` was cut from this plan, a clone of it, one [edited](Plan::edited) or one of
-    /// a [region](Plan::within), so that its tables fit the plan's offsets.
+    /// Whether `chunk` was cut from this plan, a clone of it, an [edited](Plan::edited) one or one
+    /// of a [region](Plan::within), so that its tables fit the plan's offsets.
     #[must_use]
     pub fn owns(&self, chunk: &Chunk) -> bool {
         chunk.plan() == self.id
     }
 
-    /// Whether yarns may get more control points.
+    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same plan, so
+    /// that all their offsets are equal.
+    #[must_use]
+    pub fn shares_offsets(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+
+    /// Whether yarns have room for more control points.
     pub(crate) fn is_roomy(&self) -> bool {
         self.offsets.roomy
     }
 
-    /// The identity that its chunks carry.
+    /// The identity that the plan's chunks carry.
     pub(crate) const fn id(&self) -> PlanId {
         self.id
     }
 
-    /// Yarns and sections.
+    /// The layout: yarns and sections.
     #[must_use]
     pub fn layout(&self) -> &Arc<Layout> {
         &self.layout
@@ -211,44 +188,44 @@ impl Plan {
         &self.settings
     }
 
-    /// How the spline is sampled.
+    /// The sampling of the spline.
     #[must_use]
     pub const fn sampling(&self) -> &Sampling {
         &self.sampling
     }
 
-    /// How many of everything it makes, uncut.
+    /// The counts of everything that the plan makes, before it is cut into chunks.
     #[must_use]
     pub const fn counts(&self) -> &Counts {
         &self.counts
     }
 
-    /// Where each yarn's rings start among all, and their total last (the paper's Ωp): yarns + 1
-    /// values. Times sides, these are the paper's ΩM. [Room](Plan::with_room) for more counts as if
-    /// it were used, here and in all other offsets.
+    /// The start of each yarn's rings among all, and their total last (the paper's Ωp): yarns + 1
+    /// values. Times sides, these are the paper's ΩM. [Room](Plan::with_room) counts as if it were
+    /// used, here and in all other offsets.
     #[must_use]
     pub fn ring_offsets(&self) -> &[u64] {
         &self.offsets.rings
     }
 
-    /// Where each yarn's *padded* control points start, and their total last: yarns + 1 values.
+    /// The start of each yarn's *padded* control points, and their total last: yarns + 1 values.
     ///
-    /// A yarn of m control points is stored as `[virtual start, m points, virtual end]` when open
-    /// and as `[P[m-1], m points, P[0], P[1], P[2]]` when closed. Interval j reads
-    /// `padded[j..j + 4]`, without end cases; the last ring of a closed yarn falls in interval m,
-    /// whose points are those of interval 0.
+    /// A yarn of m control points is stored as `[virtual start, m points, virtual end]` if open and
+    /// as `[P[m-1], m points, P[0], P[1], P[2]]` if closed. Interval j reads `padded[j..j + 4]`,
+    /// without special cases at the ends. The last ring of a closed yarn falls in interval m, whose
+    /// points are those of interval 0.
     #[must_use]
     pub fn padded_offsets(&self) -> &[u64] {
         &self.offsets.padded
     }
 
-    /// Where each yarn's blocks start among all, and their total last: yarns + 1 values.
+    /// The start of each yarn's blocks among all, and their total last: yarns + 1 values.
     #[must_use]
     pub fn block_offsets(&self) -> &[u64] {
         &self.offsets.blocks
     }
 
-    /// Where the padded control points of `yarn` lie among all, without room for more.
+    /// The range of the padded control points of `yarn` among all, without its room for more.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -257,13 +234,13 @@ impl Plan {
         first..first + points[yarn + 1] - points[yarn] + offsets::virtual_points(self.yarn(yarn).closed)
     }
 
-    /// Blocks of all yarns.
+    /// The number of blocks of all yarns.
     #[must_use]
     pub fn block_count(&self) -> u64 {
         self.offsets.blocks.last().copied().unwrap_or(0)
     }
 
-    /// Rings of `yarn`.
+    /// The number of rings of `yarn`.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -272,7 +249,7 @@ impl Plan {
         self.sampling.rings(points[yarn + 1] - points[yarn], self.yarn(yarn).closed) as u32
     }
 
-    /// Material, section, twist and origin of `yarn`.
+    /// The data of `yarn`: material, section, twist and origin.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -289,7 +266,7 @@ impl Plan {
         (f64::from(self.yarn(yarn).twist) / std::f64::consts::TAU) as f32
     }
 
-    /// How the sections of `yarn` are oriented: as the settings say, but where the yarn is
+    /// The orientation of the sections of `yarn`: that of the settings, unless the yarn is
     /// [steep](Layout::is_steep).
     ///
     /// **Panics** past the last yarn.
@@ -298,7 +275,7 @@ impl Plan {
         self.settings.frame.of(self.layout.is_steep(yarn))
     }
 
-    /// Whether any roll of `yarn` may be other than zero, so that its rolls are scanned.
+    /// Whether any roll of `yarn` may differ from zero, so that its rolls are scanned.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -306,15 +283,15 @@ impl Plan {
         self.leans.contains_key(&yarn) || !self.frame(yarn).is_level(self.yarn(yarn).twist)
     }
 
-    /// The lean of each ring of `yarn`; none of a yarn that has no [up directions to stand
-    /// by](Layout::ups), and past the last yarn.
+    /// The lean of each ring of `yarn`. `None` for a yarn without [up directions](Layout::ups), and
+    /// past the last yarn.
     #[must_use]
     #[inline]
     pub fn leans(&self, yarn: usize) -> Option<&[Turn]> {
         self.leans.get(&yarn).map(|leans| &**leans)
     }
 
-    /// Ring number `ring` of `yarn`, at `sample`, with the roll that the scan gives it.
+    /// Ring number `ring` of `yarn`, at `sample`, with the roll from the scan.
     ///
     /// **Panics** past the last yarn, and past the last ring of a yarn that leans.
     #[must_use]
@@ -322,7 +299,8 @@ impl Plan {
     pub fn ring(&self, yarn: usize, ring: u32, sample: &Sample, scanned: Turn) -> Ring {
         let Some(leans) = self.leans(yarn) else { return Ring::new(sample, scanned) };
         let lean = leans[ring as usize];
-        // An upright section leans with its outline; one that is carried along starts so.
+        // An upright section leans with its outline. A carried section starts with the lean of the
+        // first ring.
         let start = match self.frame(yarn) {
             Frame::Upright => lean,
             Frame::RotationMinimizing => leans[0],
@@ -345,30 +323,30 @@ impl Plan {
         &self.outlines[section * sides..][..sides]
     }
 
-    /// The triangles of an end cap of `section`, facing along the tangent.
+    /// The triangles of an end cap of `section`, facing along the tangent, as numbers of corners.
     ///
     /// **Panics** past the last section.
     #[must_use]
-    pub fn cap_triangles(&self, section: usize) -> &[[u32; 3]] {
+    pub(crate) fn cap_triangles(&self, section: usize) -> &[[u32; 3]] {
         &self.cap_triangles[section]
     }
 
-    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of
-    /// the first one's or any since did.
+    /// Whether any yarn needs its rolls scanned. For an [edited](Plan::edited) plan: whether any
+    /// yarn of it or of a plan before it did.
     #[must_use]
     pub const fn needs_scan(&self) -> bool {
         self.needs_scan
     }
 
-    /// Bytes that the padded control points take, for as long as a session lives.
+    /// The bytes of the padded control points, which stay for as long as a session lives.
     #[must_use]
     pub fn resident_bytes(&self) -> u64 {
         self.offsets.padded.last().copied().unwrap_or(0) * size_of::<ControlPoint>() as u64
     }
 
-    /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU at its
-    /// peak: the mesh, the padded control points, the block table and, where any yarn turns, the
-    /// rolls. The yarns, which the caller has, are not in it.
+    /// The peak bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU:
+    /// the mesh, the padded control points, the block table, leans, and the rolls if any yarn
+    /// turns. The caller's yarns do not count.
     #[must_use]
     pub fn host_bytes(&self) -> u64 {
         let rings = self.offsets.rings.last().copied().unwrap_or(0);
@@ -378,21 +356,9 @@ impl Plan {
         self.counts.bytes() + blocks + self.resident_bytes() + rolls + leans
     }
 
-    /// Bytes of all rings.
+    /// The bytes of all rings.
     #[must_use]
     pub fn trajectory_bytes(&self) -> u64 {
         self.counts.rings * size_of::<Ring>() as u64
-    }
-}
-
-/// Identifies the offsets of a plan within the process, which never change: its clones have the
-/// same identity, resized ones, and those of a region of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct PlanId(u64);
-
-impl PlanId {
-    fn next() -> Self {
-        static PLANS: AtomicU64 = AtomicU64::new(0);
-        Self(PLANS.fetch_add(1, Ordering::Relaxed))
     }
 }

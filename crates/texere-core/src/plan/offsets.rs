@@ -1,9 +1,15 @@
-//! Where what belongs to each yarn starts, with room for more or without.
+//! The offsets of each yarn's control points, rings and blocks, with or without room for more.
 
-use super::Plan;
-use crate::backend::BLOCK_RINGS;
+use super::BLOCK_RINGS;
 use crate::definitions::Sampling;
-use crate::{Layout, PlanError, RINGS_MAX, YARN_RINGS_MAX};
+use crate::{Layout, PlanError};
+
+/// The most rings of one plan, 2³⁶. More would be over ten terabytes of mesh with six sides: a
+/// mistake in the input.
+pub const RINGS_MAX: u64 = 1 << 36;
+
+/// The most rings of one yarn: the largest `u32`.
+pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
 
 /// Prefix sums over the yarns: yarns + 1 values each.
 #[derive(Debug)]
@@ -11,12 +17,13 @@ pub(super) struct Offsets {
     pub(super) padded: Vec<u64>,
     pub(super) rings: Vec<u64>,
     pub(super) blocks: Vec<u64>,
-    /// Whether yarns may have more control points than they have.
+    /// Whether there is room for more control points.
     pub(super) roomy: bool,
 }
 
 impl Offsets {
-    /// `room` says how many control points a yarn may have at most, where that is more than it has.
+    /// `room` gives the most control points that a yarn may have. Fewer than it has count as what
+    /// it has.
     pub(super) fn new(
         layout: &Layout,
         sampling: &Sampling,
@@ -26,7 +33,7 @@ impl Offsets {
         let (mut padded, mut rings, mut blocks) = (0, 0, 0);
         for (index, (yarn, bounds)) in layout.yarns().iter().zip(layout.offsets().windows(2)).enumerate() {
             let points = (bounds[1] - bounds[0]).max(room.map_or(0, |room| room(index)));
-            // 2^32 points of 2^10 rings fit a u64; more points are too many whatever their rings.
+            // 2^32 points of 2^10 rings fit a u64. More points are too many whatever their rings.
             let own = if points > YARN_RINGS_MAX { points } else { sampling.rings(points, yarn.closed) };
             if own > YARN_RINGS_MAX {
                 return Err(PlanError::YarnRings { yarn: index, rings: own, limit: YARN_RINGS_MAX });
@@ -44,22 +51,13 @@ impl Offsets {
         Ok(offsets)
     }
 
-    /// The most control points of `yarn`.
+    /// The most control points that `yarn` may have.
     pub(super) fn room(&self, yarn: usize, closed: bool) -> u64 {
         self.padded[yarn + 1] - self.padded[yarn] - virtual_points(closed)
     }
 }
 
-impl Plan {
-    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same one, so
-    /// that all their offsets are the same.
-    #[must_use]
-    pub fn shares_offsets(&self, other: &Self) -> bool {
-        self.id == other.id
-    }
-}
-
-/// Padded control points of a yarn that are none of its own.
+/// The number of padded control points of a yarn that are not its own.
 pub(super) const fn virtual_points(closed: bool) -> u64 {
     if closed { 4 } else { 2 }
 }

@@ -1,21 +1,21 @@
-//! Plans of only a part of a cloth.
+//! Plans of a region: only a part of the cloth is made.
 
 use std::iter;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{BLOCK_RINGS, Bounds, Plan};
+use super::{BLOCK_RINGS, Bounds, Counts, Plan};
+use crate::Topology;
 use crate::backend::PaddedPoints;
 
 impl Plan {
-    /// The same plan but that it makes only what lies in a box: those blocks of [`BLOCK_RINGS`]
-    /// rings whose own [box](Plan::part_bounds) touches `bounds`. So what lies in it is all there,
-    /// as in the whole mesh to the bit, and up to a block of each yarn beyond. `points` are this
-    /// plan's.
+    /// A plan that makes only the part in a box: the blocks of [`BLOCK_RINGS`] rings whose own
+    /// [box](Plan::part_bounds) touches `bounds`. Everything in the box is made, with the same bits
+    /// as in the whole mesh, and up to a block of each yarn beyond. `points` are this plan's.
     ///
-    /// Numbers of yarns, rings and control points stay, and all offsets; a session of either plan
-    /// makes chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks) are of the
-    /// region.
+    /// Numbers of yarns, rings and control points stay, as do all offsets. A session of either plan
+    /// makes chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks) are those of
+    /// the region.
     ///
     /// ```
     /// use texere_core::backend::{PaddedPoints, Plan};
@@ -42,7 +42,7 @@ impl Plan {
             blocks.flat_map(|(yarn, ends)| (ends[0]..ends[1]).map(move |block| (yarn, block)))
         {
             let first = (block - self.offsets.blocks[yarn]) as u32 * BLOCK_RINGS;
-            // Its last triangles reach to the ring after it.
+            // The block's last triangles reach to the ring after it.
             let rings = first..first.saturating_add(BLOCK_RINGS + 1);
             if self.part_bounds(points, yarn, rings).touches(bounds) {
                 match runs.last_mut() {
@@ -56,7 +56,7 @@ impl Plan {
         plan
     }
 
-    /// The same plan, but that it makes all that there is.
+    /// The plan without its region: it makes everything.
     #[must_use]
     pub fn whole(&self) -> Self {
         let mut plan = self.clone();
@@ -67,24 +67,61 @@ impl Plan {
         plan
     }
 
-    /// Whether it makes all that there is.
+    /// Whether the plan makes everything.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.runs.len() == 1 && self.runs[0] == (0..self.block_count())
     }
 
-    /// The blocks that it makes: runs of neighbours, in order.
+    /// Counts everything that the plan makes.
+    pub(super) fn count(&self) -> Counts {
+        let sides = u64::from(self.settings.sides);
+        let [mut rings, mut gaps, mut caps] = [0; 3];
+        for run in self.runs.iter() {
+            let mut yarn = self.yarn_of_block(run.start);
+            let mut block = run.start;
+            while block < run.end {
+                let (first_block, next) = (self.offsets.blocks[yarn], self.offsets.blocks[yarn + 1]);
+                let (end, all) = (run.end.min(next), u64::from(self.rings(yarn)));
+                let [from, to] =
+                    [block, end].map(|block| ((block - first_block) * u64::from(BLOCK_RINGS)).min(all));
+                // If the yarn goes on beyond the run, its next ring is repeated.
+                let repeated = u64::from(to < all && to > from);
+                rings += to - from + repeated;
+                gaps += (to - from + repeated).saturating_sub(1);
+                if self.settings.caps && !self.yarn(yarn).closed {
+                    caps += u64::from(from == 0 && to > 0) + u64::from(to == all && to > from);
+                }
+                (block, yarn) = (end, yarn + 1);
+            }
+        }
+        let triangles = 2 * sides * gaps + caps * (sides - 2);
+        Counts {
+            yarns: self.layout.yarns().len() as u64,
+            control_points: self.layout.point_count(),
+            rings,
+            vertices: sides * (rings + caps),
+            triangles,
+            indices: match self.settings.topology {
+                Topology::Indexed => 3 * triangles,
+                Topology::Shared => self.shared_index_count(),
+                Topology::None => 0,
+            },
+        }
+    }
+
+    /// The blocks that the plan makes: runs of neighbours, in order.
     pub(super) fn runs(&self) -> &[Range<u64>] {
         &self.runs
     }
 
-    /// Whether it makes block number `block`.
+    /// Whether the plan makes block number `block`.
     pub(super) fn makes(&self, block: u64) -> bool {
         let after = self.runs.partition_point(|run| run.start <= block);
         after > 0 && block < self.runs[after - 1].end
     }
 
-    /// The yarn that a block is of.
+    /// The yarn of a block.
     pub(super) fn yarn_of_block(&self, block: u64) -> usize {
         self.offsets.blocks.partition_point(|&start| start <= block) - 1
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with a cross-section.
+//! Errors of cross-sections.
 
 use thiserror::Error;
 
@@ -11,9 +11,9 @@ pub enum SectionError {
     /// A number outside its limits, or not a number.
     #[error("{field} is {value}, outside {low} to {high}")]
     OutOfRange {
-        /// Which number.
+        /// The parameter.
         field: &'static str,
-        /// What it is.
+        /// Its value.
         value: f32,
         /// Least allowed.
         low: f32,
@@ -23,7 +23,7 @@ pub enum SectionError {
     /// A polygon with too few or too many corners.
     #[error("polygon has {corners}, outside {low} to {high}", corners = counted(*.corners, "corner"))]
     Corners {
-        /// How many it has.
+        /// The number of corners.
         corners: usize,
         /// Least allowed.
         low: u32,

@@ -1,11 +1,12 @@
-//! Cross-sections: the outline that stands on every ring.
+//! Cross-sections: the outlines that stand on rings.
 
 mod error;
 mod outline;
 mod triangulate;
+mod validate;
 
 pub use error::SectionError;
-pub use triangulate::triangulate;
+pub(crate) use triangulate::triangulate;
 
 use bytemuck::{Pod, Zeroable};
 
@@ -41,7 +42,7 @@ pub enum Section {
     Lenticular {
         /// Width over height.
         aspect: f32,
-        /// How far the edges lie above the middle, in half heights, within (-1, 1).
+        /// The height of the edges above the middle, in half heights, within (-1, 1).
         distortion: f32,
     },
     /// An ellipse whose height is `|sin θ|^exponent`.
@@ -56,8 +57,8 @@ pub enum Section {
         /// Number of plies.
         plies: u32,
     },
-    /// The caller's own outline: counter-clockwise corners, in radii of the yarn. A plan that uses
-    /// it must have as many sides as it has corners.
+    /// An outline of the caller's own: counter-clockwise corners, in radii of the yarn. A plan with
+    /// it must have one side per corner.
     Polygon(Vec<[f32; 2]>),
 }
 
@@ -80,14 +81,14 @@ pub struct SectionPoint {
 const _: () = assert!(size_of::<SectionPoint>() == 16);
 
 impl SectionPoint {
-    /// Position · normal: how much of the radius' growth this point's surface feels. 1 all round a
-    /// circle.
+    /// Position · normal: the share of the radius' growth that this point's surface feels. It is 1
+    /// all round a circle.
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.x * self.normal_x + self.y * self.normal_y
     }
 
-    /// The point turned by the roll whose sine and cosine these are.
+    /// The point turned by a roll, given its sine and cosine.
     #[must_use]
     #[inline]
     pub fn rolled(&self, sin: f32, cos: f32) -> Self {
@@ -98,61 +99,7 @@ impl SectionPoint {
 }
 
 /// The fewest sides a tube can have.
-pub const SIDES_MIN: u32 = 3;
+pub(crate) const SIDES_MIN: u32 = 3;
 
-/// The most sides a tube can have: far beyond what a yarn a few pixels wide can show.
+/// The most sides a tube can have: far more than a yarn a few pixels wide can show.
 pub const SIDES_MAX: u32 = 256;
-
-/// Points at which the extent and the area of a section are measured: a polygon of 1,024 sides
-/// misses 6e-6 of a circle's area.
-const MEASURE_POINTS: u32 = 1024;
-
-impl Section {
-    /// Checks the shape's parameters.
-    ///
-    /// **Errors**: [`SectionError`] names the number and its limits.
-    pub fn validate(&self) -> Result<(), SectionError> {
-        let within = |field, value: f32, low: f32, high: f32| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(SectionError::OutOfRange { field, value, low, high })
-            }
-        };
-        match self {
-            Self::Circle => Ok(()),
-            Self::Ellipse { aspect } => within("aspect", *aspect, 0.05, 20.0),
-            Self::Lenticular { aspect, distortion } => {
-                within("aspect", *aspect, 0.05, 20.0)?;
-                within("distortion", *distortion, -0.9, 0.9)
-            }
-            Self::PowerEllipse { aspect, exponent } => {
-                within("aspect", *aspect, 0.05, 20.0)?;
-                within("exponent", *exponent, 0.1, 4.0)
-            }
-            Self::Lobed { plies } => within("plies", *plies as f32, 2.0, 12.0),
-            Self::Polygon(corners) => outline::validate_polygon(corners),
-        }
-    }
-
-    /// The outline as `sides` points, counter-clockwise seen against the tangent.
-    ///
-    /// A polygon is given back corner by corner, whatever `sides` says: a plan refuses the two when
-    /// they differ.
-    #[must_use]
-    pub fn outline(&self, sides: u32) -> Vec<SectionPoint> {
-        outline::outline(self, sides)
-    }
-
-    /// Half the width, in radii of the yarn.
-    #[must_use]
-    pub fn half_width(&self) -> f32 {
-        self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.x.abs().max(most))
-    }
-
-    /// Half the height, in radii of the yarn: what yarns that cross have to make room for.
-    #[must_use]
-    pub fn half_height(&self) -> f32 {
-        self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.y.abs().max(most))
-    }
-}

@@ -2,20 +2,13 @@
 
 use super::SectionPoint;
 
-/// Corner numbers of the `n - 2` triangles that fill an outline of `n` points, counter-clockwise
-/// like the outline.
+/// The `n - 2` triangles that fill an outline of `n` points, as numbers of corners,
+/// counter-clockwise like the outline.
 ///
-/// Ear clipping (Meisters 1975), since lobed sections are not convex. It always gives `n - 2`
-/// triangles; where rounding leaves no clean ear, the corner that turns most is cut.
-///
-/// ```
-/// use texere_core::definitions::triangulate;
-/// use texere_core::Section;
-/// let cap = triangulate(&Section::Circle.outline(6));
-/// assert_eq!(cap.len(), 4);
-/// ```
+/// Ear clipping (Meisters 1975), since lobed sections are not convex. The result always has `n - 2`
+/// triangles. If rounding leaves no clean ear, the fattest corner is cut.
 #[must_use]
-pub fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
+pub(crate) fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     let mut left: Vec<u32> = (0..outline.len() as u32).collect();
     let mut triangles = Vec::with_capacity(outline.len().saturating_sub(2));
     while left.len() > 3 {
@@ -28,8 +21,8 @@ pub fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The place in `left` of the corner to cut: of those whose triangle holds no other corner, the one
-/// whose triangle is fattest, which keeps slivers away.
+/// The place in `left` of the corner to cut: of the triangles that hold no other corner the
+/// fattest, which avoids slivers.
 fn sharpest_ear(outline: &[SectionPoint], left: &[u32]) -> usize {
     let count = left.len();
     let at = |place: usize| {

@@ -1,26 +1,27 @@
-//! What can end a call of a session.
+//! Errors of sessions.
 
 use thiserror::Error;
 
 use crate::{BackendError, OutOfMemory, PlanError, YarnError};
 
-/// A session's call that failed: misuse, reported alike on every backend, or a failure of the
+/// A failed call of a session: misuse, which every backend reports alike, or a failure of the
 /// backend.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
-    /// A plan of only a [region](crate::backend::Plan::within), of which nothing can be edited.
+    /// A mesh that is edited needs a plan of the whole cloth, and this plan is of a
+    /// [region](crate::backend::Plan::within).
     #[error("a mesh that is edited is of the whole cloth, and the plan is of a region of it")]
     Region,
-    /// A yarn that there is not.
+    /// There is no yarn of this number.
     #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
     NoYarn {
         /// The yarn.
         yarn: usize,
-        /// How many there are.
+        /// The number that exist.
         yarns: usize,
     },
-    /// Control points that no yarn can have.
+    /// A control point is not sound.
     #[error(transparent)]
     Yarns(#[from] YarnError),
     /// An upload past the last control point.
@@ -30,7 +31,7 @@ pub enum SessionError {
         first: u64,
         /// One past the last.
         end: u64,
-        /// How many there are.
+        /// The number that exist.
         points: u64,
     },
     /// A stage was called before the one that it depends on.
@@ -38,40 +39,40 @@ pub enum SessionError {
     OutOfOrder {
         /// The call.
         call: &'static str,
-        /// What has to come first.
+        /// The call that has to come first.
         needed: &'static str,
     },
-    /// A settler of other yarns than the session's: their numbers of control points differ.
+    /// The settler's yarns have other numbers of control points than the session's.
     #[error("the settler's yarns have other numbers of control points than the session's")]
     OtherYarns,
-    /// A chunk that is not of the session's plan.
+    /// The chunk belongs to another plan than the session's.
     #[error("chunk {chunk} is of another plan than the session's")]
     ForeignChunk {
         /// The chunk's index.
         chunk: u64,
     },
-    /// A chunk was read that no stage has run for, or whose memory has been reused since.
+    /// A chunk was read for which no stage has run, or whose memory has been reused since.
     #[error("chunk {chunk} is not in flight")]
     NotInFlight {
         /// The chunk's index.
         chunk: u64,
     },
-    /// A chunk that there is not.
+    /// There is no chunk of this number.
     #[error("chunk {chunk}, but there are {chunks}, counted from 0")]
     NoChunk {
         /// The chunk.
         chunk: usize,
-        /// How many there are.
+        /// The number that exist.
         chunks: usize,
     },
-    /// An output slice that is not exactly as long as planned.
+    /// An output slice does not have exactly the planned length.
     #[error("{what} has room for {given}, but the chunk has {planned}")]
     OutputLength {
-        /// Which slice.
+        /// The slice.
         what: &'static str,
         /// Its length.
         given: u64,
-        /// What the plan says.
+        /// The planned length.
         planned: u64,
     },
     /// The plan can't be made, or not even one block of it fits the device.

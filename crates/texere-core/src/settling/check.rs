@@ -1,4 +1,4 @@
-//! What is asked of a settling, checked; and the lengths that follow from all its control points.
+//! The checks of a settling, and the lengths that follow from all its control points.
 
 use glam::DVec3;
 
@@ -6,12 +6,12 @@ use super::{Length, Scale, Settling, SettlingError};
 use crate::definitions::NO_LENGTH;
 use crate::{ControlPoint, Ends};
 
-/// Whether there are no more than `limit` of `what`.
+/// Checks that there are no more than `limit` of `what`.
 pub(super) fn limited(what: &'static str, count: u64, limit: u64) -> Result<(), SettlingError> {
     if count > limit { Err(SettlingError::TooMany { what, count, limit }) } else { Ok(()) }
 }
 
-/// Checks everything that is given, but for the repeat's length.
+/// Checks a settling, apart from the length of its repeat.
 pub(super) fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
     let layout = settling.layout();
     let within = |setting, value: f32, low: f32, high: f32| {
@@ -43,7 +43,7 @@ pub(super) fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
     }
 }
 
-/// The scale for all places that a cloth may come to.
+/// A scale for all places that a cloth may come to.
 pub(super) fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
     let points = settling.points();
     let far = DVec3::splat(f64::INFINITY);
@@ -51,11 +51,12 @@ pub(super) fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
         let at = point.position().as_dvec3();
         (low.min(at), high.max(at))
     });
-    // Plates lie on either side of z = 0.
+    // The origin is at z = 0, since plates lie on either side of it.
     let origin = ((low + high) / 2.0).round().with_z(0.0);
     let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
     let diameter = thinnest.fold(f32::INFINITY, f32::min);
-    // A yarn that goes on lies beyond its first and last points by the whole way to its next round.
+    // A yarn that goes on reaches beyond its first and last points by the whole way to its next
+    // round.
     let [x, y] = settling.boundary.repeat().map(f64::from);
     let onward = settling.boundary.ends().iter().map(|ends| match ends {
         Ends::Repeats([right, up]) => (f64::from(*right) * x).abs().max((f64::from(*up) * y).abs()),

@@ -1,20 +1,20 @@
-//! Where two intervals come near one another.
+//! The nearest places of two intervals.
 
 use glam::{IVec3, Vec3};
 
 use super::{Interval, Scale};
 
-/// A straight piece of an interval, by which neighbours are found.
+/// A chord: a straight piece of an interval. Neighbours are found by chords.
 #[derive(Debug, Clone, Copy)]
 pub struct Chord {
-    /// Where it begins, units.
+    /// The start, units.
     pub at: IVec3,
-    /// From its beginning to its end, mm.
+    /// The vector from start to end, mm.
     pub span: Vec3,
 }
 
 impl Chord {
-    /// Chord `piece` of `pieces` of an interval.
+    /// Chord number `piece` of an interval's `pieces`.
     #[must_use]
     #[inline]
     pub fn new(interval: &Interval, piece: u32, pieces: u32, scale: &Scale) -> Self {
@@ -23,15 +23,15 @@ impl Chord {
         Self { at: interval.start.wrapping_add(scale.step(from)), span: offset(piece + 1) - from }
     }
 
-    /// Its middle, units.
+    /// The middle, units.
     #[must_use]
     #[inline]
     pub fn middle(&self, scale: &Scale) -> IVec3 {
         self.at.wrapping_add(scale.step(self.span * 0.5))
     }
 
-    /// Where this chord and one that begins `way` from its beginning come nearest to one another:
-    /// shares of both.
+    /// The nearest places of this chord and another one that begins `way` from its start, mm, as
+    /// shares of both chords.
     #[must_use]
     #[inline]
     pub fn nearest(&self, other: &Self, way: Vec3) -> [f32; 2] {
@@ -39,60 +39,61 @@ impl Chord {
         let b = self.span.dot(other.span);
         let (c, f) = (-self.span.dot(way), -other.span.dot(way));
         let determinant = a * e - b * b;
-        // Of parallel chords one place does as well as another.
+        // On parallel chords any place is as good as another.
         let first = if determinant > PARALLEL * (a * e) { share((b * f - c * e) / determinant) } else { 0.5 };
         let second = share((b * first + f) / e);
         [share((b * second - c) / a), second]
     }
 }
 
-/// The least squared length that a chord or a velocity is taken to have, mm²: its square is still a
-/// normal number.
+/// The least squared length of a chord or a velocity, mm². Shorter ones count as this long. Its
+/// square is still a normal number.
 pub const SHORT: f32 = 1e-15;
 
-/// The squared sine of the angle below which two chords are parallel.
+/// The squared sine of the angle below which two chords count as parallel.
 pub const PARALLEL: f32 = 1e-6;
 
-/// The least that Newton's method takes the second derivative of the squared distance for, over the
-/// squared velocity; and the least of the determinant, over the product of both.
+/// The least second derivative of the squared distance in Newton's method, as a share of the
+/// squared velocity.
 pub const STIFF: f32 = 0.2;
-/// See [`STIFF`].
+/// The least determinant in Newton's method, as a share of the product of both second derivatives.
 pub const SKEW: f32 = 0.05;
 
-/// Up to that distance two places are one, mm.
+/// The distance up to which two places count as one, mm.
 pub const ONE_PLACE: f32 = 1e-9;
 
-/// Within 0 and 1; -0 becomes 0, as it does in vectors.
+/// The value clamped to 0 and 1. -0 becomes 0, as it does in vectors.
 #[allow(clippy::manual_clamp, reason = "clamp keeps -0")]
 #[inline]
 pub(super) fn share(value: f32) -> f32 {
     value.max(0.0).min(1.0)
 }
 
-/// How much further than where they touch two yarns may be from one another for their nearest
-/// places to be worked out.
+/// The distance, as a multiple of the one where two yarns touch, up to which their nearest places
+/// on the splines are worked out.
 pub const NEAR: f32 = 1.1;
 
-/// How much thicker than they are yarns come to rest, so that they are clear when settling ends.
+/// The factor by which yarns are thicker while they settle than they are, so that they are clear
+/// when settling ends.
 pub const MARGIN: f32 = 1.002;
 
-/// Where two intervals come near one another.
+/// The nearest places of two intervals.
 #[derive(Debug, Clone, Copy)]
 pub struct Approach {
-    /// Places on either interval.
+    /// The parameters of the places on both intervals.
     pub at: [f32; 2],
-    /// The way from the first interval's place to the other's, mm.
+    /// The vector from the first interval's place to the second's, mm.
     pub way: Vec3,
-    /// Its length, mm.
+    /// The length of that vector, mm.
     pub distance: f32,
 }
 
-/// Two intervals, the second of which begins `way` from where the first does.
+/// Two intervals. The second begins `way` from the start of the first.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair<'a> {
     /// Both intervals.
     pub intervals: [&'a Interval; 2],
-    /// From the first one's beginning to the second one's, mm.
+    /// The vector from the first one's start to the second one's, mm.
     pub way: Vec3,
 }
 
@@ -103,11 +104,11 @@ impl Pair<'_> {
         Approach { at, way, distance: way.length_squared().sqrt() }
     }
 
-    /// The exact places near `at`: one step of Newton's method of at most `stride`, where that
-    /// comes nearer.
+    /// The nearest places on the splines near `at`: one step of Newton's method, of at most
+    /// `stride`, if that comes nearer.
     ///
-    /// On chords alone yarns seem clear that are not: 0.998 of what they need where the spline has
-    /// 0.92.
+    /// Chords alone make yarns seem clear that are not: 0.998 of the distance that they need where
+    /// the splines have 0.92.
     #[must_use]
     #[inline]
     pub fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Approach {
@@ -131,8 +132,8 @@ impl Pair<'_> {
 }
 
 impl Approach {
-    /// The direction from the first interval's place to the other's. Where both are one, it is
-    /// square to both yarns: the other's view of it is then the opposite one.
+    /// The direction from the first interval's place to the second's. If both places are one, it is
+    /// at right angles to both yarns; the second interval then sees the opposite direction.
     #[must_use]
     #[inline]
     pub fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {

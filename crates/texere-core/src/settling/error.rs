@@ -1,4 +1,4 @@
-//! What may be wrong with a problem.
+//! Errors of settling.
 
 use crate::{BoundaryError, OutOfMemory, counted};
 use thiserror::Error;
@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SettlingError {
-    /// A boundary that is not the yarns' own.
+    /// A boundary that does not fit the yarns.
     #[error(transparent)]
     Boundary(#[from] BoundaryError),
     /// A repeat so short that a yarn could meet two images of another at once.
@@ -17,11 +17,11 @@ pub enum SettlingError {
     ShortRepeat {
         /// `x` or `y`.
         axis: char,
-        /// The length that was given.
+        /// The given length.
         repeat: f32,
         /// The thickest yarn's diameter.
         diameter: f32,
-        /// The least length that is taken.
+        /// The least length that is accepted.
         least: f32,
     },
     /// A yarn with too few control points between its ends.
@@ -31,10 +31,10 @@ pub enum SettlingError {
         yarn: usize,
         /// Its control points.
         points: u64,
-        /// The least that are taken.
+        /// The least that are accepted.
         least: u64,
     },
-    /// A cloth too large for its thinnest yarn: places would be too coarse.
+    /// A cloth too large for its thinnest yarn: the units of places would be too coarse.
     #[error("a cloth of {extent} mm is too large to settle with yarns of {diameter} mm")]
     TooLarge {
         /// From its middle to its furthest point, mm.
@@ -42,7 +42,7 @@ pub enum SettlingError {
         /// The thinnest yarn's diameter, mm.
         diameter: f32,
     },
-    /// A yarn so much longer than it is thick, from one control point to the next, that it takes
+    /// A yarn that is so long for its thickness, from one control point to the next, that it takes
     /// too many chords.
     #[error(
         "yarn {}: from one of its control points to the next, along {axis}, {chords} are needed, more than {limit}: it is too long for its thickness",
@@ -50,62 +50,62 @@ pub enum SettlingError {
     LongInterval {
         /// The yarn's number, from 0.
         yarn: usize,
-        /// Which way it goes most: `x` or `y`.
+        /// The axis along which it goes most: `x` or `y`.
         axis: char,
-        /// Chords that are needed.
+        /// The chords needed.
         chords: u64,
-        /// How many are taken at most.
+        /// The most that are accepted.
         limit: u64,
     },
-    /// Yarns that in all are so much longer than they are thick that they take too many chords for
+    /// Yarns that are so long for their thickness, all together, that they take too many chords for
     /// their control points.
     #[error(
         "yarns of {points} need {chords}, more than {limit}: they are too long for their thickness", points = counted(*.points, "control point"), chords = counted(*.chords, "chord"))]
     LongYarns {
         /// Control points.
         points: u64,
-        /// Chords that are needed.
+        /// The chords needed.
         chords: u64,
-        /// How many are taken at most for so many points.
+        /// The most chords for this number of points.
         limit: u64,
     },
-    /// More than can be counted.
+    /// A count above its limit.
     #[error("{count} {what} are more than {limit}")]
     TooMany {
-        /// What.
+        /// The things that are counted.
         what: &'static str,
-        /// How many.
+        /// Their number.
         count: u64,
-        /// How many are taken at most.
+        /// The most that are accepted.
         limit: u64,
     },
-    /// Memory could not be had.
+    /// An allocation failed.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// A setting that is out of its range.
+    /// A setting out of its range.
     #[error("{setting} is {value}, not between {low} and {high}")]
     Setting {
         /// Its name.
         setting: &'static str,
-        /// What was given.
+        /// Its value.
         value: f32,
-        /// The least that is taken.
+        /// The least that is accepted.
         low: f32,
-        /// The most that is taken.
+        /// The most that is accepted.
         high: f32,
     },
-    /// A pinned control point that is not there.
+    /// A pinned control point that does not exist.
     #[error("control point {point} can't be pinned, there are {points}")]
     Pinned {
         /// The point's number, from 0.
         point: u64,
-        /// How many there are.
+        /// The number that exist.
         points: u64,
     },
 }
 
 impl SettlingError {
-    /// The number of the yarn that is refused, from 0. None of what is so of all of them.
+    /// The number of the refused yarn, from 0. `None` if the error is about all yarns.
     ///
     /// ```
     /// use texere_core::SettlingError;

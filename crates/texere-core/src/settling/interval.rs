@@ -1,4 +1,4 @@
-//! The yarn between two control points, as settling sees it.
+//! Intervals: the yarn between two control points while it settles.
 
 use glam::{IVec3, Vec3};
 
@@ -6,15 +6,15 @@ use super::{Place, Scale};
 use crate::definitions::VERTICAL;
 use crate::spline::coefficients;
 
-/// The spline between two control points, from the first of them on, and how thick the yarn is
+/// The spline between two control points, relative to the first of them, with the yarn's thickness
 /// there.
 #[derive(Debug, Clone, Copy)]
 pub struct Interval {
-    /// Where it begins, units.
+    /// The start, units.
     pub start: IVec3,
-    /// What goes with u, u² and u³, mm.
+    /// The coefficients of u, u² and u³, mm.
     pub terms: [Vec3; 3],
-    /// Half width and half height at its beginning, and their growth to its end, mm.
+    /// Half width and half height at the start, and their growth to the end, mm.
     halves: [[f32; 2]; 2],
 }
 
@@ -30,9 +30,9 @@ impl Interval {
         Self { start, terms: coefficients(a, b, c, s), halves: [halves[0], growth] }
     }
 
-    /// An interval from four rows, as backends keep it: where it begins (as bits) and the growth of
-    /// its half width; what goes with u and its half width at the beginning; with u² and its half
-    /// height; with u³ and the growth of that.
+    /// An interval from four rows, as backends store it: the start (as bits) and the growth of the
+    /// half width; the coefficient of u and the half width at the start; that of u² and the half
+    /// height; that of u³ and the growth of the half height.
     #[must_use]
     pub fn from_rows(rows: &[[f32; 4]; 4]) -> Self {
         let [[x, y, z, width_growth], [.., width], [.., height], [.., height_growth]] = *rows;
@@ -41,7 +41,7 @@ impl Interval {
         Self { start, terms, halves: [[width, height], [width_growth, height_growth]] }
     }
 
-    /// The way from its beginning to `u` in \[0, 1\], mm.
+    /// The vector from the start to `u` in \[0, 1\], mm.
     #[must_use]
     #[inline]
     pub fn offset(&self, u: f32) -> Vec3 {
@@ -65,8 +65,8 @@ impl Interval {
         c2 * 2.0 + c3 * (6.0 * u)
     }
 
-    /// How far the yarn reaches from its centreline at `u` in direction `towards`, a unit vector,
-    /// mm. It stands upright: half its width level, half its height out of the cloth.
+    /// The reach of the yarn from its centreline at `u` in direction `towards`, a unit vector, mm.
+    /// The yarn stands upright: its width is level, its height out of the cloth.
     #[must_use]
     #[inline]
     pub fn reach(&self, u: f32, towards: Vec3) -> f32 {
@@ -81,13 +81,13 @@ impl Interval {
         if level <= VERTICAL * square {
             return width;
         }
-        // Side is (-y, x, 0), up is t x side, both over their lengths.
+        // The side is (-y, x, 0), the up is t x side, both over their lengths.
         let aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
         let up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
         ((aside * aside + up * up / square) / level).sqrt()
     }
 
-    /// The larger of its half width and half height, at either end, mm.
+    /// The largest half width or half height at either end, mm.
     #[must_use]
     #[inline]
     pub fn thickest(&self) -> f32 {
@@ -96,7 +96,7 @@ impl Interval {
         start[0].max(start[1]).max(end[0].max(end[1]))
     }
 
-    /// Its length between two places, by Gauss's rule of three places, mm.
+    /// The length between two parameters, by Gauss's rule with three nodes, mm.
     #[must_use]
     #[inline]
     pub fn arc_between(&self, from: f32, to: f32) -> f32 {
@@ -106,8 +106,7 @@ impl Interval {
         mean * (to - from)
     }
 
-    /// Its length by Gauss's rule of three places, mm, and the direction from its beginning to its
-    /// end.
+    /// The length by Gauss's rule with three nodes, mm, and the direction from start to end.
     #[must_use]
     #[inline]
     pub fn arc(&self) -> (f32, Vec3) {
@@ -119,16 +118,16 @@ impl Interval {
     }
 }
 
-/// Places of Gauss's rule on \[0, 1\]: 1/2 and 1/2 ± √0.15.
+/// The nodes of Gauss's rule on \[0, 1\]: 1/2 and 1/2 ± √0.15.
 pub const GAUSS: [f32; 3] = [0.112_701_67, 0.5, 0.887_298_35];
 
-/// What the outer places and the middle one count.
+/// The weights of the outer nodes and of the middle one.
 pub const GAUSS_WEIGHTS: [f32; 2] = [5.0 / 18.0, 8.0 / 18.0];
 
-/// What each of an interval's four control points counts at `u`: their sum is 1.
+/// The weights of an interval's four control points at `u`. Their sum is 1.
 #[must_use]
 #[inline]
-pub fn weights(u: f32, s: f32) -> [f32; 4] {
+pub(super) fn weights(u: f32, s: f32) -> [f32; 4] {
     let (square, cube) = (u * u, u * u * u);
     let before = (2.0 * square - u - cube) * s;
     let after = (cube - square) * s;
@@ -136,8 +135,8 @@ pub fn weights(u: f32, s: f32) -> [f32; 4] {
     [before, 1.0 - before - end - after, end, after]
 }
 
-/// What each of an interval's four control points counts in its second derivative at `u`: their sum
-/// is 0.
+/// The weights of an interval's four control points in its second derivative at `u`. Their sum is
+/// 0.
 #[must_use]
 #[inline]
 pub fn bends(u: f32, s: f32) -> [f32; 4] {

@@ -1,14 +1,15 @@
 //! Settling: yarns come to rest. Control points move until yarns nowhere pierce one another,
 //! nowhere fold, and have the length that is asked for.
 //!
-//! A [`Settling`] says what is asked, a [`SettlingPlan`] works out every table, a [`Settler`] does
-//! the passes on a device, and [`settle`] leads it. The definitions that all devices agree on are
-//! here: [`Interval`], [`Chord`], [`Pair`], [`Pull`].
+//! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] does the
+//! passes on a device, and [`settle`] drives it. The definitions that all devices share are here:
+//! [`Interval`], [`Chord`], [`Pair`], [`Pull`].
 
 mod check;
 mod contact;
 pub(crate) mod error;
 mod interval;
+mod length;
 mod neighbours;
 mod pass;
 mod place;
@@ -20,17 +21,18 @@ mod strand;
 
 pub use contact::{Approach, Chord, MARGIN, NEAR, ONE_PLACE, PARALLEL, Pair, SHORT, SKEW, STIFF};
 use error::SettlingError;
-pub use interval::{GAUSS, GAUSS_WEIGHTS, Interval, bends, weights};
+pub use interval::{GAUSS, GAUSS_WEIGHTS, Interval, bends};
+pub use length::{FREE_LEAST, FREE_MOST, FREED, Length, freed};
 pub use neighbours::{LEADS_ON, Listed};
 pub use pass::{
     BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BENDS_MIN, BLOCK_BEND, CONTACT, CONTACTS_MIN, CROSSING,
-    CROSSING_SHARE, FREE_LEAST, FREE_MOST, FREED, Form, Gathered, INERTIA, PRESS, Pass, Pull, SOFT_BEND,
-    STEP_DIAMETER, STEP_NEAR, STRIDE, freed, moves,
+    CROSSING_SHARE, Form, Gathered, INERTIA, PRESS, Pass, Pull, SOFT_BEND, STEP_DIAMETER, STEP_NEAR, STRIDE,
+    moves,
 };
 pub use place::{Place, Scale};
-pub use plan::{OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans};
-pub use problem::{Length, Settling};
+pub use plan::{SKIN, SettlingCounts, SettlingPlan, Spans};
+pub use problem::Settling;
 pub(crate) use run::points_of;
 pub use run::{Rest, settle, settled};
 pub use settler::{Settler, SettlingSeen};
-pub use strand::{BEYOND, SettlingYarn, tag};
+pub use strand::{SettlingYarn, tag};

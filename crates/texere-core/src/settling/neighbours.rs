@@ -1,5 +1,5 @@
-//! Which chords are neighbours. Each chord's neighbours are listed in the order of their numbers,
-//! so that the way in which they were found does not matter.
+//! Neighbours of chords. Each chord's neighbours are listed in the order of their numbers, so the
+//! way in which they were found does not matter.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -8,7 +8,7 @@ use glam::IVec3;
 use super::plan::{SKIN, SettlingPlan};
 use super::{Chord, Interval, MARGIN};
 
-/// A chord, its interval and its place.
+/// A chord with its interval and its place.
 #[derive(Debug, Clone, Copy)]
 pub struct Listed<'a> {
     /// The chord.
@@ -17,14 +17,14 @@ pub struct Listed<'a> {
     pub interval: &'a Interval,
     /// The interval's place.
     pub place: usize,
-    /// Which of the interval's chords it is.
+    /// The chord's number within the interval.
     pub piece: u32,
-    /// How many chords the interval has.
+    /// The number of chords of the interval.
     pub pieces: u32,
 }
 
-/// Chords of one yarn are no neighbours where less than that is between them, in the sum of both
-/// radii: it can't come back so soon.
+/// The least length of yarn between two neighbouring chords of one yarn, as a multiple of the sum
+/// of both radii. A yarn can't come back sooner than in a half circle.
 pub const LEADS_ON: f32 = FRAC_PI_2;
 
 impl<'a> Listed<'a> {
@@ -44,8 +44,8 @@ impl<'a> Listed<'a> {
 }
 
 impl SettlingPlan {
-    /// Which image of a chord lies nearest to another one that begins `way` units before it: how
-    /// many repeats away, by their middles.
+    /// The nearest image of the second chord, which begins `way` units from the first: its distance
+    /// in repeats, by the chords' middles.
     #[must_use]
     #[inline]
     pub fn image(&self, [one, other]: [&Chord; 2], way: IVec3) -> [i32; 2] {
@@ -54,10 +54,10 @@ impl SettlingPlan {
         [0, 1].map(|axis| -((apart[axis] * inverse[axis] + 0.5).floor() as i32))
     }
 
-    /// A way of so many units to something, to the image of that so many repeats away.
+    /// The vector `way`, in units, to something, moved to its image `image` repeats away.
     #[must_use]
     #[inline]
-    pub fn to_image(&self, way: IVec3, image: [i32; 2]) -> IVec3 {
+    pub(super) fn to_image(&self, way: IVec3, image: [i32; 2]) -> IVec3 {
         let [x, y] = self.period();
         IVec3::new(
             way.x.wrapping_add(image[0].wrapping_mul(x)),
@@ -66,8 +66,8 @@ impl SettlingPlan {
         )
     }
 
-    /// Whether two chords are neighbours while yarns have `growth` of their thickness: near one
-    /// another, and not so close along the same yarn that they can't be clear of one another.
+    /// Whether two chords are neighbours while yarns have `growth` of their thickness: they are
+    /// near one another, and not so close along one yarn that they can't be clear of one another.
     #[must_use]
     pub fn are_neighbours(&self, one: Listed<'_>, other: Listed<'_>, growth: f32) -> bool {
         let way = other.chord.at.wrapping_sub(one.chord.at);
@@ -84,7 +84,7 @@ impl SettlingPlan {
     }
 
     /// Whether two chords of a yarn lie so close along it that they can't be clear of one another:
-    /// less than a half circle of their thickness is between them. The second one is seen so many
+    /// less than a half circle of their thickness lies between them. The second one is seen `image`
     /// repeats away.
     #[must_use]
     pub fn leads_on(&self, yarn: u32, chords: [u32; 2], image: [i32; 2], thickness: f32) -> bool {
@@ -101,8 +101,8 @@ impl SettlingPlan {
         here || goes_on
     }
 
-    /// The size of cells in which a chord's neighbours lie in its own cell or one beside it, mm,
-    /// where no chord is longer than `longest`.
+    /// The size of cells, mm, for which all neighbours of a chord lie in its own cell or one beside
+    /// it, if no chord is longer than `longest`.
     #[must_use]
     pub fn cell(&self, growth: f32, longest: f32) -> f32 {
         let spans = self.spans();

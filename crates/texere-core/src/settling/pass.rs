@@ -1,118 +1,138 @@
 //! One pass: what pulls at an interval's four control points, and the step that each point takes.
 //!
+//! The idea is simple. Where two yarns are too near, each is pushed away by half of what is
+//! lacking. Where a yarn bends too tightly, it is straightened. Where an interval is too long or
+//! too short, its ends are moved. Each control point then takes one step towards all that it is
+//! asked for.
+//!
+//! ```text
+//! for each interval:                               Pull, written once
+//!     for each neighbour of each of its chords:    meet
+//!         find the nearest places of the two chords, then of the two splines
+//!         if they are nearer than the two yarns reach:
+//!             push the interval's four points by half of the lack, each by its weight there
+//!     for each of its parts:                       own
+//!         if the yarn bends more tightly than BEND_RADIUS allows:
+//!             move the four points so that the excess becomes less
+//!     pull or push both ends by half of the length that it has too much or too little
+//! for each control point:                          Gathered::step
+//!     sum up the pulls of the four intervals that it steers
+//!     weighted form: step = mean of contacts + mean of bends + length + momentum
+//!     block form:    step = solution of three equations of all pulls + momentum
+//!     shorten the step to a share of the distance and of the diameter
+//! ```
+//!
 //! A pass only gathers: every interval reads places and writes its own [`Pull`], then every control
-//! point reads the pulls of the four intervals that it steers. Sums go in one order, so every
-//! schedule gives the same bits.
+//! point reads the pulls of its four intervals. Sums go in one order, so every schedule gives the
+//! same bits.
 
 use glam::Vec3;
 
 use super::contact::share;
+use super::interval::weights;
 use super::strand::tag;
-use super::{Approach, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends, weights};
+use super::{Approach, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends};
 
-/// How a point's step is made from what pulls at it.
+/// The way in which a point's step is made from its pulls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Form {
-    /// Contacts, bends and length each have their mean, and their steps add up. Soon near rest.
+    /// Contacts, bends and length each have a weighted mean, and these add up. It comes near rest
+    /// soon.
     #[default]
     Weighted,
-    /// One step that suits all of them best, along the directions in which they pull: slower, but
-    /// it comes to rest where others would pull to and fro.
+    /// One step is the best compromise of all pulls, each along its own direction. It is slower,
+    /// but it comes to rest where pulls in the weighted form would keep swinging.
     Block,
 }
 
-/// What a pass is made with.
+/// The settings of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pass {
-    /// How steps are made.
+    /// The form of steps.
     pub form: Form,
-    /// The share of their thickness that yarns have.
+    /// The share of their thickness that yarns have in this pass.
     pub growth: f32,
-    /// The share of what eases the way to rest and is gone when it is reached: soft bends, tension,
-    /// plates.
+    /// The strength, 0 to 1, of everything that eases the way to rest and is gone at rest: soft
+    /// bends, tension, plates.
     pub ease: f32,
-    /// The share of the last step that each point goes on with.
+    /// The share of its last step that each point goes on by. More of it makes ribs and garter
+    /// stitch thicker: garter came to rest at 2.8 diameters with 0, and at 4.3 with 0.9.
     pub momentum: f32,
 }
 
-/// The least radius of curvature, in diameters.
+/// The least radius of curvature of a yarn, in diameters.
 pub const BEND_RADIUS: f32 = 0.6;
 
-/// How much larger than that radii are made.
+/// The factor by which a pass aims for larger radii than [`BEND_RADIUS`], so that settling ends
+/// above it.
 pub const BEND_MARGIN: f32 = 1.02;
 
-/// How stiff yarns are where they bend less than they may, as a share of what they are beyond,
-/// while that eases.
+/// The soft stiffness of bends below the limit while a pass eases, as a share of the stiffness
+/// beyond it.
 pub const SOFT_BEND: f32 = 0.02;
 
-/// How much contacts count.
+/// The weight of contacts.
 pub const CONTACT: f32 = 1.12;
 
-/// How much bends count beside them.
+/// The weight of bends in the weighted form.
 pub const BEND: f32 = 1.0;
 
-/// The same in the block form.
+/// The weight of bends in the block form.
 pub const BLOCK_BEND: f32 = 5.0;
 
-/// How far the exact places of a contact may lie from those on the chords, in chords.
+/// The largest distance, in chords, of a contact's places on the splines from those on the chords.
 pub const STRIDE: f32 = 0.6;
 
-/// Where lengths are free, an interval may become so many times as long as it was: the least.
-pub const FREE_LEAST: f32 = 0.8;
-/// And that is the most.
-pub const FREE_MOST: f32 = 1.15;
-
-/// The share of what it differs from the mean beside it that its length takes on in a pass.
-pub const FREED: f32 = 0.05;
-
-/// The share of what they lack that plates move points by in a pass.
+/// The share of the lacking distance by which plates move points in a pass.
 pub const PRESS: f32 = 0.1;
 
-/// The least weights of contacts, and of bends, that a mean is made with in the weighted form.
+/// The least weight by which the sum of contacts is divided in the weighted form.
 pub const CONTACTS_MIN: f32 = 0.64;
-/// See [`CONTACTS_MIN`].
+/// The least weight by which the sum of bends is divided in the weighted form.
 pub const BENDS_MIN: f32 = 0.3;
 
-/// Yarns nearer than that, over both reaches, obey contact alone; what else pulls at them grows by
-/// that share with what is more.
+/// The distance, over both reaches, below which yarns obey contacts alone. Without it a strong
+/// tension can squeeze yarns through one another in spite of the limit of steps.
 pub const CROSSING: f32 = 0.3;
-/// See [`CROSSING`].
+/// The growth of all other pulls with the distance beyond [`CROSSING`]: they have full strength
+/// from 0.7 on.
 pub const CROSSING_SHARE: f32 = 2.5;
 
-/// The longest step: a share of the least distance that was seen, and one of the diameter.
+/// The longest step, as a share of the least distance to another yarn.
 pub const STEP_NEAR: f32 = 0.2;
-/// See [`STEP_NEAR`].
+/// The longest step, as a share of the diameter.
 pub const STEP_DIAMETER: f32 = 0.1;
 
-/// What keeps a point where it is, against all that pulls at it in the block form.
+/// The inertia of a point in the block form: the weight of staying in place.
 pub const INERTIA: f32 = 0.12;
 
-/// Bends are looked at in so many equal parts of an interval, at the ends of all of them, and of
-/// all its chords where it has more: with three places a yarn has 0.51 where 0.60 is claimed.
+/// The least number of equal parts of an interval at whose ends bends are measured. An interval
+/// with more chords has as many parts as chords. With bends measured at three places a yarn had a
+/// radius of 0.51 diameters where 0.60 was reported.
 pub const BEND_PARTS: u32 = 8;
 
-/// What pulls at the control points of an interval.
+/// The pulls of an interval at its four control points.
 #[derive(Debug, Clone, Copy)]
 pub struct Pull {
-    /// What pulls at each of the four: with [`Form::Weighted`] the sum of contacts' ways, mm, and
-    /// of their weights, then the same of bends, and a zero; with [`Form::Block`] the sum of all
-    /// ways, mm, and of the squares of their directions, each with its weight: xx, xy, xz, yy, yz,
-    /// zz.
+    /// The pulls at each of the four points. With [`Form::Weighted`]: the sum of contacts'
+    /// displacements, mm, the sum of their weights, the same of bends, and a zero. With
+    /// [`Form::Block`]: the sum of all displacements, mm, and the sum of their directions' squares,
+    /// each with its weight: xx, xy, xz, yy, yz, zz.
     pub slots: [[f32; 9]; 4],
     /// Half of the length that the interval has too much, along its chord, mm.
     pub length: Vec3,
-    /// Its length, mm.
+    /// The interval's length, mm.
     pub arc: f32,
-    /// The least distance to another yarn that was seen, mm.
+    /// The least distance to another yarn, mm.
     pub near: f32,
-    /// The same over both yarns' reaches: 1 where they touch.
+    /// The least distance over both yarns' reaches: 1 where they touch.
     pub clearance: f32,
     /// The least radius of curvature, in the yarn's diameters.
     pub radius: f32,
 }
 
 impl Pull {
-    /// Of an interval that nothing is near.
+    /// The pull of an interval that nothing is near.
     #[must_use]
     pub const fn none() -> Self {
         Self {
@@ -125,7 +145,8 @@ impl Pull {
         }
     }
 
-    /// Adds what one of its neighbours, the second, does to a chord of this interval, the first.
+    /// Adds the pull between a chord of this interval, the first of `pair`, and a neighbour, the
+    /// second.
     #[inline]
     pub fn meet(&mut self, plan: &SettlingPlan, pass: &Pass, pair: [Listed<'_>; 2]) {
         let [one, other] = pair;
@@ -172,7 +193,7 @@ impl Pull {
         }
     }
 
-    /// Adds what the interval's own bends and length do.
+    /// Adds the pulls of the interval's own bends and length.
     #[inline]
     pub fn own(
         &mut self,
@@ -243,7 +264,7 @@ fn add_block(slot: &mut [f32; 9], way: Vec3, direction: Vec3, weight: f32) {
 }
 
 impl Pass {
-    /// The step along z that plates make a point take, mm.
+    /// The step along z that plates ask of a point, mm.
     #[must_use]
     #[inline]
     pub fn press(&self, plan: &SettlingPlan, place: &Place) -> f32 {
@@ -253,13 +274,13 @@ impl Pass {
     }
 }
 
-/// The pulls that a control point gathers: of the intervals that begin one place behind it, at it,
-/// one and two places before it.
+/// The pulls that a control point gathers, of four intervals: the one that begins one place after
+/// it, the one at it, and those one and two places before it.
 #[derive(Debug, Clone, Copy)]
 pub struct Gathered<'a>(pub [Option<&'a Pull>; 4]);
 
 impl Gathered<'_> {
-    /// The step that a control point takes, mm. `last` is the step that it took before.
+    /// The step of a control point, mm. `last` is its step before.
     #[must_use]
     #[inline]
     pub fn step(&self, plan: &SettlingPlan, pass: &Pass, place: &Place, last: Vec3) -> Vec3 {
@@ -280,7 +301,7 @@ impl Gathered<'_> {
         let step = match pass.form {
             Form::Weighted => {
                 let [cx, cy, cz, contacts, bx, by, bz, bends, _] = sums;
-                // Yarns that are about to cross obey contact alone.
+                // Yarns that are about to cross obey contacts alone.
                 let apart = share((clearance / pass.growth - CROSSING) * CROSSING_SHARE);
                 let bend = Vec3::new(bx, by, bz) * (BEND / bends.max(BENDS_MIN));
                 let mut others = bend + (pulls[1].length - pulls[2].length) + on;
@@ -301,7 +322,7 @@ impl Gathered<'_> {
     }
 }
 
-/// What a symmetrical matrix, positive by its diagonal, turns into `right`: by its cofactors.
+/// The solution of three equations with a symmetric positive matrix, by its cofactors.
 #[inline]
 fn solved([xx, xy, xz, yy, yz, zz]: [f32; 6], right: Vec3) -> Vec3 {
     let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
@@ -313,17 +334,6 @@ fn solved([xx, xy, xz, yy, yz, zz]: [f32; 6], right: Vec3) -> Vec3 {
         (b * right.x + d * right.y + e * right.z) * inverse,
         (c * right.x + e * right.y + f * right.z) * inverse,
     )
-}
-
-/// The length that an interval is to have after a pass in which lengths are free: `arcs` are those
-/// of the interval before it, its own and the next one's.
-#[must_use]
-#[inline]
-pub fn freed(length: f32, start: f32, arcs: [Option<f32>; 3], tension: f32) -> f32 {
-    let (sum, count) =
-        arcs.into_iter().flatten().fold((0.0, 0.0), |(sum, count), arc| (sum + arc, count + 1.0));
-    let next = length + FREED * (sum / count - length) - tension * length;
-    next.max(FREE_LEAST * start).min(FREE_MOST * start)
 }
 
 /// Whether a place is a control point that may move.

@@ -1,12 +1,12 @@
-//! Places of control points that settle: whole numbers, so that a cloth ten metres out rests as one
-//! at the origin does.
+//! Places: positions of settling control points in whole units, so that a cloth ten metres out
+//! rests as one at the origin does.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, IVec3, Vec3};
 
 use crate::{ControlPoint, Halves};
 
-/// A control point that settles.
+/// The place and size of a settling control point.
 ///
 /// Coordinates are whole multiples of a [`Scale`]'s unit. The difference of two is exact however
 /// far they lie from the origin, and a cloth that is moved by whole units rests in the same bits.
@@ -29,15 +29,15 @@ impl Place {
         IVec3::from_array(self.at)
     }
 
-    /// The same place, moved by `units`.
+    /// This place, moved by `units`.
     #[must_use]
     #[inline]
     pub fn moved(self, units: IVec3) -> Self {
         Self { at: (self.units().wrapping_add(units)).to_array(), ..self }
     }
 
-    /// `2 self - other`: the virtual end of an open yarn (the paper's equations 3 and 4). It is as
-    /// thick as `self`.
+    /// `2 self - other`: the virtual end of an open yarn (the paper's equations 3 and 4). It has
+    /// the thickness of `self`.
     #[must_use]
     #[inline]
     pub fn reflected(self, other: Self) -> Self {
@@ -45,27 +45,28 @@ impl Place {
     }
 }
 
-/// What a unit of places is, and where they are counted from.
+/// The unit of places and their origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     unit: f32,
     origin: DVec3,
 }
 
-/// Units are no finer than this share of the thinnest yarn's diameter: a millionth.
+/// The finest unit, as a share of the thinnest yarn's diameter: a millionth.
 const FINEST: f32 = 1.0 / (1 << 20) as f32;
 
-/// Nor may they be coarser than this one, which leaves 131,000 diameters either way.
+/// The coarsest unit, as a share of the thinnest yarn's diameter. It leaves 131,000 diameters
+/// either way.
 const COARSEST: f32 = 1.0 / (1 << 11) as f32;
 
-/// How many units a place may lie from the origin: virtual ends may lie three times as far, and the
-/// way to them is to fit an `i32`.
+/// The largest distance of a place from the origin, in units. Virtual ends may lie three times as
+/// far, and the vector to them must fit an `i32`.
 const REACH: f32 = (1 << 28) as f32;
 
 impl Scale {
-    /// The finest scale for places up to `extent` mm from `origin`, on yarns of which the thinnest
-    /// is `diameter` mm thick: its unit is a power of two. None where that is coarser than 1/2048
-    /// of the diameter.
+    /// The finest scale for places up to `extent` mm from `origin`. `diameter` is that of the
+    /// thinnest yarn, mm. The unit is a power of two. `None` if it would be coarser than 1/2048 of
+    /// the diameter.
     #[must_use]
     pub fn new(origin: DVec3, extent: f32, diameter: f32) -> Option<Self> {
         let power = |least: f32| least.log2().ceil().exp2();
@@ -73,13 +74,13 @@ impl Scale {
         (unit <= diameter * COARSEST).then_some(Self { unit, origin })
     }
 
-    /// A unit's length, mm: a power of two.
+    /// The length of a unit, mm: a power of two.
     #[must_use]
     pub const fn unit(&self) -> f32 {
         self.unit
     }
 
-    /// Where places are counted from, mm.
+    /// The origin of places, mm.
     #[must_use]
     pub const fn origin(&self) -> DVec3 {
         self.origin
@@ -98,19 +99,19 @@ impl Scale {
         ControlPoint { x: at.x, y: at.y, z: at.z, halves: place.halves }
     }
 
-    /// Where so many units from the origin are, mm.
+    /// The position `units` from the origin, mm.
     #[must_use]
     pub fn position(&self, units: IVec3) -> DVec3 {
         self.origin + units.as_dvec3() * f64::from(self.unit)
     }
 
-    /// A way of so many mm, in units.
+    /// A vector in mm, rounded to units.
     #[must_use]
     pub fn units(&self, way: DVec3) -> IVec3 {
         (way / f64::from(self.unit)).round().as_ivec3()
     }
 
-    /// The step that a place takes for `step` mm, units.
+    /// A step in mm, rounded to units.
     #[must_use]
     #[inline]
     pub fn step(&self, step: Vec3) -> IVec3 {
@@ -118,7 +119,7 @@ impl Scale {
         IVec3::from_array(units.to_array().map(|units| (units + 0.5).floor() as i32))
     }
 
-    /// A way of so many units, mm.
+    /// A vector in units, in mm.
     #[must_use]
     #[inline]
     pub fn length(&self, units: IVec3) -> Vec3 {

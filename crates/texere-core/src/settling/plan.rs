@@ -3,54 +3,54 @@
 use glam::DVec3;
 
 use super::check::{check, limited, mean_diameter, scale, thickest};
-use super::pass::FREE_MOST;
+use super::length::FREE_MOST;
 use super::strand::{BEYOND, SettlingYarn, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
 use crate::backend::zeroed;
 use crate::definitions::tangent_factor;
 use crate::{BackendError, Ends};
 
-/// Intervals have at least so many chords.
+/// The least number of chords of an interval.
 const CHORDS_MIN: u32 = 2;
 
-/// And so many that their mean length is no longer than this share of the yarn's diameter there.
+/// The largest mean length of an interval's chords, as a share of the yarn's diameter there.
 const CHORD_MOST: f32 = 0.6;
 
-/// An interval has no more chords than that.
+/// The most chords of an interval.
 const CHORDS_MAX: f32 = 4096.0;
 
-/// Yarns have so many chords at most, and so many more for each control point. Those of usual cloth
-/// have 3 to 10 a point, cables of 12 over 12 loops 34. Loops of a metre of yarn as thin as 0.1 mm
+/// The most chords of all yarns: a number, and a number for each control point. Usual cloth has 3
+/// to 10 per point, cables of 12 over 12 loops 34. Loops with a metre of yarn as thin as 0.1 mm
 /// have 1,390: a settling of 16 of them took a minute.
 const CHORDS_FREE: u64 = 1 << 16;
 const CHORDS_A_POINT: u64 = 256;
 
-/// So many neighbours are listed at most, and so many more for each chord. Usual cloth has 1 to 6 a
-/// chord, cables of 12 over 12 loops 32, and of 20 over 20, which find no rest, 60. Underlaps over
-/// 511 needles of a cloth of four wales have 1,457.
+/// The most neighbours that are listed: a number, and a number for each chord. Usual cloth has 1 to
+/// 6 per chord, cables of 12 over 12 loops 32, and cables of 20 over 20, which find no rest, 60.
+/// Underlaps over 511 needles of a cloth of four wales have 1,457.
 const NEIGHBOURS_FREE: u64 = 1 << 20;
 const NEIGHBOURS_A_CHORD: u64 = 32;
 
-/// How much further apart than they touch at two chords may be and still be listed as neighbours,
-/// in mean diameters.
+/// The margin of the lists, in mean diameters: chords that are further than this from touching are
+/// not listed.
 pub const SKIN: f32 = 0.2;
 
-/// How much further a chord may move than its interval's control points do.
-pub const OVERSHOOT: f32 = 1.25;
+/// The movement of a chord over that of its interval's control points, at most.
+pub(super) const OVERSHOOT: f32 = 1.25;
 
-/// How many of everything a settling has.
+/// The counts of a settling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SettlingCounts {
     /// Control points.
     pub points: u64,
-    /// Places: control points and those that stand beyond yarns' ends.
+    /// Places: those of control points and those beyond yarns' ends.
     pub places: u64,
-    /// Chords by which neighbours are found.
+    /// Chords.
     pub chords: u64,
 }
 
-/// Counts, tables and places of a settling. Lengths of slices are [`SettlingCounts::places`] unless
-/// they say otherwise.
+/// The counts, tables and places of a settling. Slices have [`SettlingCounts::places`] elements
+/// unless they say otherwise.
 #[derive(Debug, Clone)]
 pub struct SettlingPlan {
     pub(crate) scale: Scale,
@@ -74,7 +74,7 @@ pub struct SettlingPlan {
 /// Lengths that all passes need, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spans {
-    /// Mean diameter of all control points.
+    /// The mean diameter of all control points.
     pub diameter: f32,
     /// The largest half width or half height.
     pub thickest: f32,
@@ -85,7 +85,7 @@ pub struct Spans {
 }
 
 impl SettlingPlan {
-    /// Plans a settling.
+    /// The plan of a settling, which is checked.
     ///
     /// **Errors**: [`SettlingError`] for ends, repeats, pins or settings that are not sound, and
     /// for cloths too large.
@@ -141,14 +141,14 @@ impl SettlingPlan {
         Ok(plan)
     }
 
-    /// How many of everything there is.
+    /// The counts of the settling.
     #[must_use]
     pub const fn counts(&self) -> SettlingCounts {
         self.counts
     }
 
-    /// Whether so many neighbours of all chords may be listed: as many as chords of usual cloth
-    /// have, many times over.
+    /// Checks that this number of neighbours of all chords may be listed. The limit is many times
+    /// that of usual cloth.
     ///
     /// **Errors**: [`BackendError::Crowded`].
     pub fn allow_neighbours(&self, neighbours: u64) -> Result<(), BackendError> {
@@ -157,7 +157,7 @@ impl SettlingPlan {
         if neighbours > limit { Err(BackendError::Crowded { chords, limit }) } else { Ok(()) }
     }
 
-    /// What a unit of places is.
+    /// The scale of places.
     #[must_use]
     pub const fn scale(&self) -> &Scale {
         &self.scale
@@ -169,13 +169,13 @@ impl SettlingPlan {
         self.s
     }
 
-    /// What becomes of lengths.
+    /// The lengths that settling aims for.
     #[must_use]
     pub const fn length(&self) -> Length {
         self.length
     }
 
-    /// How far the plates lie apart, mm.
+    /// The distance of the plates, mm, if there are any.
     #[must_use]
     pub const fn plates(&self) -> Option<f32> {
         self.plates
@@ -187,13 +187,13 @@ impl SettlingPlan {
         self.spans
     }
 
-    /// The repeat in x and y, units; 0 where nothing repeats.
+    /// The repeat in x and y, units; 0 for none.
     #[must_use]
     pub const fn period(&self) -> [i32; 2] {
         self.period
     }
 
-    /// Repeats in a mm along x and y; 0 where nothing repeats.
+    /// Repeats per mm along x and y; 0 for none.
     #[must_use]
     pub const fn frequency(&self) -> [f32; 2] {
         self.frequency
@@ -205,7 +205,7 @@ impl SettlingPlan {
         &self.strands
     }
 
-    /// What each place is: bits of [`tag`].
+    /// The tags of each place: bits of [`tag`].
     #[must_use]
     pub fn tags(&self) -> &[u32] {
         &self.tags
@@ -230,21 +230,21 @@ impl SettlingPlan {
         &self.lengths
     }
 
-    /// How far along its yarn each chord begins and ends, in units of [`Spans::along`]: as many as
-    /// chords.
+    /// The start and the end of each chord along its yarn, in units of [`Spans::along`]. One
+    /// element per chord.
     #[must_use]
     pub fn along(&self) -> &[[u32; 2]] {
         &self.along
     }
 
-    /// Where everything is at the start.
+    /// The places at the start.
     #[must_use]
     pub fn places(&self) -> &[Place] {
         &self.places
     }
 
-    /// Writes the places of control points, `points`, with those beyond yarns' ends between them to
-    /// `places`.
+    /// Writes the places of control points, `points`, to `places`, with those beyond yarns' ends
+    /// between them.
     pub fn pad(&self, points: impl IntoIterator<Item = Place>, places: &mut [Place]) {
         let mut points = points.into_iter();
         for strand in &self.strands {
@@ -257,7 +257,8 @@ impl SettlingPlan {
         }
     }
 
-    /// Writes the places of control points alone, out of those that [`SettlingPlan::pad`] writes.
+    /// Writes only the places of control points to `points`, from `places` as [`SettlingPlan::pad`]
+    /// writes them.
     pub fn unpad(&self, places: &[Place], points: &mut [Place]) {
         let mut own = points;
         for strand in &self.strands {
@@ -267,7 +268,7 @@ impl SettlingPlan {
         }
     }
 
-    /// Makes the places beyond a yarn's ends anew.
+    /// Renews the places beyond a yarn's ends.
     pub fn renew_ends(&self, strand: &SettlingYarn, places: &mut [Place]) {
         let (first, count) = (strand.first as usize, strand.points as usize);
         let last = first + count - 1;
@@ -291,8 +292,8 @@ impl SettlingPlan {
         Interval::new(&window, &self.scale, self.s)
     }
 
-    /// What control points count, where one of the four stands beyond an open yarn's end: those
-    /// that it is made of count instead.
+    /// The weights of an interval's four control points without virtual ends: the weight of a point
+    /// beyond an open yarn's end goes to the points that it is made of.
     #[must_use]
     #[inline]
     pub fn folded(tags: u32, mut weights: [f32; 4]) -> [f32; 4] {
@@ -330,14 +331,14 @@ impl SettlingPlan {
         }
     }
 
-    /// Lengths, how far along its yarn each interval begins, and into how many chords it is cut.
+    /// Works out the lengths of intervals, their chords, and the positions of chords along yarns.
     fn measure(&mut self, length: Length) -> Result<(), SettlingError> {
         let thinnest = self.places.iter().zip(&self.tags).filter(|(_, tags)| **tags & tag::POINT != 0);
         let thinnest = thinnest
             .map(|(place, _)| 2.0 * place.halves.width().min(place.halves.height()))
             .fold(f32::INFINITY, f32::min);
         let factor = if let Length::Given(factor) = length { factor } else { 1.0 };
-        // As long as it may become.
+        // The longest that the interval may become.
         let most = if let Length::Free { .. } = length { FREE_MOST } else { factor };
         let mut chords = 0_u64;
         for place in 0..self.places.len() {
@@ -390,7 +391,7 @@ impl SettlingPlan {
         Ok(())
     }
 
-    /// A repeat has to be so long that a chord can't meet two images of another.
+    /// Checks that the repeat is so long that no chord can meet two images of another.
     fn check_repeat(&self, repeat: [f32; 2]) -> Result<(), SettlingError> {
         let least = self.least_repeat();
         for (axis, repeat) in ['x', 'y'].into_iter().zip(repeat) {
@@ -402,10 +403,10 @@ impl SettlingPlan {
         Ok(())
     }
 
-    /// The shortest repeat that is taken, mm: of two chords that are neighbours the middles are
-    /// then nearer than half of it.
+    /// The shortest repeat that is accepted, mm: the middles of two neighbouring chords are then
+    /// nearer than half of it.
     #[must_use]
-    pub fn least_repeat(&self) -> f32 {
+    fn least_repeat(&self) -> f32 {
         let Spans { diameter, thickest, longest_chord, .. } = self.spans;
         2.0 * (2.0 * MARGIN * thickest + SKIN * diameter + OVERSHOOT * longest_chord)
     }

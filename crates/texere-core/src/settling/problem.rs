@@ -1,24 +1,10 @@
-//! The problem: yarns, how they go on, and what is asked of their rest.
+//! The problem of a settling: yarns, their boundary, and the conditions of their rest.
 
+use super::Length;
 use crate::{Boundary, ControlPoint, Layout, Yarns};
 
-/// What settling does to the length of yarns.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Length {
-    /// Every interval keeps the length that it has, so that no yarn is drawn through.
-    Held,
-    /// Every interval is to have so many times the length that it has, 0.5 to 2.
-    Given(f32),
-    /// Yarns take the length that their course needs, evenly all along, and are drawn in by a
-    /// tension, in shares of their length a pass, while bends are still soft.
-    Free {
-        /// Tension, 0 for none, 0.1 at most.
-        tension: f32,
-    },
-}
-
-/// Yarns that are to come to rest: until they nowhere pierce one another, nowhere fold, and have
-/// the length that is asked for.
+/// The problem of yarns that are to come to rest: they nowhere pierce one another, nowhere fold,
+/// and have the length that is asked for.
 ///
 /// ```
 /// use texere_core::settling::{Settling, SettlingPlan};
@@ -42,8 +28,8 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// Yarns that lie free, keep their length and are not pressed. Of yarns that settle the
-    /// [tension](crate::Layout::tension) is 0.99 at most.
+    /// A problem of free yarns that keep their length and are not pressed. Yarns that settle have a
+    /// [tension](crate::Layout::tension) of at most 0.99.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
@@ -56,21 +42,21 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// How the cloth goes on at its edges: it may be a repeat in x, in y or in both.
+    /// Sets how the cloth goes on at its edges: it may be a repeat in x, in y or in both.
     #[must_use]
     pub fn boundary(mut self, boundary: Boundary) -> Self {
         self.boundary = boundary;
         self
     }
 
-    /// Control points that stay where they are, by number among all.
+    /// Sets the control points that stay in place, by their numbers among all.
     #[must_use]
     pub fn pinned(mut self, points: Vec<u64>) -> Self {
         self.pinned = points;
         self
     }
 
-    /// What becomes of lengths.
+    /// Sets the lengths that settling aims for.
     #[must_use]
     pub const fn length(mut self, length: Length) -> Self {
         self.length = length;
@@ -85,8 +71,8 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// The most passes of either form with yarns of their full thickness, 1 to a million. Forty in
-    /// which they grow come before.
+    /// Sets the largest number of passes of either form at full thickness, 1 to a million. Forty
+    /// passes in which yarns grow come first.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

@@ -1,4 +1,4 @@
-//! The course of a settling: how yarns grow, when neighbours are listed again, and when it is done.
+//! The course of a settling: the growth of yarns, the renewal of lists, and the end.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -12,58 +12,56 @@ use super::{
 use crate::backend::zeroed;
 use crate::{BackendError, ControlPoint};
 
-/// How thick yarns are at first, and in how many steps of how many passes they grow.
+/// The share of their thickness that yarns have at first, the number of steps in which they grow,
+/// and the passes of each step.
 const THIN: f32 = 0.25;
 const STEPS: u32 = 10;
 const STEP_PASSES: u32 = 4;
 
-/// Up to which share of the last stage what eases the way has its full strength, and from which on
-/// it has none.
+/// The shares of the last stage up to which the ease is full, and from which on there is none.
 const EASES: [f32; 2] = [0.3, 0.6];
 
-/// How far points are moved at the start, in diameters: symmetrical yarns may balance where they
-/// can't stay.
+/// The random move of points at the start, in diameters. Symmetric yarns could otherwise balance at
+/// a place that is no rest.
 const JITTER: f32 = 0.01;
 
-/// Yarns are clear of one another where their distance over both reaches is that.
+/// The distance over both reaches from which on yarns count as clear.
 const CLEAR: f32 = 0.995;
 
 /// The share of [`BEND_RADIUS`] that bends have to keep.
 const BENT: f32 = 0.99;
 
-/// By how much the length of an interval may differ from what it is to be.
+/// The largest difference of an interval's length from the one asked for, as a share of it.
 const LENGTH: f32 = 0.01;
 
-/// The weighted form has stalled where so many passes have not taken a tenth off what is lacking.
+/// The weighted form has stalled if this number of passes has not reduced the lack to this share.
 const STALLS: u32 = 20;
 const STALLED: f32 = 0.9;
 
-/// What came of a settling.
+/// The result of a settling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rest {
-    /// Whether everything that is asked of rest is so.
+    /// Whether all conditions of rest are met.
     pub at_rest: bool,
-    /// Passes in all, and those of the block form among them.
+    /// All passes, with those of the block form.
     pub passes: u32,
     /// The passes of the block form.
     pub block_passes: u32,
-    /// How often neighbours were listed.
+    /// The number of times that neighbours were listed.
     pub lists: u32,
-    /// Neighbours that were listed last, of all chords.
+    /// The number of neighbours in the last lists, of all chords.
     pub neighbours: u64,
-    /// What was seen at the start.
+    /// The measures at the start.
     pub start: SettlingSeen,
-    /// What is seen at the end.
+    /// The measures at the end.
     pub end: SettlingSeen,
 }
 
-/// Settles on a device, and leaves there the best places that were seen: by clearance, then by
-/// bends, then by length. `watch` sees every pass; where it breaks off, the best until then are
-/// left.
+/// Settles on a device, and leaves the best places there: best by clearance, then by bends, then by
+/// length. `watch` sees every pass. If it breaks off, the best places until then are left.
 ///
-/// Yarns grow from a quarter of their thickness, and bends are soft at first. The weighted form of
-/// the pass goes on until all is at rest or until it stalls; then the block form does, with as many
-/// passes at most.
+/// Yarns grow from a quarter of their thickness, and bends are soft at first. The weighted form
+/// goes on until rest or until it stalls. Then the block form follows, with at most as many passes.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(
@@ -90,11 +88,10 @@ struct Run<'a, W> {
     watch: W,
     /// Whether `watch` has broken off.
     stopped: bool,
-    /// The growth at which neighbours were listed last, and how far points have moved at most
-    /// since, mm.
+    /// The growth at which neighbours were listed last, and the sum of the longest moves since, mm.
     listed: f32,
     moved: f32,
-    /// What was lacking when a tenth was last taken off it, and in which pass that was.
+    /// The lack when a tenth was last taken off it, and the pass in which that was.
     lacked: (f32, u32),
     rest: Rest,
 }
@@ -103,7 +100,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     fn whole(mut self) -> Result<Rest, BackendError> {
         let places: Vec<Place> = own_places(self.plan).map(|(place, _)| *place).collect();
         self.settler.upload(&places)?;
-        // As they are, to come back to if nothing better is found.
+        // The first pass measures the yarns as they are. They come back if nothing better is found.
         let start = self.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 0.0, momentum: 0.0 })?;
         self.settler.keep()?;
         (self.rest.start, self.rest.end) = (start, start);
@@ -134,7 +131,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         self.ended()
     }
 
-    /// Makes a pass, with neighbours listed anew where some may be missing.
+    /// Makes a pass. Lists neighbours again first if some may be missing.
     fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         let spans = self.plan.spans();
         let grown = 2.0 * MARGIN * spans.thickest * (pass.growth - self.listed).max(0.0);
@@ -150,10 +147,10 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         Ok(seen)
     }
 
-    /// Keeps what was seen if it is the best so far, and says whether it is at rest.
+    /// Keeps the places if they are the best so far, and returns whether they are at rest.
     fn weigh(&mut self, seen: &SettlingSeen) -> Result<bool, BackendError> {
         self.rest.at_rest = self.is_rest(seen);
-        // Where lengths are free nothing is asked of them.
+        // Free lengths do not count.
         let asked =
             |seen: &SettlingSeen| if self.holds() { *seen } else { SettlingSeen { length: 0.0, ..*seen } };
         if self.rest.at_rest || asked(seen).is_better_than(&asked(&self.rest.end)) {
@@ -163,7 +160,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         Ok(self.rest.at_rest)
     }
 
-    /// Whether what is lacking has hardly become less in the last passes.
+    /// Whether the lack has hardly changed in the last passes.
     fn has_stalled(&mut self, seen: &SettlingSeen, number: u32) -> bool {
         let lack = self.lack(seen);
         if lack < STALLED * self.lacked.0 {
@@ -176,7 +173,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         self.lack(seen) <= 0.0
     }
 
-    /// How much is lacking to rest: the largest share of all that is asked.
+    /// The lack to rest: the largest of the shares that are lacking.
     fn lack(&self, seen: &SettlingSeen) -> f32 {
         seen.lack().max(if self.holds() { seen.length - LENGTH } else { f32::NEG_INFINITY })
     }
@@ -192,10 +189,11 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     }
 }
 
-/// Passes until yarns have their full thickness.
+/// The passes until yarns have their full thickness.
 const GROWING: u32 = STEPS * STEP_PASSES;
 
-/// What pass `number` is made with, where `passes` are made at full thickness.
+/// The settings of pass number `number` of the weighted form, if `passes` are made at full
+/// thickness.
 fn weighted(number: u32, passes: u32) -> Pass {
     let step = (number / STEP_PASSES).min(STEPS);
     let growth = THIN + (1.0 - THIN) * (step as f32 / STEPS as f32);
@@ -204,7 +202,7 @@ fn weighted(number: u32, passes: u32) -> Pass {
     Pass { form: Form::Weighted, growth, ease, momentum: 0.8 }
 }
 
-/// The places of control points, and what they are.
+/// The places of control points, with their tags.
 fn own_places(plan: &SettlingPlan) -> impl Iterator<Item = (&Place, u32)> {
     let all = plan.places().iter().zip(plan.tags().iter().copied());
     all.filter(|(_, tags)| tags & tag::POINT != 0)
@@ -224,7 +222,7 @@ fn jittered(plan: &SettlingPlan) -> Vec<Place> {
     moved.collect()
 }
 
-/// A number from -1 to 1 that looks like chance, from `seed` (Wellons 2018, lowbias32).
+/// A pseudo-random number from -1 to 1 (Wellons 2018, lowbias32).
 fn hash(seed: u32) -> f32 {
     let mut bits = seed.wrapping_add(0x9e37_79b9);
     bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
@@ -233,8 +231,8 @@ fn hash(seed: u32) -> f32 {
     (bits >> 8) as f32 / (1 << 23) as f32 - 1.0
 }
 
-/// The control points where everything lies now. `points` are those that the plan was made of: one
-/// that has not moved is the same.
+/// The control points at the present places. `points` are those that the plan was made of: a point
+/// that has not moved is returned unchanged.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settled(
@@ -249,7 +247,7 @@ pub fn settled(
     Ok(now.map(|((now, start), point)| if now == start { *point } else { plan.scale().point(now) }).collect())
 }
 
-/// The control points where everything lies now, all by [`Scale::point`](super::Scale::point).
+/// The control points at the present places, all by [`Scale::point`](super::Scale::point).
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub(crate) fn points_of(settler: &mut dyn Settler) -> Result<Vec<ControlPoint>, BackendError> {
@@ -272,10 +270,10 @@ impl Rest {
 }
 
 impl SettlingSeen {
-    /// Whether it is better: by clearance in thousandths, where that is the same by the radius of
-    /// curvature in steps of 0.002 diameters, then by length in steps of 0.0005, and last by what
-    /// is lacking to rest. A clearance of 0.985 is enough, as are a radius of 0.585 diameters and a
-    /// length that is off by 1 %: what is more does not count.
+    /// Whether these measures are better than others: by clearance in steps of 0.001, then by the
+    /// radius of curvature in steps of 0.002 diameters, then by length in steps of 0.0005, and last
+    /// by the lack to rest. A clearance of 0.985, a radius of 0.585 diameters and a length that is
+    /// off by 1 % are enough: more does not count.
     #[must_use]
     pub fn is_better_than(&self, other: &Self) -> bool {
         self.rank() > other.rank()
@@ -291,16 +289,16 @@ impl SettlingSeen {
         ]
     }
 
-    /// How much is lacking to clear yarns and bends that are not too tight: the larger share.
+    /// The lack to clear yarns and to bends that are not too tight: the larger share of the two.
     fn lack(&self) -> f32 {
         (CLEAR - self.clearance).max(BENT - self.radius / BEND_RADIUS)
     }
 
-    /// Nothing yet.
+    /// The measures of no pass.
     pub const NOTHING: Self =
         Self { step: 0.0, clearance: f32::INFINITY, radius: f32::INFINITY, length: 0.0 };
 
-    /// What both have seen.
+    /// The measures of two passes or parts of a pass together.
     #[must_use]
     #[inline]
     pub const fn and(self, other: Self) -> Self {

@@ -1,4 +1,4 @@
-//! What a device does for a settling.
+//! The work of a device for a settling.
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -10,46 +10,48 @@ use super::{Pass, Place, SettlingPlan};
 use crate::BackendError;
 use crate::backend::zeroed;
 
-/// What a pass has seen, before any point took its step.
+/// The measures of a pass, taken before its points were moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SettlingSeen {
-    /// The longest step that a point has taken then, mm.
+    /// The longest step of a point in the pass, mm.
     pub step: f32,
     /// The least distance of two yarns over both reaches: 1 where they touch.
     pub clearance: f32,
     /// The least radius of curvature, in diameters of the yarn.
     pub radius: f32,
-    /// By how much an interval's length differs from what it is to be, at most: a share of it.
+    /// The largest difference of an interval's length from the one asked for, as a share of it.
     pub length: f32,
 }
 
-/// A settling on one device. [`settle`](super::settle) calls it, and keeps these rules:
+/// A settling on one device. [`settle`](super::settle) calls it and keeps these rules:
 ///
 /// - `upload` comes first, with as many places as the plan has control points.
-/// - `list` comes before the first pass, and again before any chord has moved so far, or yarns have
-///   grown so much, that neighbours may be missing.
+/// - `list` comes before the first pass. It comes again before chords have moved so far, or yarns
+///   have grown so much, that neighbours may be missing.
 ///
-/// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
+/// **Errors**: all methods return a [`BackendError`] for failures that could not be foreseen, and
+/// for nothing else.
 pub trait Settler: Any + Debug + Send {
-    /// The plan that it works on.
+    /// The plan of the settler.
     fn plan(&self) -> &Arc<SettlingPlan>;
 
-    /// Takes the places of all control points, with the halves that the plan has. Sets all steps to
+    /// Takes the places of all control points, with the sizes that the plan has. Sets all steps to
     /// zero, and lengths to the plan's.
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
 
-    /// Finds every chord's neighbours while yarns have `growth` of their thickness. Gives back how
-    /// many there are in all.
+    /// Lists every chord's neighbours for yarns of `growth` of their thickness. Returns their
+    /// number in all.
     fn list(&mut self, growth: f32) -> Result<u64, BackendError>;
 
     /// Moves every control point once.
     fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError>;
 
-    /// Keeps the places that the last pass has seen, before it moved them, in place of any others.
+    /// Keeps the places that the last pass has measured, before it moved them, in place of any kept
+    /// before.
     fn keep(&mut self) -> Result<(), BackendError>;
 
-    /// Goes back to the places that were kept, if any were, and sets all steps to zero. Lengths
-    /// stay as they are, and neighbours have to be listed again before a pass.
+    /// Goes back to the kept places, if there are any, and sets all steps to zero. Lengths stay,
+    /// and neighbours have to be listed again before a pass.
     fn recall(&mut self) -> Result<(), BackendError>;
 
     /// Writes the present places of all control points.
@@ -57,7 +59,7 @@ pub trait Settler: Any + Debug + Send {
 
     /// The least and the greatest x, y and z of all control points' present places, units.
     ///
-    /// Provided: reads them all.
+    /// Provided: reads all places.
     fn bounds(&mut self) -> Result<[[i32; 3]; 2], BackendError> {
         let mut places: Vec<Place> = zeroed("control points at rest", self.plan().counts().points)?;
         self.read(&mut places)?;

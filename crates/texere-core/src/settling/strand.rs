@@ -1,13 +1,13 @@
-//! A yarn's places, and what is known of each.
+//! The places of a yarn, and their tags.
 
 use crate::Ends;
 
-/// Places that stand for those beyond a yarn's ends: one before it and two behind it.
-pub const BEYOND: [u64; 2] = [1, 2];
+/// The number of places beyond a yarn's ends: one before it and two behind it.
+pub(super) const BEYOND: [u64; 2] = [1, 2];
 
-/// What is known of a place beside where it is.
+/// The tags of places.
 pub mod tag {
-    /// A control point; others stand beyond a yarn's ends.
+    /// A control point's place. Other places lie beyond a yarn's ends.
     pub const POINT: u32 = 1;
     /// An interval begins here.
     pub const INTERVAL: u32 = 2;
@@ -15,31 +15,31 @@ pub mod tag {
     pub const OPENS: u32 = 4;
     /// The last interval of an open yarn.
     pub const ENDS: u32 = 8;
-    /// It stays where it is.
+    /// The place stays fixed.
     pub const PINNED: u32 = 16;
 }
 
-/// Where a yarn's places lie, and how it goes on.
+/// The places of a yarn, and how it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SettlingYarn {
     /// Its first control point's place.
     pub first: u32,
     /// Its control points.
     pub points: u32,
-    /// How it goes on.
+    /// The ends: how the yarn goes on.
     pub ends: Ends,
     /// Its length, in units of [`Spans::along`](super::Spans::along).
     pub length: u32,
 }
 
 impl SettlingYarn {
-    /// How many intervals it has.
+    /// The number of intervals.
     #[must_use]
     pub const fn intervals(&self) -> u32 {
         self.ends.intervals(self.points as usize) as u32
     }
 
-    /// How many repeats away it goes on.
+    /// The distance, in repeats, at which the yarn goes on. `None` if it is open.
     #[must_use]
     pub const fn shift(&self) -> Option<[i32; 2]> {
         match self.ends {
@@ -49,8 +49,8 @@ impl SettlingYarn {
         }
     }
 
-    /// The place of interval `interval`, counted from its first one, which may be before or behind
-    /// it; none where it has none.
+    /// The place of interval number `interval`, counted from the first one. The number may lie
+    /// before the first or after the last. `None` if the yarn has no such interval.
     #[must_use]
     pub fn interval(&self, interval: i64) -> Option<usize> {
         let count = i64::from(self.intervals());

@@ -1,17 +1,17 @@
-//! What can be wrong with yarns.
+//! Errors of yarns.
 
 use thiserror::Error;
 
 use crate::{SectionError, counted};
 
-/// Invalid yarns. Yarns and points are counted from 0, as in the slices they came from.
+/// Invalid yarns. Yarns and points are counted from 0.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum YarnError {
-    /// There is no yarn at all.
+    /// There are no yarns.
     #[error("no yarns")]
     NoYarns,
-    /// Offsets must be one more than yarns.
+    /// There must be one more offset than yarns.
     #[error("{offsets} for {yarns}, which need one more than yarns", offsets = counted(*.offsets, "offset"), yarns = counted(*.yarns, "yarn"))]
     OffsetCount {
         /// Offsets given.
@@ -49,7 +49,7 @@ pub enum YarnError {
         /// Planned.
         planned: u64,
     },
-    /// Sources must be one per control point.
+    /// There must be one source per control point.
     #[error("{sources} for {points}", sources = counted(*.sources, "source"), points = counted(*.points, "control point"))]
     SourceCount {
         /// Given.
@@ -57,7 +57,7 @@ pub enum YarnError {
         /// Needed.
         points: usize,
     },
-    /// Up directions must be one per control point.
+    /// There must be one up direction per control point.
     #[error("{ups} for {points}", ups = counted(*.ups, "up direction"), points = counted(*.points, "control point"))]
     UpCount {
         /// Given.
@@ -65,7 +65,7 @@ pub enum YarnError {
         /// Needed.
         points: usize,
     },
-    /// An up direction must have one.
+    /// An up direction must not be zero, infinite or NaN.
     #[error("the up direction of point {point} of yarn {yarn} is {up:?}, which points nowhere")]
     Up {
         /// The yarn, from 0.
@@ -89,12 +89,12 @@ pub enum YarnError {
         /// That of the others.
         tension: f32,
     },
-    /// There is no such yarn.
+    /// There is no yarn of this number.
     #[error("no yarn {yarn}; there are {yarns}")]
     UnknownYarn {
-        /// Asked for.
+        /// The number asked for.
         yarn: usize,
-        /// How many there are.
+        /// The number that exist.
         yarns: usize,
     },
     /// A yarn refers to a material that is missing.
@@ -104,7 +104,7 @@ pub enum YarnError {
         yarn: usize,
         /// Its material.
         material: u32,
-        /// How many there are.
+        /// The number that exist.
         materials: usize,
     },
     /// A yarn refers to a section that is missing.
@@ -114,35 +114,35 @@ pub enum YarnError {
         yarn: usize,
         /// Its section.
         section: u32,
-        /// How many there are.
+        /// The number that exist.
         sections: usize,
     },
     /// A section with invalid parameters.
     #[error("section {section} is not sound")]
     Section {
-        /// Which one.
+        /// Its number.
         section: usize,
         /// Why.
         source: SectionError,
     },
-    /// A twist that is not finite or too steep.
+    /// A twist that is not finite or too large.
     #[error("yarn {yarn} has a twist of {twist} rad/mm, beyond ±{limit}")]
     Twist {
         /// The yarn.
         yarn: usize,
         /// Its twist, rad/mm.
         twist: f32,
-        /// The steepest taken.
+        /// The largest accepted.
         limit: f32,
     },
-    /// A hairiness that is not a number, below 0 or beyond what is taken.
+    /// A hairiness that is NaN, below 0 or too large.
     #[error("material {material} has a hairiness of {hairiness}, which is not between 0 and {limit}")]
     Hairiness {
         /// The material.
         material: usize,
         /// Its hairiness, Uster's H.
         hairiness: f32,
-        /// The most taken.
+        /// The largest accepted.
         limit: f32,
     },
     /// A control point with NaN or infinity in it.
@@ -152,7 +152,7 @@ pub enum YarnError {
         yarn: usize,
         /// The point.
         point: usize,
-        /// Which component.
+        /// The component.
         field: &'static str,
         /// Its value.
         value: f32,
@@ -164,27 +164,27 @@ pub enum YarnError {
         yarn: usize,
         /// The point.
         point: usize,
-        /// Which component.
+        /// The component.
         field: &'static str,
         /// Its value, mm.
         value: f32,
-        /// The furthest taken, mm.
+        /// The largest accepted, mm.
         limit: f32,
     },
-    /// A half width or half height that is zero, negative, or no yarn's.
+    /// A half width or half height that is too small, negative or too large.
     #[error("{field} of point {point} of yarn {yarn} is {size} mm, outside {low} to {high} mm")]
     Size {
         /// The yarn.
         yarn: usize,
         /// The point.
         point: usize,
-        /// Which of the two.
+        /// Half width or half height.
         field: &'static str,
-        /// What it is, mm; infinite for more than a half float holds.
+        /// Its value, mm. Infinite if it is more than a half float holds.
         size: f32,
-        /// Thinnest taken, mm.
+        /// The least accepted, mm.
         low: f32,
-        /// Thickest taken, mm.
+        /// The largest accepted, mm.
         high: f32,
     },
 }

@@ -8,10 +8,10 @@ use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, Crossi
 
 use crate::crossings::{CrossingsMemory, step};
 
-/// Crossings that a core takes at a time.
+/// Crossings of one rayon item.
 const TASK: usize = 256;
 
-/// All cores.
+/// The settler of crossings on all cores.
 #[derive(Debug)]
 pub(crate) struct ParallelCrossings(pub(crate) CrossingsMemory);
 
@@ -35,7 +35,7 @@ impl CrossingsSettler for ParallelCrossings {
                 numbered.map(|(number, (crossing, next))| step(plan, pass, found, number, crossing, next));
             seen.fold(CrossingsSeen::NOTHING, CrossingsSeen::and)
         });
-        // The greatest and the least are the same in any order.
+        // Maxima and minima do not depend on the order.
         let seen = seen.reduce(|| CrossingsSeen::NOTHING, CrossingsSeen::and);
         self.0.end_pass();
         Ok(seen)

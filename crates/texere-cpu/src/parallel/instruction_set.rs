@@ -1,4 +1,4 @@
-//! Which vector instructions the parallel backend uses, found out at run time.
+//! The vector instructions that the parallel backend uses, detected at run time.
 
 use std::ffi::OsStr;
 
@@ -14,7 +14,7 @@ use super::simd::{Job, Simd};
 /// A set of vector instructions that this processor has.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum InstructionSet {
-    /// What every processor of the target has.
+    /// Instructions that every processor of the target has.
     Portable(Portable),
     /// x86-64 with AVX2.
     #[cfg(target_arch = "x86_64")]

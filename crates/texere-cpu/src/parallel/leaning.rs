@@ -1,5 +1,5 @@
-//! Yarns whose outlines lean, by the reference's own functions. All blocks of a call are of one
-//! yarn and follow each other.
+//! Yarns whose outlines lean. They are rare, and made by the reference's own functions. The blocks
+//! of a call are consecutive blocks of one yarn.
 
 use texere_core::Vertex;
 use texere_core::backend::{BLOCK_RINGS, Block};
@@ -16,7 +16,7 @@ pub(super) fn rings(work: &Work, blocks: &[Block], out: &mut [Ring]) {
     }
 }
 
-/// Vertices and indices; `indices` is empty where none are wanted.
+/// Makes vertices and indices. `indices` is empty where none are wanted.
 pub(super) fn mesh(work: &Work, blocks: &[Block], vertices: &mut [Vertex], indices: &mut [u32]) {
     let (plan, sides) = (&work.plan, work.plan.settings().sides);
     let outline = plan.outline(plan.yarn(blocks[0].yarn as usize).section as usize);

@@ -1,8 +1,8 @@
 //! Output in whole cache lines, which can go past the caches.
 //!
-//! A line that is written past the caches costs no read before it, but only so many such lines can
-//! be under way. They are sent a few at a time between other work, so that the processor need not
-//! wait for memory.
+//! A line that is written past the caches needs no read before it. But only few such lines can be
+//! under way, so they are sent a few at a time between other work, and the processor need not wait
+//! for memory.
 
 use std::ops::Range;
 
@@ -10,10 +10,10 @@ use super::runs::take;
 use super::simd::{Floats, Integers, LANES_MAX, LINE, Line, Simd};
 use super::vertices::OVERHANG;
 
-/// Where the lines of a slice go, in order.
+/// A slice of the output, split into whole lines.
 #[derive(Debug)]
 pub(super) struct Lines<'a> {
-    /// What lies before the first whole line, and after the last.
+    /// The floats before the first whole line; `tail` has those after the last.
     pub(super) head: &'a mut [f32],
     pub(super) tail: &'a mut [f32],
     pub(super) lines: &'a mut [Line],
@@ -28,21 +28,20 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Vertices on their way.
+/// Vertices on their way to the output.
 ///
-/// They are written to scratch memory, where they lie as they will lie in memory: lines start at
-/// multiples of a line's length. Whole lines are sent, half of them at once and half while the next
-/// rings are worked out, and what is left moves to the front of a second scratch memory, which
-/// takes turns with the first. Each is that of one vector of rings, so that both stay in the
-/// nearest cache.
+/// They are written to scratch memory, aligned there as they will be in the output. Whole lines are
+/// sent from it: half of them at once, half while the next rings are worked out. What is left moves
+/// to the front of a second scratch memory, which takes turns with the first. Each holds one vector
+/// of rings, so both stay in the nearest cache.
 #[derive(Debug)]
 pub(super) struct VertexLines<'a> {
     out: Lines<'a>,
     scratch: &'a mut [f32],
     other: &'a mut [f32],
-    /// Where in the scratch memory the next vertices go.
+    /// Index in the scratch memory at which the next vertices go.
     end: usize,
-    /// What of the other scratch memory is still to be sent.
+    /// The lines of the other scratch memory that are still to be sent.
     waiting: Range<usize>,
     /// Whether the first line is still to be sent.
     starts: bool,
@@ -61,14 +60,14 @@ impl<'a> VertexLines<'a> {
         Self { starts: end > 0, end, out, scratch, other, waiting: 0..0 }
     }
 
-    /// Where the next vertices go. A few floats after them may be overwritten.
+    /// The memory for the next vertices. A few floats behind them may be overwritten.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self) -> &mut [f32] {
         &mut self.scratch[self.end..]
     }
 
-    /// Begins to send `floats` values that have been written, once what waited before is on its
-    /// way.
+    /// Begins to send `floats` values that have been written. What waited before must have been
+    /// sent.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn send(&mut self, simd: impl Simd, floats: usize) {
         let mut first = 0;
@@ -88,7 +87,7 @@ impl<'a> VertexLines<'a> {
         }
     }
 
-    /// Sends what waits.
+    /// Sends the lines that wait.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn send_waiting(&mut self, simd: impl Simd) {
         let waiting = std::mem::take(&mut self.waiting);
@@ -120,7 +119,8 @@ impl<'a> VertexLines<'a> {
     }
 }
 
-/// The index pattern of some rings that are whole lines, and the start of the next one.
+/// The index pattern of [`INDEX_RINGS`] rings, which are whole lines, and the start of the next
+/// rings'.
 #[derive(Debug)]
 pub(super) struct IndexTable {
     table: Vec<u32>,
@@ -128,7 +128,8 @@ pub(super) struct IndexTable {
     growth: u32,
 }
 
-/// Rings whose indices are whole lines, whatever the sides: eight times six a side.
+/// Rings whose indices are whole lines, whatever the number of sides: a ring has six indices a
+/// side, and eight times six are three lines.
 const INDEX_RINGS: u32 = 8;
 
 impl IndexTable {
@@ -140,11 +141,11 @@ impl IndexTable {
     }
 }
 
-/// Indices on their way.
+/// Indices on their way to the output.
 #[derive(Debug)]
 pub(super) struct IndexLines<'a> {
     out: Lines<'a>,
-    /// The pattern from the first whole line on, over and over, each time with `base` grown by
+    /// The pattern from the first whole line on. It is repeated, each time with `base` grown by
     /// `growth`.
     pattern: &'a [[u32; LINE]],
     growth: u32,
@@ -154,8 +155,8 @@ pub(super) struct IndexLines<'a> {
 }
 
 impl<'a> IndexLines<'a> {
-    /// The indices of consecutive rings' quads, the first ring's vertices starting at
-    /// `first_vertex`.
+    /// The indices of the quads of consecutive rings. `first_vertex` is the first vertex of the
+    /// first ring.
     pub(super) fn new(out: &'a mut [u32], streams: bool, table: &'a IndexTable, first_vertex: u32) -> Self {
         let out = Lines::new(bytemuck::cast_slice_mut(out), streams);
         put(out.head, &table.table, first_vertex);

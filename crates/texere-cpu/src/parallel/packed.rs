@@ -1,19 +1,22 @@
-//! Packed vertices: those of a few blocks are made in memory that stays in the core's cache, packed
-//! there in lanes, and sent on in whole lines.
+//! Packed vertices. The vertices of a few blocks are made in memory that stays in the core's cache.
+//! There they are packed in lanes, and then sent on in whole lines.
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk};
 use texere_core::{PackedVertex, Quantum, Vertex};
 
+use super::instruction_set::InstructionSet;
 use super::lines::Lines;
+use super::maker::Maker;
+use super::mesh::{MeshJob, STREAM_BYTES};
 use super::runs::{MeshRun, vertex_runs};
 use super::simd::{Floats, IN_TURN, Integers, Job, LANES_MAX, LINE, Mask, Simd};
-use super::{InstructionSet, Maker, MeshJob, STREAM_BYTES};
 use crate::engine::Work;
 use crate::packed::caps;
 use crate::pages;
 
-/// Blocks that are made at a time: of six sides some 70 kB, with what they are packed to.
+/// Blocks that are made at a time: with six sides some 70 kB, together with what they are packed
+/// to.
 const BLOCKS: usize = 5;
 
 /// Words of a packed vertex.
@@ -46,11 +49,12 @@ pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut 
     caps(work, chunk, out);
 }
 
-/// The way of consecutive vertices to memory.
+/// Packs consecutive vertices and writes them to the output.
 struct PackJob<'a> {
     vertices: &'a [Vertex],
     quantum: Quantum,
-    /// Memory in between, for the words of as many vertices, whatever numbers their bits are.
+    /// Memory in between, for the words of as many vertices. Words are moved as the floats that
+    /// have their bits.
     words: &'a mut [f32],
     out: &'a mut [PackedVertex],
     streams: bool,
@@ -69,7 +73,7 @@ impl Job for PackJob<'_> {
         for (pairs, words) in vectors.zip(packed.chunks_exact_mut(2 * WORDS * S::LANES)) {
             pack(simd, pairs, quantum, words);
         }
-        // Less than a vector of pairs, but perhaps half a pair more.
+        // The rest is less than a vector of pairs, and perhaps half a pair more.
         let mut last = [Vertex::default(); 2 * LANES_MAX];
         last[..rest.len() / WORDS].copy_from_slice(&vertices[2 * whole..]);
         let mut room = [0.0; 2 * WORDS * LANES_MAX];
@@ -120,7 +124,7 @@ const _: () = assert!(Quantum::BITS == 21);
 #[cfg_attr(optimized, inline(always))]
 fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     let quanta = mm * simd.splat(quantum.per_mm());
-    // Of two as near either does: they are the same bits.
+    // Of two that are as near, either does: their lowest bits are the same.
     let turns = (quanta * simd.splat(1.0 / Quantum::WRAP) + simd.splat(0.5)).floor();
     let rest = quanta - turns * simd.splat(Quantum::WRAP);
     (rest + simd.splat(PackedVertex::ROUNDING)).to_bits().masked((1 << Quantum::BITS) - 1)

@@ -1,8 +1,8 @@
-//! Where rotation-minimising frames have nothing to do, told from the control points.
+//! A test on control points for yarns along which every step of the frame is zero.
 //!
-//! A thread that keeps to a plane of constant x, or of constant y, and never turns back there, as
-//! woven ones do, has its sides along that axis. Their products with chords and tangents are zero,
-//! so that each step is zero, to the bit.
+//! A woven thread keeps to a plane of constant x, or of constant y, and never turns back in it.
+//! Then its sides lie along that axis, their products with chords and tangents are zero, and each
+//! step of a rotation-minimising frame is zero, to the bit.
 
 use texere_core::definitions::NO_LENGTH;
 
@@ -10,23 +10,23 @@ use super::rings::{Source, Stretch};
 use super::simd::{Floats, Mask, Simd, difference};
 use super::spline::{neighbours, xyz};
 
-/// The least velocity along the plane, as a share of the interval's extent (the distances of its
-/// four points in all axes, added up), that counts as going on. It is far above the rounding of
-/// velocities (some 1e-5), at which one could seem to go backwards, and of what counts as standing
-/// still or as vertical (1e-6), where frames have rules of their own.
+/// The least velocity along the plane that counts as going on, as a share of the interval's extent:
+/// the distances of its four points in all axes, added up. It is far above the rounding of
+/// velocities (some 1e-5), at which a yarn could seem to turn back. It is also far above what
+/// counts as standing still or as vertical (1e-6), where frames have rules of their own.
 const ONWARD: f32 = 1e-3;
 
-/// The largest extent, mm: its square is well within the range of `f32`.
+/// The largest extent that is tested, mm. Its square is well within the range of `f32`.
 const EXTENT_MAX: f32 = 1e15;
 
-/// Whether every step between the rings of `stretch` is zero, as far as their frames go.
+/// Whether the frame's part of every step between the rings of `stretch` is zero.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
     let intervals = (plan.rings(stretch.yarn) - 1) / per_interval;
-    // An open yarn's last ring belongs to the interval that it ends, a closed yarn's to one after
-    // that.
+    // An open yarn's last ring belongs to the interval that it ends. A closed yarn's belongs to the
+    // interval after that.
     let last = if plan.yarn(stretch.yarn).closed { intervals } else { intervals - 1 };
     let end = ((stretch.first + stretch.count - 1) / per_interval).min(last) + 1;
     let mut first = stretch.first / per_interval;
@@ -45,11 +45,12 @@ pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stre
     true
 }
 
-/// The intervals, `LANES` from number `first` on, that go on forwards in x and backwards in x at
-/// constant y, forwards in y and backwards in y at constant x: a bit for each.
+/// Four masks of the `LANES` intervals from number `first` on: those that go forwards in x at
+/// constant y, backwards in x at constant y, forwards in y at constant x, and backwards in y at
+/// constant x.
 ///
-/// A cubic's velocity lies between the three values of its Bézier form, of which the outer ones are
-/// those at the ends.
+/// A cubic's velocity lies between the three values of its Bézier form. The outer two are the
+/// velocities at the ends.
 #[cfg_attr(optimized, inline(always))]
 fn ways_on<S: Simd>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> [u32; 4] {
     let [before, start, end, after] = neighbours(simd, points, first);
@@ -62,7 +63,7 @@ fn ways_on<S: Simd>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> [u32;
     let extent = spread[0] + spread[1] + spread[2];
     let sound = extent.less(simd.splat(EXTENT_MAX)).bits();
     let least = (extent * simd.splat(ONWARD)).max(simd.splat(10.0 * NO_LENGTH.sqrt()));
-    // No closures here: they would not be compiled for the instructions of the path.
+    // No closures here: they would not be compiled for the instructions of `simd`.
     for (axis, across) in [(0, 1), (1, 0)] {
         let (at_start, at_end) = ((b[axis] - a[axis]) * s, c[axis] * s);
         let between = b[axis] * simd.splat(3.0) - at_start - at_end;

@@ -1,8 +1,8 @@
 //! Stage 1 in lanes: consecutive rings of a yarn, a vector of them at a time.
 //!
 //! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the
-//! same. Where those branch for a rare case (a yarn at rest, a tangent along z, a yarn's last
-//! ring), the lanes only notice it, and the core's own functions are called for that ring.
+//! same. The core branches for rare cases: a yarn at rest, a tangent along z, a yarn's last ring.
+//! The lanes only notice such a case, and call the core's own functions for that ring.
 
 use texere_core::ControlPoint;
 use texere_core::backend::{Block, PaddedPoints, Plan};
@@ -11,17 +11,17 @@ use texere_core::definitions::{Basis, Ring, Sample, VERTICAL};
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
 use super::spline::{Cubics, Seats, all_round, held_size, xyz};
 
-/// What rings are made from.
+/// The input that rings are made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) plan: &'a Plan,
     pub(super) points: &'a PaddedPoints,
-    /// One for each place in an interval.
+    /// One for each place in an interval, at which a vector's first ring can lie.
     pub(super) seats: &'a [Seats],
 }
 
 impl<'a> Source<'a> {
-    /// The padded control points from `yarn`'s first one on.
+    /// The padded control points, from the first of `yarn` on.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn yarn(&self, yarn: usize) -> &'a [[f32; 4]] {
         let points = &self.points.points()[self.plan.padded_offsets()[yarn] as usize..];
@@ -33,8 +33,8 @@ impl<'a> Source<'a> {
     pub(super) fn all_round(&self, stretch: Stretch) -> bool {
         let (points, per_interval) = (self.yarn(stretch.yarn), self.seats.len());
         let first = stretch.first as usize / per_interval;
-        // The last ring's interval, and the three points after it; an open yarn's last ring has no
-        // interval of its own.
+        // The last ring's interval, and the three points after its first. An open yarn's last ring
+        // has no interval of its own.
         let end = (stretch.first + stretch.count - 1) as usize / per_interval + 4;
         all_round(&points[first..end.min(points.len())])
     }
@@ -49,7 +49,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// The rings of `blocks`, which are one yarn's and follow each other.
+    /// The rings of `blocks`, consecutive blocks of one yarn.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn of(blocks: &[Block]) -> Self {
         let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
@@ -57,8 +57,8 @@ impl Stretch {
     }
 }
 
-/// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all are
-/// taken for round.
+/// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all rings
+/// are taken for round.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) centre: [S::Floats; 3],
@@ -67,13 +67,14 @@ pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// The frame that the section stands in: turned by the roll where the yarn is round, upright
+    /// The frame of the section. It is turned by the roll where the yarn is round, and upright
     /// where it is flattened.
     pub(super) side: [S::Floats; 3],
     pub(super) up: [S::Floats; 3],
     /// Sine and cosine of the roll.
     pub(super) roll: (S::Floats, S::Floats),
-    /// Centre relative to the interval's start, and the interval's end: what chords are made of.
+    /// The centre relative to the interval's start, and the interval's end likewise: chords are
+    /// made of both.
     pub(super) offset: [S::Floats; 3],
     pub(super) span: [S::Floats; 3],
     /// Zero where an interval starts.
@@ -87,11 +88,12 @@ pub(super) struct Walk<'a, S: Simd, const FLATTENED: bool> {
     source: Source<'a>,
     stretch: Stretch,
     points: &'a [[f32; 4]],
-    /// How many rings of the stretch lie behind, and the next one's interval and place in it.
+    /// The number of rings of the stretch that are done, and the next ring's interval and place in
+    /// it.
     pub(super) done: u32,
     interval: usize,
     place: usize,
-    /// By how many intervals and places a vector goes on.
+    /// The intervals and places by which a vector advances.
     stride: (usize, usize),
     /// The cubics of the intervals from number `first_cubic` on.
     cubics: Cubics<S>,
@@ -119,13 +121,13 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         }
     }
 
-    /// How many rings there are in the next vector; 0 at the end.
+    /// The number of rings in the next vector; 0 at the end.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn left(&self) -> usize {
         ((self.stretch.count - self.done) as usize).min(S::LANES)
     }
 
-    /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
+    /// The next vector of rings. Lanes past the end of the stretch have no meaning.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self) -> Rings<S, FLATTENED> {
         let (simd, Source { plan, seats: at_place, .. }) = (self.simd, self.source);
@@ -157,7 +159,7 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         rings
     }
 
-    /// Has the core make those of the next rings whose bits are set in `rare`.
+    /// Lets the core make those of the next rings whose bits are set in `rare`.
     #[cfg_attr(optimized, inline(always))]
     fn mended(&self, rings: Rings<S, FLATTENED>, rare: u32) -> Rings<S, FLATTENED> {
         let mut fields = rings.fields();
@@ -175,12 +177,11 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
     }
 }
 
-/// What a ring that is mended has new.
+/// Fields of a ring that the core replaces.
 const FIELDS: usize = 16;
 
-/// The fields of a vector of rings in memory. They are aligned as vectors are, so that a compiler
-/// that finds them on the stack aligns the stack, and with it all vectors that it puts there for
-/// want of registers.
+/// The fields of a vector of rings in memory. They are aligned as vectors are. Then the compiler
+/// aligns the stack frame that holds them, and with it all vectors that it spills there.
 #[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
@@ -197,14 +198,14 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
         simd.scatter(sizes, &mut out[FLOATS / 3 * 2..], FLOATS);
     }
 
-    /// Those that are round, as `Ring::is_round` of the core has it.
+    /// The rings that are round, as `Ring::is_round` of the core defines it.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn round(&self) -> S::Mask {
         let apart = (self.half_width - self.half_height).abs();
         (apart + (self.width_growth - self.height_growth).abs()).is_zero()
     }
 
-    /// Those whose halves don't grow.
+    /// The rings whose halves don't grow.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn steady(&self) -> S::Mask {
         (self.width_growth.abs() + self.height_growth.abs()).is_zero()
@@ -230,9 +231,9 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     }
 }
 
-/// The seats of a stretch's last rings, whose others are `seats`: an open yarn's last ring lies at
-/// the end of the interval before. There is none where that ring is a vector's first: a bit for it
-/// that the core has to mend.
+/// The seats of a vector that ends an open yarn. The yarn's last ring lies at the end of the
+/// interval before; the others are `seats`. Where the last ring is the vector's first there is no
+/// such interval, and a bit says that the core has to make it.
 #[cold]
 #[inline(never)]
 fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {
@@ -270,8 +271,8 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
     }
 }
 
-/// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit
-/// for each that the core has to mend.
+/// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`. A bit is
+/// set for each ring that the core has to make.
 #[cfg_attr(optimized, inline(always))]
 fn upright<S: Simd, const FLATTENED: bool>(
     simd: S,

@@ -1,14 +1,14 @@
-//! Runs of blocks, each with its own stretch of the output: what one rayon item works on.
+//! Runs of blocks, each with its own part of the output. A run is the work of one rayon item.
 
 use texere_core::Vertex;
 use texere_core::backend::{Block, Chunk, MeshMut};
 use texere_core::definitions::Ring;
 
-/// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. Enough to make the hand-over
-/// cheap, few enough that a fabric of a few thousand rings still feeds several cores.
+/// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. That is enough to make the
+/// hand-over cheap, and few enough that a fabric of a few thousand rings still feeds several cores.
 const RUN_BLOCKS: usize = 32;
 
-/// A run of blocks and where their rings go.
+/// A run of blocks, and the output for their rings.
 pub(super) struct RingRun<'a> {
     pub(super) blocks: &'a [Block],
     /// Number of the first ring of `rings` among the chunk's.
@@ -16,7 +16,7 @@ pub(super) struct RingRun<'a> {
     pub(super) rings: &'a mut [Ring],
 }
 
-/// A run of blocks and where their mesh goes.
+/// A run of blocks, and the output for their mesh.
 pub(super) struct MeshRun<'a> {
     pub(super) blocks: &'a [Block],
     /// Number of the first vertex of `vertices` among the chunk's, and of the first index of
@@ -61,7 +61,7 @@ pub(super) fn mesh_runs<'a>(
     chunk.blocks().chunks(RUN_BLOCKS).map(run).collect()
 }
 
-/// Runs of `each` blocks, and where what each of their vertices has goes.
+/// Runs of `each` blocks, each with the output for what its vertices have.
 pub(super) fn vertex_runs<'a, T>(
     chunk: &'a Chunk,
     each: usize,
@@ -81,14 +81,14 @@ fn ends(blocks: &[Block]) -> [&Block; 2] {
     [&blocks[0], &blocks[blocks.len() - 1]]
 }
 
-/// What no run has yet, from number `first` of the chunk's on.
+/// The part of the output that no run has yet, from number `first` of the chunk's on.
 struct Rest<'a, T> {
     first: u32,
     rest: &'a mut [T],
 }
 
 impl<'a, T> Rest<'a, T> {
-    /// The values from number `first` up to `end`. Between runs there may be some that none has.
+    /// Takes the values from number `first` up to `end`. Values between runs may belong to none.
     fn take(&mut self, first: u32, end: u32) -> &'a mut [T] {
         take(&mut self.rest, (first - self.first) as usize);
         self.first = end;

@@ -1,4 +1,4 @@
-//! Rolls: each block adds up its own steps, then a running sum along each yarn.
+//! Rolls. Each block adds up its own steps; then a running sum goes along each yarn's blocks.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ use crate::rolls::Rolls;
 /// Blocks that one rayon item goes along.
 const RUN_BLOCKS: u32 = 64;
 
-/// Their rings.
+/// Rings of these blocks.
 const RUN_RINGS: u32 = RUN_BLOCKS * BLOCK_RINGS;
 
 pub(super) fn scan(
@@ -58,9 +58,10 @@ pub(super) fn scan(
 struct Run<'a> {
     yarn: usize,
     first_ring: u32,
-    /// For each block, all its steps: to the next one's first ring, or to the yarn's last ring.
+    /// For each block, the sum of its steps: to the next block's first ring, or to the yarn's last
+    /// ring.
     blocks: &'a mut [Turn],
-    /// For each ring, the steps to it from its block's first ring.
+    /// For each ring, the sum of the steps to it from its block's first ring.
     rings: &'a mut [Turn],
 }
 
@@ -98,8 +99,8 @@ impl Job for ScanRun<'_> {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
         let (frame, twist) = (source.plan.frame(yarn), source.plan.turns_per_mm(yarn));
-        // Of so many rings from there on: one more than the blocks' own, unless the yarn ends,
-        // since the step to that one is the last block's.
+        // The blocks' own rings and, unless the yarn ends, the one after them: the step to it
+        // belongs to the last block.
         let stretch =
             |first: u32, rings: u32| Stretch { yarn, first, count: (rings + 1).min(of_yarn - first) };
         let mut first = first_ring;
@@ -124,7 +125,8 @@ impl Job for ScanRun<'_> {
     }
 }
 
-/// Adds up the steps between the rings of `stretch`: `rings`, and perhaps the one after them.
+/// Adds up the steps between the rings of `stretch`: those of `rings`, and perhaps the ring after
+/// them.
 #[cfg_attr(optimized, inline(always))]
 fn sums<S: Simd>(simd: S, source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
     // Rolls do not depend on sizes.

@@ -16,14 +16,14 @@ pub(super) struct Line(pub(super) [f32; LINE]);
 /// The most lanes that an implementation has.
 pub(super) const LANES_MAX: usize = 16;
 
-/// Entries one after the other, for [`Simd::rows`].
+/// Consecutive entries, for [`Simd::rows`].
 pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// A set of vector instructions, and proof that the processor has it.
 ///
 /// Only an implementation's own detection makes a value of the type. Vectors and masks are made
 /// with such a value or from other vectors, so they prove the same, and all methods are safe to
-/// call. The values have no size: passing them on costs nothing.
+/// call. The values have no size, so they cost nothing to pass on.
 ///
 /// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation
 /// gives the same bits.
@@ -40,7 +40,7 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// `LANES` values of `u32`.
     type Integers: Integers<Floats = Self::Floats, Mask = Self::Mask>;
 
-    /// Yes or no in each lane.
+    /// The mask with as many lanes.
     type Mask: Mask<Floats = Self::Floats>;
 
     /// Runs `job`, compiled for these instructions, as a function of its own.
@@ -61,7 +61,7 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// The four components of `LANES` points.
     fn components(self, points: &[[f32; 4]]) -> [Self::Floats; 4];
 
-    /// One row of the first `LANES` entries that `numbers` name: its four components.
+    /// Row `row` of each of the first `LANES` entries that `numbers` name, as four components.
     fn rows<const ROWS: usize>(
         self,
         table: &[[[f32; 4]; ROWS]],
@@ -72,27 +72,27 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// Tiles of four by four values, transposed: lane 4j + c of column q is lane 4j + q of row c.
     fn tiles(self, rows: [Self::Floats; 4]) -> [Self::Floats; 4];
 
-    /// Makes lines of columns: with n lines for every four lanes, line jn + i becomes lanes 4j to
-    /// 4j + 3 of columns 4i to 4i + 3. They go past the caches if `STREAM` says so and the
-    /// processor can.
+    /// Makes lines of columns. With n lines for every four lanes, line jn + i becomes lanes 4j to
+    /// 4j + 3 of columns 4i to 4i + 3. With `STREAM` they go past the caches, where the processor
+    /// can.
     fn arrange<const STREAM: bool>(self, columns: &[f32], lines: &mut [Line]);
 
     /// Stores lane l of row r at `out[l * stride + r]`.
     fn scatter(self, rows: [Self::Floats; 4], out: &mut [f32], stride: usize);
 
-    /// The same with eight rows.
+    /// Stores lane l of row r at `out[l * stride + r]`, for eight rows.
     #[cfg_attr(optimized, inline(always))]
     fn scatter_eight(self, [a, b, c, d, e, f, g, h]: [Self::Floats; 8], out: &mut [f32], stride: usize) {
         self.scatter([a, b, c, d], out, stride);
         self.scatter([e, f, g, h], &mut out[4..], stride);
     }
 
-    /// Copies a line past the caches, where the processor can: for outputs that no cache would hold
-    /// anyway. Other threads are sure to see the copy only after a [`Simd::fence`].
+    /// Copies a line past the caches, where the processor can. Other threads are sure to see the
+    /// copy only after a [`Simd::fence`].
     fn stream(self, from: &[f32; LINE], to: &mut Line);
 
-    /// Writes the line `base + table[i]`, `base` the same in all lanes, past the caches where the
-    /// processor can.
+    /// Writes the line `base + table[i]` past the caches, where the processor can. `base` is the
+    /// same in all lanes.
     fn stream_indices(self, table: &[u32; LINE], base: Self::Integers, to: &mut Line);
 
     /// Ends streaming: other threads see what was written.
@@ -115,10 +115,10 @@ pub(super) trait Floats:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// As many lanes of `u32`.
+    /// The vector of `u32` with as many lanes.
     type Integers;
 
-    /// Yes or no in each lane.
+    /// The mask with as many lanes.
     type Mask;
 
     /// Writes the lanes to the first places of a slice.
@@ -145,16 +145,18 @@ pub(super) trait Floats:
     /// `self == 0`
     fn is_zero(self) -> Self::Mask;
 
-    /// Lane l becomes lane `places[l]`; places are below the count of lanes.
+    /// Lane l takes the value of lane `places[l]`; places are below the number of lanes.
     fn permute(self, places: Self::Integers) -> Self;
 
-    /// Lane l becomes lane l - 1, the first lane the last one of `before`.
+    /// Lane l takes the value of lane l - 1; the first lane takes that of the last lane of
+    /// `before`.
     fn shift_in(self, before: Self) -> Self;
 
-    /// Lane l becomes lane l - 4, the first four lanes the last four of `before`.
+    /// Lane l takes the value of lane l - 4; the first four lanes take those of the last four of
+    /// `before`.
     fn shift_in_four(self, before: Self) -> Self;
 
-    /// Lanes that are whole numbers within the range of `i32`, as such.
+    /// Lanes as whole numbers of `i32`. They must be whole and in range.
     fn to_signed(self) -> Self::Integers;
 
     /// The lanes' bits.
@@ -163,10 +165,10 @@ pub(super) trait Floats:
 
 /// A vector of `u32`; sums and differences wrap.
 pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self> {
-    /// As many lanes of `f32`.
+    /// The vector of `f32` with as many lanes.
     type Floats;
 
-    /// Yes or no in each lane.
+    /// The mask with as many lanes.
     type Mask;
 
     /// Writes the lanes to the first places of a slice.
@@ -175,7 +177,7 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     /// The first lane.
     fn first(self) -> u32;
 
-    /// The same, but 0 in the first lane.
+    /// This vector with 0 in the first lane.
     fn without_first(self) -> Self;
 
     /// Each lane becomes the sum of itself and all lanes before it.
@@ -193,13 +195,13 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     /// `self >> BY`
     fn shift_right<const BY: i32>(self) -> Self;
 
-    /// `self >> BY`, of lanes taken as `i32`: copies of the sign come in.
+    /// `self >> BY` of lanes taken as `i32`, which shifts in copies of the sign.
     fn shift_right_signed<const BY: i32>(self) -> Self;
 
     /// `self & mask`
     fn masked(self, mask: u32) -> Self;
 
-    /// `self & bit != 0`, of one bit.
+    /// `self & bit != 0`, where `bit` is one bit.
     fn has_bit(self, bit: u32) -> Self::Mask;
 
     /// The nearest floats to lanes taken as `i32`.
@@ -209,19 +211,19 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     fn bit_cast(self) -> Self::Floats;
 }
 
-/// Yes or no in each lane.
+/// The mask with as many lanes.
 pub(super) trait Mask: Copy + Debug {
-    /// As many lanes of `f32`.
+    /// The vector of `f32` with as many lanes.
     type Floats;
 
     /// `yes` where the lane says so, else `no`.
     fn select(self, yes: Self::Floats, no: Self::Floats) -> Self::Floats;
 
-    /// A bit for each lane, the first lane's lowest.
+    /// A bit for each lane. The first lane's is the lowest.
     fn bits(self) -> u32;
 }
 
-/// Dot product, added up in the order of `Vec3::dot`.
+/// The dot product, added up in the order of `Vec3::dot`.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn dot<F: Floats>(a: [F; 3], b: [F; 3]) -> F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -269,13 +271,13 @@ pub(super) fn between<I: Integers>(from: [I; 3], to: [I; 3]) -> [I; 3] {
     [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
 }
 
-/// Within 0 and 1.
+/// `values`, limited to 0 to 1.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn share<S: Simd>(simd: S, value: S::Floats) -> S::Floats {
     value.max(simd.splat(0.0)).min(simd.splat(1.0))
 }
 
-/// The nearest whole numbers, of two the larger one.
+/// The nearest whole numbers; of two that are as near, the larger.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn rounded<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> [S::Integers; 3] {
     let half = simd.splat(0.5);

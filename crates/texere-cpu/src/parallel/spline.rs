@@ -1,12 +1,12 @@
-//! The spline in lanes: the cubics of consecutive intervals, and where on them rings lie.
+//! The spline in lanes: the cubics of consecutive intervals, and the places of rings on them.
 
 use texere_core::backend::Plan;
 use texere_core::definitions::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCITY};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot};
 
-/// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the
-/// first one's, and its parameter.
+/// The places of a vector of consecutive rings on their cubics: each ring's interval, counted from
+/// the first ring's, and its parameter.
 #[derive(Debug)]
 pub(super) struct Seats {
     pub(super) interval: [u32; LANES_MAX],
@@ -14,7 +14,7 @@ pub(super) struct Seats {
 }
 
 impl Seats {
-    /// Those for each place in an interval at which a vector's first ring can lie.
+    /// The seats for each place in an interval at which a vector's first ring can lie.
     pub(super) fn at_each_place(plan: &Plan) -> Vec<Self> {
         let (per_interval, step) = (plan.settings().subdivisions + 1, plan.sampling().step());
         let seats = |place: u32| Self {
@@ -32,21 +32,21 @@ pub(super) struct Cubics<S: Simd> {
     start: [S::Floats; 4],
     /// Position at t = 1, relative to the start.
     span: [S::Floats; 3],
-    /// What goes with t, t² and t³.
+    /// The coefficients of t, t² and t³.
     terms: [[S::Floats; 4]; 3],
-    /// A squared velocity that counts as none.
+    /// The largest squared velocity that counts as standing still.
     at_rest: S::Floats,
     /// The least half height.
     floor: S::Floats,
-    /// That of a round yarn means nothing: its half width is its half height.
+    /// Half widths. Those of a round yarn have no meaning: its half width is its half height.
     pub(super) half_width: Widths<S>,
 }
 
-/// The cubics of rings, a ring in each lane, at its own parameter.
+/// The spline at the places of rings, a ring in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sampled<S: Simd> {
     pub(super) start: [S::Floats; 4],
-    /// From the start, and the derivative there: position and half height.
+    /// Position and half height relative to the interval's start; `velocity` is their derivative.
     pub(super) offset: [S::Floats; 4],
     pub(super) velocity: [S::Floats; 4],
     pub(super) span: [S::Floats; 3],
@@ -55,7 +55,7 @@ pub(super) struct Sampled<S: Simd> {
 }
 
 impl<S: Simd> Cubics<S> {
-    /// The cubics of the intervals from number `first` on; interval j reads the padded points from
+    /// The cubics of the intervals from number `first` on. Interval j reads the padded points from
     /// number j on.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new<const FLATTENED: bool>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
@@ -119,8 +119,8 @@ impl<S: Simd> Widths<S> {
         Self { start, terms, floor: start.min(end) * simd.splat(RADIUS_FLOOR) }
     }
 
-    /// The size at `t` of each lane's interval, and its growth along the yarn, where `inverse` is
-    /// one over the speed.
+    /// The size at `t` of each lane's interval, and its growth along the yarn. `inverse` is one
+    /// over the speed.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn sample(
         &self,
@@ -135,7 +135,7 @@ impl<S: Simd> Widths<S> {
     }
 }
 
-/// A size that is held at `floor` and does not grow there, and its growth within the limit.
+/// A size and its growth, with both limits applied. At `floor` a size is held and does not grow.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn held_size<S: Simd>(
     simd: S,
@@ -148,8 +148,8 @@ pub(super) fn held_size<S: Simd>(
     (held.select(floor, size), held.select(simd.splat(0.0), growth.max(-limit).min(limit)))
 }
 
-/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at
-/// `a` and the one after next at `c`.
+/// The coefficients of t, t² and t³ between a point and the next. Relative to the point, `a` is the
+/// point before, `b` the next, and `c` the one after that.
 #[cfg_attr(optimized, inline(always))]
 fn coefficients<S: Simd>(simd: S, a: S::Floats, b: S::Floats, c: S::Floats, s: f32) -> [S::Floats; 3] {
     let (doubled, rest, less) = (simd.splat(2.0 * s), simd.splat(3.0 - 2.0 * s), simd.splat(s - 2.0));
@@ -170,14 +170,14 @@ fn cubic<S: Simd>(
     (value, c1 + (c2 * simd.splat(2.0) + c3 * (simd.splat(3.0) * t)) * t)
 }
 
-/// The low 16 bits of each lane, where the high ones were.
+/// Each lane's low 16 bits, moved to the high ones.
 #[cfg_attr(optimized, inline(always))]
 fn low_halves<F: Floats<Integers: Integers<Floats = F>>>(halves: F) -> F {
     halves.to_bits().shift_left::<16>().bit_cast()
 }
 
-/// The sizes at an interval's four points, which are half floats in the high 16 bits of `before`
-/// and `after`: each is worked out once, since the points between are other lanes of these.
+/// The sizes at an interval's four points. They are half floats in the high 16 bits of `before` and
+/// `after`. Each is converted once, since the points between are other lanes of these.
 #[cfg_attr(optimized, inline(always))]
 fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4] {
     let (before, after) = (from_half(simd, before), from_half(simd, after));
@@ -187,15 +187,16 @@ fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4
     [before, simd.load(&sizes[1..]), simd.load(&sizes[2..]), after]
 }
 
-/// The half floats in the lanes' high 16 bits, exactly; they are neither NaN nor infinite.
+/// The half floats in the lanes' high 16 bits, converted exactly. They are neither NaN nor
+/// infinite.
 #[cfg_attr(optimized, inline(always))]
 fn from_half<S: Simd>(simd: S, half: S::Floats) -> S::Floats {
-    /// By how much a float's exponent is counted from further down.
+    /// Two to the difference of the exponents' biases.
     const BIAS: f32 = (1u128 << 112) as f32;
-    /// The bits of a float that a half has, too.
+    /// The bits of a float that a half float has, too.
     const SIGN_AND_SIZE: u32 = 0x8fff_e000;
-    // Exponent and fraction where a float has them. Halves that are subnormal are so here, too,
-    // until they are multiplied.
+    // Exponent and fraction are moved to where a float has them. A subnormal half float gives a
+    // subnormal float, which the multiplication makes normal.
     half.to_bits().shift_right_signed::<3>().masked(SIGN_AND_SIZE).bit_cast() * simd.splat(BIAS)
 }
 
@@ -215,7 +216,8 @@ pub(super) fn all_round(points: &[[f32; 4]]) -> bool {
     apart == 0
 }
 
-/// The points from number `first` on, one in each lane, and those from the next three numbers on.
+/// Four vectors of points: a point in each lane, from number `first` on and from each of the next
+/// three numbers on.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn neighbours<S: Simd>(simd: S, points: &[[f32; 4]], first: usize) -> [[S::Floats; 4]; 4] {
     let last;

@@ -4,23 +4,25 @@ use texere_core::SectionPoint;
 
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd, difference, plus, scale};
-use super::vertices::VERTEX;
 
-/// A vector of rings with what all their vertices share.
+/// Floats of a vertex: position and normal.
+pub(super) const VERTEX: usize = 6;
+
+/// A vector of rings, with what all vertices of a ring share.
 pub(super) trait Stances<S: Simd> {
     /// The vertex of each ring at `point`, which is number `number` of the outline: rows of x, y, z
-    /// and of the normal's, a ring in each lane.
+    /// and of the normal's x, y, z, a ring in each lane.
     fn vertex(&self, simd: S, number: usize, point: &SectionPoint) -> [S::Floats; VERTEX];
 }
 
-/// The radius of round yarns grows or shrinks, so that normals lean.
+/// Kind of [`Round`]: the radius grows or shrinks, so normals lean.
 pub(super) const SLOPED: u8 = 0;
-/// It does not.
+/// Kind of [`Round`]: constant radius, so normals do not lean.
 pub(super) const PLAIN: u8 = 1;
-/// Nor do the section's normals differ from its points.
+/// Kind of [`Round`]: constant radius, and the section's normals equal its points, as on a circle.
 pub(super) const ROUND: u8 = 2;
 
-/// Of round yarns.
+/// Rings of round yarns.
 pub(super) struct Round<'a, S: Simd, const FLATTENED: bool, const KIND: u8>(
     pub(super) &'a Rings<S, FLATTENED>,
 );
@@ -56,10 +58,11 @@ impl<S: Simd, const FLATTENED: bool, const KIND: u8> Stances<S> for Round<'_, S,
     }
 }
 
-/// Of flattened yarns. Without `ROLLED` they have no roll; without `LEANING` neither half grows.
+/// Rings of flattened yarns. Without `ROLLED` they have no roll; without `LEANING` neither half
+/// grows.
 pub(super) struct Flat<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> {
     rings: &'a Rings<S, FLATTENED>,
-    /// None of it is -0.
+    /// The centre; no coordinate is -0.
     centre: [S::Floats; 3],
 }
 
@@ -121,10 +124,10 @@ impl<S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> St
     }
 }
 
-/// Of flattened yarns with six sides, of which each is opposite another.
+/// Rings of flattened yarns with six sides, where opposite points mirror one another.
 pub(super) struct SixSided<S: Simd> {
     centre: [S::Floats; 3],
-    /// The ways from the centre to the first three points, and the normals there.
+    /// For each of the first three points, the way from the centre to it and its normal.
     first: [[[S::Floats; 3]; 2]; 3],
 }
 
@@ -153,7 +156,7 @@ impl<S: Simd> Stances<S> for SixSided<S> {
     }
 }
 
-/// Some are of round yarns.
+/// Rings of flattened yarns, of which some are round.
 pub(super) struct Mixed<'a, S: Simd, const FLATTENED: bool> {
     pub(super) flat: Flat<'a, S, FLATTENED, true, true>,
     pub(super) round: Round<'a, S, FLATTENED, SLOPED>,

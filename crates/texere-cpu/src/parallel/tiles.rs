@@ -1,11 +1,11 @@
-//! Vertices that become whole lines in registers, where rings start at quarters of lines: with an
-//! even number of sides, in memory aligned to 16 bytes.
+//! Vertices that become whole lines in registers. It works where rings start at quarters of lines:
+//! with an even number of sides, in memory aligned to 16 bytes.
 //!
 //! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
-//! gives a column for each quarter of four rings, in which the same quarters of the four rings
-//! after them, and so on, lie side by side; quarters of four columns in a row are lines. Columns
-//! pass through memory, aligned and read as they were stored, so that they need not wait for the
-//! lines before them, which are slow to go past the caches.
+//! gives a column for each quarter of four rings. A column's lanes hold the same quarter of the
+//! next four rings, and so on. Quarters of four consecutive columns are a line. Columns pass
+//! through memory, aligned and read as they were stored. So they need not wait for the lines before
+//! them, which are slow to go past the caches.
 
 use super::lines::Lines;
 use super::runs::take;
@@ -14,28 +14,28 @@ use super::simd::{Floats, LANES_MAX, LINE, Line, Simd};
 /// Floats of a quarter of a line.
 const QUARTER: usize = 4;
 
-/// Columns of the rings before that may be needed for the first lines: a line less a quarter.
+/// Columns of the rings before that the first lines may need: a line less a quarter.
 const BEFORE: usize = LINE / QUARTER - 1;
 
 /// Vertices on their way, a vector of rings at a time.
 #[derive(Debug)]
 pub(super) struct TileLines<'a> {
     out: Lines<'a>,
-    /// The last ones of the rings before, then one for each quarter of four rings.
+    /// The last columns of the rings before, then one for each quarter of four rings.
     columns: &'a mut [f32],
-    /// Lines that do not lie in the output as a whole.
+    /// Lines that lie only in part in the output.
     edge: &'a mut [Line],
     /// Quarters of a ring.
     quarters: usize,
-    /// Quarters by which the first ring starts after a line does.
+    /// Quarters from the start of a line to the start of the first ring.
     shift: usize,
     /// Whether the first rings are still to come.
     starts: bool,
 }
 
 impl<'a> TileLines<'a> {
-    /// Whether vertices of `floats` a ring are quarters of the lines of `out`, and go past the
-    /// caches: lines that do not are better written in order.
+    /// Whether rings of `floats` floats start at quarters of the lines of `out`, and go past the
+    /// caches. Lines that stay in the caches are better written in order.
     pub(super) fn fit(out: &Lines<'_>, floats: usize) -> bool {
         out.streams && floats.is_multiple_of(QUARTER) && out.head.len().is_multiple_of(QUARTER)
     }
@@ -47,12 +47,12 @@ impl<'a> TileLines<'a> {
         Self { out, columns, edge, quarters: floats / QUARTER, shift, starts: true }
     }
 
-    /// Lines of scratch memory for vertices of `floats` a ring.
+    /// Lines of scratch memory for rings of `floats` floats.
     pub(super) const fn scratch(floats: usize) -> usize {
         (BEFORE + floats) + floats * LANES_MAX / LINE
     }
 
-    /// Where the columns of the next rings go.
+    /// The memory for the columns of the next rings.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn next<S: Simd>(&mut self, _simd: S) -> &mut [f32] {
         &mut self.columns[BEFORE * S::LANES..]
@@ -64,8 +64,7 @@ impl<'a> TileLines<'a> {
         let (before, here) = self.columns.split_at_mut(BEFORE * S::LANES);
         let last = &here[(4 * self.quarters - BEFORE) * S::LANES..][..BEFORE * S::LANES];
         for (before, last) in before.chunks_exact_mut(S::LANES).zip(last.chunks_exact(S::LANES)) {
-            // What comes before ring 0 is of the rings before; what comes before ring 4 is of ring
-            // 3.
+            // Before ring 0 lie columns of the rings before, and before ring 4 lies ring 3.
             simd.load(last).shift_in_four(simd.load(before)).store(before);
         }
 
@@ -84,14 +83,14 @@ impl<'a> TileLines<'a> {
         }
     }
 
-    /// The same for the first rings, and for the last ones where they are no full vector.
+    /// Sends the lines of the first rings, and of the last rings where they are no full vector.
     #[cfg_attr(optimized, inline(always))]
     fn send_edge<S: Simd>(&mut self, simd: S, count: usize) {
         let lines = self.quarters * S::LANES / QUARTER;
         let columns = &self.columns[(BEFORE - self.shift) * S::LANES..];
         simd.arrange::<false>(columns, &mut self.edge[..lines]);
         let mut floats: &[f32] = bytemuck::cast_slice(&self.edge[..lines]);
-        // What fills no line is sent with the rings that follow, if any do.
+        // A part of a line is sent with the rings that follow, if any do.
         let mut left = (self.shift + count * self.quarters) * QUARTER;
         if self.starts {
             self.starts = false;
@@ -113,7 +112,7 @@ impl<'a> TileLines<'a> {
     /// Sends the rest.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish<S: Simd>(self, _simd: S) {
-        // The last lanes of the last columns, unless less than a vector came last.
+        // The rest lies in the last lanes of the last columns, unless less than a vector came last.
         let last = &self.columns[(BEFORE - self.shift) * S::LANES..BEFORE * S::LANES];
         let (tail, _) = self.out.tail.as_chunks_mut::<QUARTER>();
         for (to, from) in tail.iter_mut().zip(last.chunks_exact(S::LANES)) {

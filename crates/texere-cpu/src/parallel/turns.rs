@@ -1,4 +1,4 @@
-//! Rolls in lanes: `Frame::step` and `Turn` of the core, without their jumps.
+//! Rolls in lanes: `Frame::step` and `Turn` of the core, without branches.
 
 use texere_core::Frame;
 use texere_core::backend::Plan;
@@ -15,7 +15,7 @@ pub(super) struct Steps<S: Simd> {
     minimizing: bool,
     /// Turns per mm; none where it is zero.
     twist: Option<S::Floats>,
-    /// The vector of rings before the present one, if there is one.
+    /// The vector of rings before the present one; none at the start.
     before: Option<Traces<S>>,
 }
 
@@ -40,8 +40,8 @@ impl<S: Simd> Steps<S> {
         }
     }
 
-    /// The step to each of the next rings from the one before it. That to the very first means
-    /// nothing.
+    /// The step to each of the next rings from the ring before it. The step to the very first ring
+    /// has no meaning.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self, rings: &Rings<S, false>) -> S::Integers {
         let here =
@@ -71,7 +71,8 @@ impl<S: Simd> Steps<S> {
 }
 
 impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
-    /// These rings turned by `roll`: round ones with their frame, flattened ones inside theirs.
+    /// These rings, turned by `roll`. The frames of round rings turn; flattened rings turn inside
+    /// their frames.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn turned(&self, simd: S, roll: S::Integers) -> Self {
         let (sin, cos) = sin_cos(simd, roll);
@@ -95,7 +96,7 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     }
 }
 
-/// Rolls of a vector of rings of `yarn`, from ring `first` in block `block` on.
+/// The rolls of a vector of rings of `yarn`, from ring `first` in block `block` on.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn rolls<S: Simd>(
     simd: S,
@@ -119,7 +120,7 @@ pub(super) fn rolls<S: Simd>(
     simd.load_integers(&lanes)
 }
 
-/// The vectors of the rings before `here`, the first of which is the last one in `before`.
+/// The vectors of the rings before those of `here`. The first is the last in `before`.
 #[cfg_attr(optimized, inline(always))]
 fn preceding<F: Floats>(before: [F; 3], here: [F; 3]) -> [F; 3] {
     [here[0].shift_in(before[0]), here[1].shift_in(before[1]), here[2].shift_in(before[2])]

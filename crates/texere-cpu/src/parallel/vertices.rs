@@ -1,25 +1,23 @@
-//! Stage 2 in lanes: vertices of several rings at a time, a ring in each lane, then a transpose
+//! Stage 2 in lanes: the vertices of several rings at a time, a ring in each lane, then transposed
 //! into place.
 
 use texere_core::SectionPoint;
 
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd};
-use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances};
-
-/// Floats of a vertex: position and normal.
-pub(super) const VERTEX: usize = 6;
+use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances, VERTEX};
 
 /// Floats by which the stores of a ring may reach over its end.
 pub(super) const OVERHANG: usize = 2;
 
-/// A section's outline, and what of `Ring::vertex` its shape leaves to do.
+/// A section's outline, and what its shape lets `Ring::vertex` leave out.
 #[derive(Debug, Clone)]
 pub(super) struct Surface<'a> {
     outline: &'a [SectionPoint],
     /// Whether each normal is its point, as on a circle.
     round: bool,
-    /// Whether points of the first half, and their normals, are the opposite ones turned round.
+    /// Whether each point of the first half, with its normal, is the negative of the opposite
+    /// point.
     opposed: bool,
 }
 
@@ -34,8 +32,9 @@ impl<'a> Surface<'a> {
         Self { outline, round, opposed }
     }
 
-    /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as
-    /// the `COLUMNS` that [`TileLines`](super::tiles::TileLines) wants.
+    /// Writes the vertices of `rings` to `out`. With `COLUMNS`, for an even number of sides, they
+    /// are written as the columns of [`TileLines`](super::tiles::TileLines); otherwise ring after
+    /// ring.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<S: Simd, const FLATTENED: bool, const COLUMNS: bool>(
         &self,
@@ -51,7 +50,7 @@ impl<'a> Surface<'a> {
         } else if !self.round {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, PLAIN>(rings), self.outline, out);
         } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
-            // The paper's tube has loops and strides known beforehand.
+            // With six sides loops and strides are known at compile time.
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, ROUND>(rings), outline, out);
         } else {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, ROUND>(rings), self.outline, out);
@@ -110,8 +109,9 @@ fn vertices<S: Simd, V: Stances<S>, const COLUMNS: bool>(
     }
 }
 
-/// All vertices of a vector of rings in columns. A column has the same four floats of every fourth
-/// ring; first come those of ring 0, from its first floats to its last, then those of ring 1.
+/// Writes all vertices of a vector of rings in columns. A column has the same four floats of every
+/// fourth ring. First come the columns of ring 0, from its first floats to its last, then those of
+/// ring 1.
 #[cfg_attr(optimized, inline(always))]
 fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();
@@ -128,8 +128,8 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     }
 }
 
-/// All vertices of a vector of rings, the last ones first: a store that reaches over the end of its
-/// ring is then followed by the next ring's own.
+/// Writes all vertices of a vector of rings ring after ring, the last vertices first. So a store
+/// that reaches over the end of its ring is overwritten by the next ring's own.
 #[cfg_attr(optimized, inline(always))]
 fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;

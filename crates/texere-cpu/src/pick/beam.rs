@@ -2,38 +2,39 @@
 
 use texere_core::{Bounds, Ray};
 
-/// A component of a direction whose largest is between 1 and 2 counts as zero below this: along it
-/// the ray stays where it is.
+/// A direction is scaled so that its largest component is between 1 and 2. Components below this
+/// count as zero: along them the ray does not move.
 const NO_WAY: f64 = 1e-290;
 
-/// Entry into a box and way out are each off by three roundings at most.
+/// Where a ray enters and leaves a box is each off by three roundings at most.
 const BOX_SLACK: f64 = 1.0 + 8.0 * f64::EPSILON;
 
-/// A ray made ready.
+/// A ray, prepared for tests against boxes and triangles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beam {
     origin: [f64; 3],
-    /// One over the direction; infinite where there is no way along an axis.
+    /// One over the direction; infinite along axes on which the ray does not move.
     inverse: [f64; 3],
-    /// The two other axes and the one that the ray goes along most.
+    /// The three axes. The last is the one along which the ray moves most.
     axes: [usize; 3],
-    /// What the way along that one does to the other two, and its inverse.
+    /// How far the ray moves along the two other axes for a unit along the last; then one over the
+    /// direction along the last.
     shear: [f64; 3],
-    /// The power of two that the direction was multiplied by.
+    /// The power of two by which the direction was multiplied.
     scale: f64,
 }
 
 /// Where a triangle was hit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
-    /// In lengths of the scaled direction.
+    /// Distance from the origin, in lengths of the scaled direction.
     pub(super) along: f64,
-    /// What each corner has of the point.
+    /// The barycentric weight of each corner.
     pub(super) weights: [f64; 3],
 }
 
 impl Beam {
-    /// None for a ray that goes nowhere, or whose numbers are not finite.
+    /// Prepares `ray`. None for a ray that goes nowhere, or whose numbers are not finite.
     pub(super) fn new(ray: &Ray) -> Option<Self> {
         let Ray { origin, direction } = *ray;
         let largest = direction.into_iter().fold(0.0f64, |most, component| most.max(component.abs()));
@@ -41,7 +42,7 @@ impl Beam {
         if !finite || largest == 0.0 {
             return None;
         }
-        // A power of two leaves the direction as it is, and keeps what follows from overflowing.
+        // Scaling by a power of two is exact, and keeps what follows from overflowing.
         let exponent = (largest.to_bits() >> 52) & 0x7ff;
         let scale = f64::from_bits((2046 - exponent).max(1) << 52);
         let direction = direction.map(|component| component * scale);
@@ -62,8 +63,8 @@ impl Beam {
         along * self.scale
     }
 
-    /// Where the ray comes into a box, 0 where it begins inside; none if it passes by, or comes
-    /// there only after `most`.
+    /// Where the ray enters a box; 0 where it begins inside. None if it misses the box, or enters
+    /// it only after `most`.
     pub(super) fn enters(&self, bounds: &Bounds, most: f64) -> Option<f64> {
         let (mut entry, mut exit) = (0.0f64, most);
         for axis in 0..3 {
@@ -84,12 +85,12 @@ impl Beam {
 
     /// Where the ray hits a triangle, from either side.
     ///
-    /// The triangle is sheared so that the ray is an axis, and what lies to which side of an edge
-    /// is decided by a product that is the same for both triangles at the edge but for its sign: no
-    /// ray goes through between two triangles.
+    /// The triangle is sheared so that the ray becomes an axis. The side of an edge on which the
+    /// ray passes is the sign of a product. Both triangles at an edge work out the same product,
+    /// with opposite signs, so no ray slips through between them.
     ///
     /// **Source**: Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013.
-    /// Where the paper turns to double precision all is in double precision here.
+    /// The paper falls back to double precision; here everything is in double precision.
     pub(super) fn touches(&self, corners: [[f32; 3]; 3]) -> Option<Touch> {
         let ([x, y, z], [across, up, along]) = (self.axes, self.shear);
         let [a, b, c] = corners.map(|corner| {
@@ -98,7 +99,7 @@ impl Beam {
         });
         let edge = |one: [f64; 3], other: [f64; 3]| one[0] * other[1] - one[1] * other[0];
         let sides = [edge(c, b), edge(a, c), edge(b, a)];
-        // Written so that what is not a number is no hit.
+        // Written so that NaN is no hit.
         let inside = sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0);
         let whole = sides[0] + sides[1] + sides[2];
         if !inside || whole == 0.0 {

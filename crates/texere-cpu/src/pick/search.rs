@@ -1,25 +1,53 @@
-//! The way of one ray through the mesh, which is made where the ray comes by.
+//! The search of one ray for the first triangle on its way. Triangles are made only where the ray
+//! comes by.
 
 use texere_core::backend::BLOCK_RINGS;
 use texere_core::definitions::Ring;
-use texere_core::{Bounds, End, MeshPlace};
+use texere_core::{Bounds, End, MeshPlace, Ray};
 
 use super::beam::{Beam, Touch};
-use super::{Hit, Picker};
+use super::picker::Picker;
 use crate::serial::rings;
 
-/// Rings of a block, and the one after it that its last triangles end at.
+/// Rings of a block, and the ring after it, where its last triangles end.
 const RINGS: usize = BLOCK_RINGS as usize + 1;
 
-/// What sections and frames may reach further than they should, by rounding.
+/// Factor by which rounding may let sections and frames reach too far.
 const REACH_SLACK: f32 = 1.0 + 1e-5;
 
-/// A ray on its way.
+/// The first triangle that a ray hits. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its
+/// yarn, interval and `t`; a structure's `place` then names that place in a weaver's or a knitter's
+/// terms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Distance from the ray's origin, in lengths of its direction: in mm where that has length 1.
+    pub distance: f64,
+    /// The triangle's place.
+    pub place: MeshPlace,
+    /// The point that is hit, mm.
+    pub position: [f64; 3],
+    /// The control interval of the yarn, from 0.
+    pub interval: u32,
+    /// Position along the interval, from 0 to 1, interpolated between the triangle's two rings.
+    pub t: f64,
+}
+
+impl Picker {
+    /// The first triangle that `ray` hits, from either side; of several at the same distance the
+    /// first along the yarns. None where it hits nothing, goes nowhere, or has numbers that are not
+    /// finite.
+    #[must_use]
+    pub fn pick(&self, ray: &Ray) -> Option<Hit> {
+        Search::new(self, Beam::new(ray)?).run()
+    }
+}
+
+/// A ray on its way through the cloth.
 #[derive(Debug)]
-pub(super) struct Search<'a> {
+struct Search<'a> {
     picker: &'a Picker,
     beam: Beam,
-    /// The vertices of two rings.
+    /// The vertices of the two rings that are looked at.
     corners: Vec<[f32; 3]>,
     nearest: Option<Nearest>,
 }
@@ -30,13 +58,13 @@ struct Nearest {
     touch: Touch,
     corners: [[f32; 3]; 3],
     place: MeshPlace,
-    /// How far the point lies from the place's ring to the next, from 0 to 1.
+    /// Position of the point between the place's ring and the next, from 0 to 1.
     onward: f64,
 }
 
 impl Nearest {
-    /// Of two at the same distance the one counts that comes first on the yarns, so that a hit does
-    /// not depend on the way through the boxes.
+    /// The order of hits. Of two at the same distance the first along the yarns counts, so that a
+    /// hit does not depend on the order in which boxes are visited.
     fn order(&self) -> (f64, u32, u32, Option<bool>, u32) {
         let MeshPlace { yarn, ring, side, cap } = self.place;
         (self.touch.along, yarn, ring, cap.map(|end| end == End::Finish), side)
@@ -44,12 +72,12 @@ impl Nearest {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(picker: &'a Picker, beam: Beam) -> Self {
+    fn new(picker: &'a Picker, beam: Beam) -> Self {
         Self { picker, beam, corners: Vec::new(), nearest: None }
     }
 
     /// Goes through the whole cloth.
-    pub(super) fn run(mut self) -> Option<Hit> {
+    fn run(mut self) -> Option<Hit> {
         let picker = self.picker;
         let (mut most, beam) = (f64::INFINITY, self.beam);
         picker.cloth.visit(&beam, &mut most, &mut |position| {
@@ -64,7 +92,7 @@ impl<'a> Search<'a> {
         self.hit()
     }
 
-    /// How far triangles matter still.
+    /// The distance beyond which triangles no longer matter.
     fn most(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |nearest| nearest.touch.along)
     }
@@ -92,7 +120,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether the ray comes near enough to some rings.
+    /// Whether the ray may meet the tube between some rings.
     fn may_meet(&self, yarn: usize, rings: &[Ring]) -> bool {
         let section = self.picker.work.plan.yarn(yarn).section;
         let reach = self.picker.reaches[section as usize] * REACH_SLACK;
@@ -124,7 +152,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Tries the triangles of a cap on the ring with the number `number`.
+    /// Tries the triangles of a cap on ring number `number`.
     fn cap(&mut self, yarn: usize, end: End, number: u32, ring: &Ring) {
         if !self.may_meet(yarn, std::slice::from_ref(ring)) {
             return;

@@ -4,14 +4,15 @@ use texere_core::Bounds;
 
 use super::beam::Beam;
 
-/// Boxes in a row, and round neighbours the boxes that hold both, up to one that holds all.
+/// A row of boxes, with a box round each two neighbours, a box round each two of those, and so on
+/// up to one round all.
 ///
 /// Node 1 is the root, nodes 2i and 2i + 1 lie below node i, and the last half of all nodes are
-/// leaves. Those in the lowest row come first in the row of boxes, so that each node holds boxes
-/// that follow one another, a third of its parent's at least.
+/// leaves. The leaves in the lowest level hold the first boxes of the row. So each node holds
+/// consecutive boxes, and at least a third of its parent's.
 #[derive(Debug)]
 pub(super) struct BoxTree {
-    /// Node 0 is none.
+    /// Node 0 is unused.
     nodes: Vec<Bounds>,
 }
 
@@ -29,22 +30,22 @@ impl BoxTree {
         tree
     }
 
-    /// How many of `boxes` in a row come under the root's first child.
+    /// The number of the row's first boxes that lie under the root's first child.
     pub(super) fn first_half(boxes: usize) -> usize {
         let lowest_row = boxes.next_power_of_two();
         let in_lowest = 2 * boxes - lowest_row;
-        // The first child has half of the lowest row's room, where it is filled, and else half of
-        // that of the row above.
+        // The first child has half of the room in the lowest level, as far as that is filled, and
+        // half of what the level above holds.
         let filled = in_lowest.min(lowest_row / 2);
         (lowest_row / 2 - filled) / 2 + filled
     }
 
-    /// The box round all.
+    /// The box round all boxes.
     pub(super) fn root(&self) -> &Bounds {
         &self.nodes[1]
     }
 
-    /// Puts another box in place of one.
+    /// Replaces the box at `position`.
     pub(super) fn set(&mut self, position: usize, bounds: Bounds) {
         let mut node = self.node(position);
         self.nodes[node] = bounds;
@@ -54,8 +55,8 @@ impl BoxTree {
         }
     }
 
-    /// Gives `leaf` the positions of boxes that `beam` meets no further than `most`, about the
-    /// nearest first. `leaf` gives back how far boxes matter from then on.
+    /// Calls `leaf` with the position of each box that `beam` meets no further than `most`, roughly
+    /// the nearest first. `leaf` returns the new `most`.
     pub(super) fn visit(&self, beam: &Beam, most: &mut f64, leaf: &mut impl FnMut(usize) -> f64) {
         if beam.enters(self.root(), *most).is_some() {
             self.descend(1, beam, most, leaf);
@@ -86,7 +87,7 @@ impl BoxTree {
         self.nodes.len() / 2
     }
 
-    /// The node of a box. The lowest row begins at a power of two.
+    /// The node of a box. The lowest level begins at a power of two.
     const fn node(&self, position: usize) -> usize {
         let node = self.leaves().next_power_of_two() + position;
         if node < self.nodes.len() { node } else { node - self.leaves() }

@@ -1,4 +1,4 @@
-//! Lengths along yarns and attributes of vertices, one after the other.
+//! Lengths along yarns, and attributes of vertices, one after the other on one thread.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Crossings as they read: one after the other on one thread.
+//! Crossings at rest, the reference: one crossing after the other on one thread.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, Crossi
 
 use crate::crossings::{CrossingsMemory, step};
 
-/// The reference.
+/// The reference settler of crossings.
 #[derive(Debug)]
 pub(crate) struct SerialCrossings(pub(crate) CrossingsMemory);
 

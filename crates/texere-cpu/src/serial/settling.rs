@@ -1,4 +1,4 @@
-//! Settling as it reads: one interval after the other on one thread.
+//! Settling, the reference: one interval after the other on one thread.
 
 use std::sync::Arc;
 
@@ -11,14 +11,14 @@ use texere_core::settling::{
 
 use crate::cells::{Extent, Grid, owners};
 
-/// The reference.
+/// The reference settler.
 #[derive(Debug)]
 pub(crate) struct SerialSettler {
     plan: Arc<SettlingPlan>,
     places: Vec<Place>,
     /// The step that each point has taken last, mm.
     steps: Vec<Vec3>,
-    /// The length that each interval is to have, mm.
+    /// The length that each interval shall have, mm.
     lengths: Vec<f32>,
     /// The places that the last pass has seen, and those that were kept.
     seen: Vec<Place>,
@@ -61,7 +61,7 @@ impl SerialSettler {
         self.chords.clear();
         for place in 0..self.places.len() {
             if plan.tags()[place] & tag::INTERVAL == 0 {
-                // A place beyond a yarn's ends may be the last of all.
+                // Such a place may be the last of all, with none behind it.
                 self.intervals.push(Interval::new(&[self.places[place]; 4], plan.scale(), plan.s()));
                 continue;
             }
@@ -114,7 +114,7 @@ impl Settler for SerialSettler {
         let known = middles.iter().zip(lengths);
         let extent = known.fold(Extent::NOTHING, |extent, (middle, length)| extent.with(*middle, length));
         let grid = Grid::new(plan, growth, &extent);
-        // Chords by cells.
+        // Cell and number of each chord, in the order of cells.
         let mut sorted: Vec<(u32, u32)> = middles.iter().map(|middle| grid.cell(*middle)).zip(0..).collect();
         sorted.sort_unstable();
         let (mut starts, mut neighbours) = (vec![0], Vec::new());

@@ -12,7 +12,7 @@ pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut [Ring]) {
     }
 }
 
-/// The rings of `yarn` from `first_ring` on, the first of a block.
+/// The rings of `yarn` from `first_ring` on, which is the first of a block.
 pub(crate) fn rings(work: &Work, yarn: usize, first_ring: u32, out: &mut [Ring]) {
     let plan = &work.plan;
     let (padded, rings, closed) = (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);

@@ -210,7 +210,7 @@ fn far_from_its_edges_a_piece_rests_as_a_repeat() {
     assert!(found.seen.clearance > 0.995 && found.seen.step < 1e-3, "{found:?}");
     let (middle, repeat) = (open[10 * 24 + 12], repeat[0]);
     for set in Set::BOTH {
-        let (middle, repeat) = (middle.lie(set), repeat.lie(set));
+        let (middle, repeat) = (middle.thread(set), repeat.thread(set));
         assert!((middle.height - repeat.height).abs() < 0.02, "{middle:?}, not {repeat:?}");
         assert!((middle.half_width - repeat.half_width).abs() < 0.02, "{middle:?}, not {repeat:?}");
         assert!((middle.half_height - repeat.half_height).abs() < 0.02, "{middle:?}, not {repeat:?}");

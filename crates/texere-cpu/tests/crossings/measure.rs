@@ -19,7 +19,7 @@ pub(crate) struct Measures {
 }
 
 fn lie(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> [f64; 4] {
-    let lie = all[plan.number(site)].lie(set);
+    let lie = all[plan.number(site)].thread(set);
     [lie.shift, lie.height, lie.half_width, lie.half_height].map(f64::from)
 }
 

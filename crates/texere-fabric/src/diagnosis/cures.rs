@@ -1,5 +1,4 @@
-//! What would cure a cloth: each cure is one change, with which its worst places are measured
-//! again.
+//! Cures for a cloth. Each cure is one change, with which the worst places are measured again.
 
 use std::ops::{ControlFlow, Range};
 
@@ -7,68 +6,69 @@ use texere_core::{Origin, Section};
 
 use super::faults::{ClothFault, Diagnosis, Faults};
 use super::places::Crossing;
-use crate::{Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
+use crate::{BySet, Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
 
-/// Threads each way of a worst place that are measured with it: more than the longest floats of
+/// Threads to each side of a worst place that are measured with it: more than the longest floats of
 /// common weaves.
 const AROUND: usize = 12;
 
-/// Spacings are tried this much wider, again and again, from where nothing jams to three times
-/// that.
+/// Factor between the spacings that are tried, and number of spacings. They begin where nothing
+/// jams and end at three times that (1.05 to the power of 22 is 2.9).
 const WIDER: f64 = 1.05;
 const WIDER_TIMES: i32 = 22;
 
-/// Flatnesses of all yarns that are tried.
+/// Flatnesses that are tried for all yarns: width over height.
 const FLATNESSES: [f32; 7] = [1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0];
 
-/// Shares of the crimp that are tried: [`Woven::relieve`] goes no further either.
+/// Warp's shares of the crimp that are tried, in steps of [`SHARE_STEP`]: 0.2 to 0.8, the range of
+/// [`Woven::relieve`].
 const SHARES: Range<u8> = 4..17;
 const SHARE_STEP: f32 = 0.05;
 
-/// One change that was tried and helps.
+/// A change of the cloth that helps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cure {
-    /// What is changed.
+    /// The change.
     pub remedy: Remedy,
-    /// The least clearance with it, at what were the worst places.
+    /// The least clearance with the change, at the places that were the worst.
     pub clearance: f64,
-    /// The tightest bend there, in yarn radii.
+    /// The tightest bend there: its radius over how far the section reaches into it.
     pub curvature: f64,
-    /// What it does not cure.
+    /// Faults that it does not cure.
     pub leaves: Vec<ClothFault>,
 }
 
-/// A change of a cloth.
+/// A change of a cloth that may cure it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Remedy {
-    /// Another shape, as by [`Woven::set_shape`].
+    /// Another shape, see [`Woven::set_shape`].
     Shape(Shape),
-    /// Another share of the crimp for the warp, as by [`Crimp::WarpShare`].
+    /// Another share of the crimp for the warp, see [`Crimp::WarpShare`].
     WarpShare {
         /// The share now.
         before: f32,
         /// The share that cures.
         after: f32,
     },
-    /// Relief, as by [`Woven::relieve`].
+    /// Relief, see [`Woven::relieve`].
     Relief {
-        /// Which.
+        /// The kind of relief.
         relief: Relief,
-        /// What it changes.
+        /// The changes that it makes.
         report: JamReport,
         /// Diameter of the thickest thread before and after, mm.
         thickest_mm: [f64; 2],
     },
-    /// Circular sections for all threads, as by [`Woven::set_section`].
+    /// Circular sections for all threads, see [`Woven::set_section`].
     Circle,
-    /// All threads flattened alike, as by [`Woven::set_flatness`]: width over height.
+    /// One flatness, width over height, for all threads: see [`Woven::set_flatness`].
     Flatness(f32),
     /// All threads further apart.
     Spacing {
-        /// Mean spacing of ends and of picks, mm.
-        spacing_mm: [f64; 2],
-        /// By how much wider all spacings are.
+        /// Mean spacing of ends and of picks with the change, mm.
+        spacing_mm: BySet<f64>,
+        /// Factor by which all spacings are wider.
         factor: f64,
     },
     /// All threads thinner.
@@ -79,12 +79,12 @@ pub enum Remedy {
 }
 
 impl WovenDesign {
-    /// Looks for single changes that help against the faults of `diagnosis`, which is that of the
-    /// design's cloth. Each is tried on pieces of the cloth round its worst places. A cure ends one
-    /// kind of fault at least and adds none.
+    /// Looks for single changes that help against the faults of `diagnosis`, the diagnosis of this
+    /// design's cloth. Each change is tried on pieces of the cloth around its worst places. A cure
+    /// ends at least one kind of fault, and adds none.
     ///
-    /// `progress` gets the share of the changes that were tried; `Break` ends the search with what
-    /// was found so far.
+    /// `progress` gets the share of the changes that have been tried. `Break` ends the search with
+    /// the cures found so far.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -145,20 +145,22 @@ fn worst_crossings(faults: &Faults) -> Vec<Crossing> {
     let mut places: Vec<_> =
         [crowded, pierced, folded, jammed, wrung, turned].into_iter().flatten().collect();
     if places.is_empty() {
-        // In a turn of the weft: they are all alike.
+        // The worst places are turns of the weft, which are all alike.
         places.push(Crossing { end: 1, pick: 1 });
     }
     places
 }
 
-/// A few of the ends, and of the picks, of a cloth.
+/// A range of ends and a range of picks.
 type Sample = [Range<usize>; 2];
 
-/// The threads round each of `places`: of a small cloth they are all the same.
+/// The threads around each of `places`, without duplicates. In a small cloth all places have the
+/// same threads.
 fn samples(cloth: &Woven, places: &[Crossing]) -> Vec<Sample> {
     let around = |at: u32, count: usize| {
         let at = at as usize;
-        // From an odd thread on, so that picks turn back at the sides at which they did.
+        // The first pick keeps its parity, so that picks turn back at the same sides as in the
+        // cloth.
         let first = at.saturating_sub(AROUND) / 2 * 2;
         first..(at + AROUND).min(count)
     };
@@ -173,13 +175,13 @@ fn samples(cloth: &Woven, places: &[Crossing]) -> Vec<Sample> {
     samples
 }
 
-/// How thick the thickest thread of `cloth` is, mm.
+/// Diameter of the thickest thread of `cloth`, mm.
 fn thickest_mm(cloth: &Woven) -> f64 {
     let threads = cloth.warp().iter().chain(cloth.weft());
     2.0 * threads.map(|thread| f64::from(thread.radius_mm)).fold(0.0, f64::max)
 }
 
-/// A cloth that is tried with changes.
+/// A cloth with which changes are tried.
 struct Trial<'a> {
     cloth: &'a Woven,
     faults: &'a Faults,
@@ -187,7 +189,7 @@ struct Trial<'a> {
     touching: f64,
 }
 
-/// What a changed cloth comes to.
+/// The measures of a changed cloth.
 struct Outcome {
     clearance: f64,
     curvature: f64,
@@ -233,7 +235,8 @@ impl Trial<'_> {
         Some(self.better(&changed)?.by(Remedy::Relief { relief, report, thickest_mm }))
     }
 
-    /// Circular sections where there are others, else the least flatness of all yarns that cures.
+    /// Circular sections, where a thread has another one; else the least flatness that cures, for
+    /// all yarns.
     fn flatter(&self) -> Option<Cure> {
         let mut changed = self.cloth.clone();
         if self.cloth.sections().iter().any(|section| *section != Section::Circle) {
@@ -246,10 +249,10 @@ impl Trial<'_> {
         })
     }
 
-    /// The least spacing of all threads that cures; and the greatest diameters, which are the same
-    /// cloth in small.
+    /// The least spacing that cures; and the greatest diameters that do, which make the same cloth
+    /// at a smaller scale.
     fn room(&self) -> Vec<Cure> {
-        // What jams is known from its numbers: nothing closer need be tried.
+        // Pitches show where threads jam, so that no closer spacing need be tried.
         let jammed = self.faults.jams.iter().filter_map(|jams| jams.threads.first());
         let least = jammed.map(|jam| jam.passing_mm / jam.pitch_mm).fold(1.0, f64::max);
         let first = (least.ln() / WIDER.ln()).ceil().max(1.0) as i32;
@@ -259,7 +262,8 @@ impl Trial<'_> {
         let Some((factor, Outcome { clearance, curvature, .. })) = found else { return Vec::new() };
         let mean =
             |set: &[Thread]| set.iter().map(|thread| thread.spacing_mm).sum::<f64>() / set.len() as f64;
-        let spacing_mm = [self.cloth.warp(), self.cloth.weft()].map(|set| factor * mean(set));
+        let spacing_mm =
+            BySet { warp: self.cloth.warp(), weft: self.cloth.weft() }.map(|set| factor * mean(set));
         let thickest = thickest_mm(self.cloth);
         let thickest_mm = [thickest, thickest / factor];
         [Remedy::Spacing { spacing_mm, factor }, Remedy::Diameter { thickest_mm }]
@@ -267,8 +271,7 @@ impl Trial<'_> {
             .into()
     }
 
-    /// What `changed` comes to, if nothing is left of the faults. What still jams need not be
-    /// measured.
+    /// The measures of `changed`, if no fault is left. A cloth that still jams is not measured.
     fn clean(&self, changed: &Woven) -> Option<Outcome> {
         if changed.jams().is_some() {
             return None;
@@ -276,8 +279,8 @@ impl Trial<'_> {
         self.better(changed).filter(|outcome| outcome.leaves.is_empty())
     }
 
-    /// What `changed` comes to, if one kind of fault is gone at least: jams everywhere, the others
-    /// at the worst places.
+    /// The measures of `changed`, if at least one kind of fault is gone. Jams are looked for
+    /// everywhere, other faults at the worst places.
     fn better(&self, changed: &Woven) -> Option<Outcome> {
         let mut left = Faults { jams: changed.jams(), apart: self.faults.apart.clone(), ..Faults::default() };
         let (mut clearance, mut curvature) = (f64::INFINITY, f64::INFINITY);
@@ -298,13 +301,13 @@ impl Trial<'_> {
     }
 }
 
-/// A sample of `cloth`.
+/// Cuts a sample out of `cloth`.
 fn piece(cloth: &Woven, [ends, picks]: &Sample) -> Result<Woven, FabricError> {
     let up = |end, pick| cloth.drawdown().up(ends.start + end, picks.start + pick);
     let drawdown = Drawdown::from_fn(ends.len(), picks.len(), up)?;
     let mut piece =
         cloth.like(drawdown, cloth.warp()[ends.clone()].to_vec(), cloth.weft()[picks.clone()].to_vec())?;
-    // By the stiffness of its own threads alone it might have another one.
+    // The threads of the sample alone might give another share.
     piece.set_crimp(Crimp::WarpShare(cloth.warp_share()))?;
     Ok(piece)
 }

@@ -1,4 +1,4 @@
-//! What is wrong with a cloth.
+//! The faults of a cloth.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -11,56 +11,56 @@ use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd, Thre
 use crate::{FabricError, Pitch, Woven};
 
 /// The most jammed threads that are listed one by one.
-pub const JAMS_LISTED: usize = 100;
+const JAMS_LISTED: usize = 100;
 
-/// What was measured of a cloth, and what is wrong with it.
+/// The diagnosis of a cloth: its measured clearance, and its faults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// Contacts of a lower ratio than this pierce.
+    /// Contacts with a lower ratio than this pierce.
     pub touching: f64,
-    /// How near threads come to one another, and how tightly they bend.
+    /// How near threads come to one another, and how tightly they bend, with places.
     pub clearance: ClothClearance,
-    /// What is wrong.
+    /// The faults.
     pub faults: Faults,
 }
 
-/// What is wrong with a cloth.
+/// The faults of a cloth.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Faults {
-    /// The worst place that is too crowded to be measured, if there is one.
+    /// The worst place that is too crowded for contacts to be measured.
     pub crowded: Option<ThreadCrowd>,
-    /// Contacts that pierce, worst first, [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED) at
-    /// most.
+    /// Contacts that pierce, worst first; [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED) of
+    /// them at most.
     pub pierces: Vec<ThreadContact>,
-    /// The tightest bend, where it is tighter than the tube is thick.
+    /// The tightest bend, if its radius is less than the section reaches into it.
     pub folds: Option<ThreadBend>,
-    /// Threads too close together, if there are any.
+    /// Threads that lie too close together.
     pub jams: Option<Jams>,
-    /// The pieces that the cloth falls into, if it does not hang together.
+    /// The pieces of a cloth that does not hang together.
     pub apart: Option<Pieces>,
-    /// Where a mesh is [wrung](WRUNG) between two rings.
+    /// The mesh's narrowest place, if it is [wrung](WRUNG) between two rings there.
     pub wrung: Option<ThreadDrawn>,
-    /// Where triangles of a mesh face inwards.
+    /// The mesh's triangles that face inwards.
     pub inside_out: Option<ThreadDrawn>,
 }
 
-/// A kind of fault. Its text says what the cloth does: "folds".
+/// A kind of fault. It displays as a verb phrase with the cloth as its subject, such as "folds".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ClothFault {
-    /// Several times as much yarn as there is room for.
+    /// A place holds several times as much yarn as it has room for.
     Crowded,
     /// Threads pierce one another, or themselves.
     Pierces,
-    /// A bend is tighter than the tube is thick.
+    /// A bend is so tight that the tube folds into itself.
     Folds,
     /// Threads lie closer together than those that cross them can pass.
     Jams,
-    /// Nothing binds all threads into one cloth.
+    /// The cloth is of several pieces, or has loose yarns.
     FallsApart,
-    /// A mesh with these settings is wrung between two rings.
+    /// A mesh with the settings of the diagnosis is wrung between two rings.
     Wrung,
-    /// Triangles of a mesh with these settings face inwards.
+    /// Triangles of a mesh with the settings of the diagnosis face inwards.
     InsideOut,
 }
 
@@ -78,20 +78,21 @@ impl fmt::Display for ClothFault {
     }
 }
 
-/// Threads that lie closer to the one before than those that cross them can pass.
+/// Jammed threads: each lies so close to the thread before it that crossing threads can't pass
+/// between the two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Jams {
-    /// How many ends do.
+    /// Number of jammed ends.
     pub ends: usize,
-    /// How many picks do.
+    /// Number of jammed picks.
     pub picks: usize,
-    /// The worst of them, [`JAMS_LISTED`] at most, worst first.
+    /// The worst of them, worst first; 100 at most.
     pub threads: Vec<Pitch>,
 }
 
 impl Diagnosis {
-    /// What is wrong with a cloth whose yarns have this clearance, and these jams, and that hangs
-    /// together so. Contacts of a ratio below `touching` pierce.
+    /// The diagnosis of a cloth with this clearance, these jams and these pieces. Contacts with a
+    /// ratio below `touching` pierce.
     #[must_use]
     pub fn new(touching: f64, clearance: ClothClearance, jams: Option<Jams>, pieces: Pieces) -> Self {
         let faults = Faults {
@@ -108,7 +109,7 @@ impl Diagnosis {
 }
 
 impl Faults {
-    /// What kinds there are; none of a clean cloth.
+    /// The kinds of these faults. The list is empty for a clean cloth.
     ///
     /// ```
     /// use texere_fabric::Faults;
@@ -130,12 +131,14 @@ impl Faults {
 }
 
 impl Woven {
-    /// Looks for what is wrong with the cloth: measures its clearance at the default tension, and
-    /// compares its pitches with those that its threads need. Contacts of a ratio below `touching`
-    /// pierce; 0.985 is what splines through touching threads come to. `progress` gets the share
-    /// that is done, as in [`clearance_with_progress`](texere_contact::clearance_with_progress).
+    /// Diagnoses the cloth. It measures the clearance at the default tension, and compares pitches
+    /// with the pitches that threads need.
     ///
-    /// **Errors**: those of [`Woven::yarns`] and of [`Woven::clearance`].
+    /// Contacts with a ratio below `touching` pierce. Splines through threads that just touch come
+    /// to 0.985. `progress` gets the share that is done, as in
+    /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
+    ///
+    /// **Errors**: the errors of [`Woven::yarns`] and of [`Woven::clearance`].
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -160,17 +163,17 @@ impl Woven {
         Ok(Diagnosis::new(touching, clearance, self.jams(), self.pieces()))
     }
 
-    /// Into how many layers the cloth falls, and which threads lie loose: see
+    /// The layers into which the cloth falls, and its loose threads: see
     /// [`Drawdown::layers`](crate::Drawdown::layers).
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         Pieces::of_woven(self.drawdown())
     }
 
-    /// The jammed threads, if there are any.
+    /// The jammed threads; `None` if there are none.
     #[must_use]
     pub fn jams(&self) -> Option<Jams> {
-        let [mut threads, picks] = self.pitches().map(|mut pitches| {
+        let [mut threads, picks] = self.pitches().into_array().map(|mut pitches| {
             pitches.retain(Pitch::is_jammed);
             pitches
         });

@@ -1,29 +1,36 @@
-//! Which yarns of a repeat hold one another, in this copy of it or in others: union by root, each
-//! yarn with the copy that it lies in as seen from its root.
+//! Pieces of an endless cloth: yarns of one repeat that hold one another, within the repeat or
+//! across its edges.
+//!
+//! The idea is simple: union-find. Each yarn points to another yarn of its piece, and along these
+//! pointers to the root of the piece. A pointer also keeps the copy of the repeat in which the
+//! other yarn lies. A root keeps all ways from copy to copy that lead back to the same piece. They
+//! form a lattice, from which pieces of any number of copies are counted.
 
-/// Copies along x and y from one to another.
+/// Number of copies along x and y from one yarn to another.
 type Shift = [i64; 2];
 
 /// The yarns of one repeat of an endless cloth, joined to one another.
 #[derive(Debug)]
 pub(crate) struct Joined {
-    /// What each yarn hangs on, and in which copy this lies as seen from its own.
+    /// For each yarn, the yarn that it points to, and the copy in which that yarn lies relative to
+    /// it. A root points to itself.
     parents: Vec<(usize, Shift)>,
-    /// Of roots: the copies in which the same piece comes back.
+    /// For each root, the copies in which the same piece comes back.
     returns: Vec<Lattice>,
     held: Vec<bool>,
 }
 
-/// Yarns of a repeat that hang together, and in which other copies the same piece comes back.
+/// A piece: yarns of a repeat that hang together, and the other copies in which the same piece
+/// comes back.
 #[derive(Debug)]
 pub(crate) struct Part {
     pub(crate) yarns: Vec<usize>,
-    /// Over how many copies further its yarns are spread.
+    /// The lowest and the highest copy in which its yarns lie, along x and y.
     spread: [[i64; 2]; 2],
     returns: Lattice,
 }
 
-/// All sums of (a, b) and (0, d).
+/// A lattice of copies: all sums of multiples of (a, b) and (0, d).
 #[derive(Debug, Clone, Copy, Default)]
 struct Lattice {
     a: i64,
@@ -40,14 +47,15 @@ impl Joined {
         }
     }
 
-    /// Notes that one yarn and another, which lies in the copy that is `shift` further, hold one
-    /// another. They may be the same.
+    /// Records that the yarn `one` and the yarn `other`, which lies `shift` copies further, hold
+    /// one another. Both may be the same yarn.
     pub(crate) fn hold(&mut self, one: usize, other: usize, shift: Shift) {
         (self.held[one], self.held[other]) = (true, true);
         self.join(one, other, shift);
     }
 
-    /// Notes that one yarn and another, in the copy that is `shift` further, are of one piece.
+    /// Records that the yarn `one` and the yarn `other`, which lies `shift` copies further, are of
+    /// one piece.
     pub(crate) fn join(&mut self, one: usize, other: usize, shift: Shift) {
         let ((one, first), (other, second)) = (self.root(one), self.root(other));
         // From the first root to the second.
@@ -67,7 +75,7 @@ impl Joined {
         self.held[yarn]
     }
 
-    /// The root of a yarn, and in which copy it lies as seen from it.
+    /// The root of a yarn, and the copy in which the root lies relative to the yarn.
     fn root(&mut self, yarn: usize) -> (usize, Shift) {
         let (mut at, mut way, mut path) = (yarn, [0, 0], Vec::new());
         while self.parents[at].0 != at {
@@ -103,8 +111,8 @@ impl Joined {
 }
 
 impl Part {
-    /// How many pieces it is of so many copies of the repeat: those at the edges lack the yarns
-    /// that would lie beyond.
+    /// Number of pieces of this kind in `copies` copies of the repeat. Pieces at the edges lack the
+    /// yarns that would lie beyond.
     pub(crate) fn count(&self, copies: [u32; 2]) -> u64 {
         let yarns = copies.map(u64::from).iter().product::<u64>().saturating_mul(self.yarns.len() as u64);
         let copies =
@@ -116,7 +124,8 @@ impl Part {
         } else if (a, b, d) == (0, 0, 0) {
             all
         } else {
-            // One begins in each copy from which the way back leads out of the cloth.
+            // All ways back are multiples of one. A piece begins in each copy from which that way
+            // leads out of the cloth.
             let back = if a != 0 { [a, b] } else { [0, d] };
             let inner = [0, 1].map(|axis| copies[axis].saturating_sub(back[axis].unsigned_abs()));
             all - inner[0].saturating_mul(inner[1]).min(all)
@@ -158,7 +167,8 @@ mod tests {
         for one in ways {
             for other in ways {
                 for copies in [[4_u32, 3], [7, 7], [12, 9]] {
-                    // Painted over a cloth so wide that no way leads round beyond its edges unseen.
+                    // The oracle paints connected copies, in a cloth so wide that no connection
+                    // leads round beyond its edges.
                     let (wide, edge) = (copies.map(|copies| copies + 40), 20);
                     let mut paint: Vec<usize> = (0..(wide[0] * wide[1]) as usize).collect();
                     let number = |x: i64, y: i64| {

@@ -1,4 +1,4 @@
-//! What is wrong with a cloth, where, and what would cure it.
+//! Diagnosis of a cloth: its faults, their places, and their cures.
 
 mod cures;
 mod faults;
@@ -8,7 +8,7 @@ mod places;
 mod verdict;
 
 pub use cures::{Cure, Remedy};
-pub use faults::{ClothFault, Diagnosis, Faults, JAMS_LISTED, Jams};
+pub use faults::{ClothFault, Diagnosis, Faults, Jams};
 pub(crate) use joined::Joined;
 pub use pieces::Pieces;
 pub use places::{

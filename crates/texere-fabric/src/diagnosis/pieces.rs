@@ -1,36 +1,35 @@
-//! Into how many pieces a cloth falls, and which of its yarns nothing holds.
+//! The pieces into which a cloth falls, and the yarns that nothing holds.
 
 use std::fmt;
 
 use texere_core::{Origin, counted};
 
 use super::joined::Joined;
-use crate::Drawdown;
+use crate::{BySet, Drawdown};
 
-/// Pieces, loose yarns and needles that are listed one by one.
+/// The most pieces, loose yarns and needles that are listed one by one.
 const LISTED: usize = 4;
 
-/// How a cloth hangs together, in the whole cloth: see
-/// [`Structure::pieces`](crate::Structure::pieces).
+/// How a whole cloth hangs together: see [`Structure::pieces`](crate::Structure::pieces).
 ///
-/// Of woven cloth a piece is a layer that nothing binds to the next one. Of a knit it is yarns
-/// whose loops are drawn through one another, and what is laid in between these.
+/// A piece of woven cloth is a layer that nothing binds to the next one. A piece of a knit is the
+/// yarns whose loops are drawn through one another, with the yarns that are laid in between.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Pieces {
-    /// How many pieces there are: 1 of a cloth that hangs together. A loose yarn of a knit is a
-    /// piece of its own.
+    /// Number of pieces: 1 for a cloth that hangs together. A loose yarn of a knit is a piece of
+    /// its own.
     pub count: u64,
-    /// What some of them are, in words.
+    /// Words for the first few pieces.
     pub listed: Vec<String>,
-    /// How many yarns nothing holds: neither others nor a loop of their own.
+    /// Number of loose yarns. Neither another yarn nor a loop of their own holds them.
     pub loose: u64,
     /// The first of them.
     pub loose_listed: Vec<Origin>,
-    /// How many needles of a knit never have a loop, in all wales.
+    /// Number of needles of a knit that never have a loop, over all wales.
     pub empty_needles: u64,
     /// The first of them, from 0 at the left.
     pub empty_listed: Vec<u64>,
-    /// Whether the pieces lie on one another, the one on the face first.
+    /// Whether the pieces are layers, listed from the face.
     layers: bool,
 }
 
@@ -41,8 +40,8 @@ impl Pieces {
         self.count > 1 || self.loose > 0
     }
 
-    /// What a designer should know of it: nothing of cloth that hangs together and has loops on all
-    /// needles.
+    /// Sentences for a designer. There are none for a cloth that hangs together and has loops on
+    /// all needles.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -64,24 +63,24 @@ impl Pieces {
         apart.into_iter().chain(self.empty()).collect()
     }
 
-    /// Which needles never have a loop, in words, if there are any.
+    /// Words for the needles that never have a loop; `None` if there are none.
     #[must_use]
     pub fn empty(&self) -> Option<String> {
         let numbers = joined(self.empty_listed.iter().map(u64::to_string), self.empty_needles, ", ");
         (self.empty_needles > 0).then(|| format!("needles that never have a loop, counted from 0: {numbers}"))
     }
 
-    /// The layers of woven cloth, and its threads that lie loose.
+    /// The layers of woven cloth, and its loose threads.
     pub(crate) fn of_woven(drawdown: &Drawdown) -> Self {
         let layers = drawdown.layers();
-        let size = |[ends, picks]: &[usize; 2]| match [*ends, *picks] {
+        let size = |layer: &BySet<usize>| match layer.into_array() {
             [1, 0] => "a loose end".to_owned(),
             [0, 1] => "a loose pick".to_owned(),
             [ends, 0] => counted(ends, "loose end"),
             [0, picks] => counted(picks, "loose pick"),
             [ends, picks] => format!("{} with {}", counted(ends, "end"), counted(picks, "pick")),
         };
-        // A cloth of one set alone has no crossings.
+        // A cloth of ends alone, or of picks alone, has no crossings.
         let loose = if layers.len() > 1 { drawdown.loose(&layers) } else { Vec::new() };
         Self {
             count: layers.len() as u64,
@@ -93,9 +92,9 @@ impl Pieces {
         }
     }
 
-    /// The pieces of a knit that is so many copies of one repeat, whose yarns are `joined`.
-    /// `origin` names a yarn of the repeat in the copy that is so many further along x; `empty` are
-    /// the needles of the repeat that never have a loop, and `wales` how many it has.
+    /// The pieces of a knit of `copies` copies of one repeat. `joined` has the yarns of the repeat.
+    /// `origin` gives the origin of a yarn by its number and its copy along x. `empty` are the
+    /// needles of the repeat that never have a loop, of `wales` needles.
     pub(crate) fn of_knit(
         joined: &mut Joined,
         copies: [u32; 2],
@@ -135,7 +134,7 @@ impl Pieces {
     }
 }
 
-/// Some of `count` words.
+/// Joins `listed` with `between`, and adds how many of `count` are not listed.
 fn joined(listed: impl Iterator<Item = String>, count: u64, between: &str) -> String {
     let listed: Vec<_> = listed.collect();
     let more = count.saturating_sub(listed.len() as u64);

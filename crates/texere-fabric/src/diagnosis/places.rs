@@ -1,4 +1,4 @@
-//! Clearance and bends, at places named as a weaver names them: by thread and crossing.
+//! Clearance and bends with places named as a weaver names them: by thread and crossing.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -26,19 +26,19 @@ pub struct StitchPlace {
     pub course: u32,
 }
 
-/// A place on a thread. It is written as `end 12 at pick 7`, `carrier 1, wale 3, course 5`, or by
+/// A place on a thread. It displays as `end 12 at pick 7`, as `carrier 1, wale 3, course 5`, or as
 /// the thread alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadPlace {
-    /// The thread. Of a weft that turns round at selvedges it is the pick, although the yarn is
-    /// many picks.
+    /// The thread. A weft that turns at selvedges is one yarn of many picks; the thread is the pick
+    /// then.
     pub thread: Origin,
-    /// The centreline there, mm.
+    /// The point of the centreline, mm.
     pub position_mm: [f64; 3],
-    /// The nearest crossing. None at a yarn's end and in a turn of the weft.
+    /// The nearest crossing. `None` at a yarn's end and in a turn of the weft.
     pub crossing: Option<Crossing>,
-    /// The stitch of a knit that the yarn makes there, in the whole cloth. None where it floats,
-    /// and of what is not knitted.
+    /// The stitch of a knit that the yarn makes there, counted in the whole cloth. `None` where the
+    /// yarn floats, and in cloth that is not knitted.
     pub stitch: Option<StitchPlace>,
 }
 
@@ -47,7 +47,7 @@ impl fmt::Display for ThreadPlace {
         match (self.thread, self.crossing, self.stitch) {
             (thread @ Origin::End(_), Some(crossing), _) => write!(f, "{thread} at pick {}", crossing.pick),
             (thread @ Origin::Pick(_), Some(crossing), _) => write!(f, "{thread} at end {}", crossing.end),
-            // The yarns of a repeat's copies have their course in the repeat alone.
+            // `Origin::Course` of a copied yarn counts courses within the repeat, and is left out.
             (Origin::Course(_), _, Some(stitch)) => {
                 write!(f, "wale {}, course {}", stitch.wale, stitch.course)
             }
@@ -59,17 +59,17 @@ impl fmt::Display for ThreadPlace {
     }
 }
 
-/// Two threads that come near one another: a [`Contact`] with its threads' names.
+/// Two threads that come near one another: a [`Contact`] with the names of its threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadContact {
-    /// As [`Contact::ratio`]: 1 where both just touch, less where they pierce.
+    /// See [`Contact::ratio`]: 1 where both just touch, less where they pierce.
     pub ratio: f64,
-    /// The place on each of the two.
+    /// The place on each of the two threads.
     pub places: [ThreadPlace; 2],
 }
 
 impl ThreadContact {
-    /// Half way between the two centrelines, mm.
+    /// The point half way between the two centrelines, mm.
     #[must_use]
     pub fn middle_mm(&self) -> [f64; 3] {
         let [one, other] = self.places.map(|place| place.position_mm);
@@ -77,47 +77,47 @@ impl ThreadContact {
     }
 }
 
-/// Too much yarn in one place to be measured pair by pair: a [`Crowd`] with the name of its
-/// thickest thread.
+/// A place with too much yarn for contacts to be measured pair by pair: a [`Crowd`] with the name
+/// of its thickest thread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadCrowd {
-    /// On the thickest thread there.
+    /// A place on the thickest thread there.
     pub place: ThreadPlace,
     /// Twice that thread's radius, mm.
     pub thickness_mm: f64,
-    /// Its distance to the thread before, mm; of the first thread to the next.
+    /// Distance of that thread to the thread before it, mm. For the first thread, to the next one.
     pub pitch_mm: Option<f64>,
-    /// Control intervals that lie there.
+    /// Number of control intervals that lie there.
     pub intervals: usize,
-    /// The volume of the yarns over the room that they have: see [`Crowd::fill`].
+    /// Volume of the yarns over the room that they have: see [`Crowd::fill`].
     pub fill: f64,
 }
 
 /// The tightest bend of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadBend {
-    /// Radius of curvature over how far the section reaches into the bend: see
+    /// Radius of curvature, over the distance by which the section reaches into the bend: see
     /// [`Clearance::curvature_min`](texere_contact::Clearance::curvature_min). Infinite where all
     /// threads are straight.
     pub radii: f64,
-    /// Where that is. None where all threads are straight.
+    /// The place of that bend. `None` where all threads are straight.
     pub place: Option<ThreadPlace>,
 }
 
-/// How a mesh of a cloth comes out: see [`Drawn`](texere_contact::Drawn).
+/// Faults of a cloth's mesh, with places: see [`Drawn`](texere_contact::Drawn).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadDrawn {
     /// See [`Drawn::width`](texere_contact::Drawn::width).
     pub width: f64,
-    /// Where that is.
+    /// The place of that width.
     pub width_at: Option<ThreadPlace>,
     /// See [`Drawn::inwards`](texere_contact::Drawn::inwards).
     pub inwards: u64,
-    /// Where the first of them is.
+    /// The place of the first such triangle.
     pub inwards_at: Option<ThreadPlace>,
 }
 
-/// [`Clearance`](texere_contact::Clearance), with places that are named by thread and crossing.
+/// [`Clearance`](texere_contact::Clearance), with places named by thread and crossing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClothClearance {
     /// See [`Clearance::min`](texere_contact::Clearance::min).
@@ -136,16 +136,16 @@ pub struct ClothClearance {
     pub crowd: Option<ThreadCrowd>,
     /// The tightest bend.
     pub bend: ThreadBend,
-    /// How a mesh with these settings comes out.
+    /// Faults of a mesh with the settings that were given.
     pub drawn: ThreadDrawn,
 }
 
 impl Woven {
     /// Measures how near the cloth's threads come to one another, and how tightly they bend.
-    /// `yarns` are those of [`Woven::yarns`], as they are drawn with `settings`. `progress` gets
-    /// the share that is done, as in [`clearance_with_progress`].
+    /// `yarns` come from [`Woven::yarns`], and are measured as drawn with `settings`. `progress`
+    /// gets the share that is done, as in [`clearance_with_progress`].
     ///
-    /// **Errors**: those of [`clearance_with_progress`].
+    /// **Errors**: the errors of [`clearance_with_progress`].
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -185,7 +185,7 @@ impl ThreadPlace {
 }
 
 impl ClothClearance {
-    /// What is found of `yarns`, at places named by the yarn alone.
+    /// Measures the clearance of `yarns`. Places are named by the yarn alone.
     pub(crate) fn of(
         yarns: &Yarns,
         settings: &Settings,
@@ -195,7 +195,7 @@ impl ClothClearance {
     }
 }
 
-/// Yarns to name places by, and the cloth that they are woven to.
+/// Yarns, and the cloth that they are woven into, by which places are named.
 struct Names<'a> {
     cloth: Option<&'a Woven>,
     yarns: &'a Yarns,
@@ -257,7 +257,7 @@ impl Names<'_> {
         Some(Crossing { end: number % ends + 1, pick: number / ends + 1 })
     }
 
-    /// The thread that a yarn is at a place: a weft that turns round is many picks.
+    /// The thread at a place. A weft that turns at selvedges is one yarn of many picks.
     fn thread(&self, place: &YarnPlace, crossing: Option<Crossing>) -> Origin {
         let origin = self.yarns.layout().yarns()[place.yarn].origin;
         match (origin, crossing, self.cloth) {
@@ -270,9 +270,9 @@ impl Names<'_> {
     }
 }
 
-/// The pick nearest to height `y` of `cloth`, mm.
+/// The pick of `cloth` that lies nearest to the height `y`, mm.
 fn pick_at(cloth: &Woven, y: f64) -> u32 {
-    let [_, middles] = cloth.middles_mm();
+    let middles = cloth.middles_mm().weft;
     let distances = middles.into_iter().map(|middle| (middle - y).abs());
     (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
 }

@@ -1,4 +1,4 @@
-//! What is said of cloth that has settled: one word, by one threshold.
+//! The verdict on cloth that has settled.
 
 use std::fmt;
 
@@ -7,19 +7,19 @@ use texere_core::settling::Length;
 
 use crate::{Finished, Settled, WovenRest};
 
-/// How yarns may be off the length that they are to have, as a share: what settling asks for.
+/// Share by which yarns may be off the length that they should have. Settling itself aims for this.
 const LENGTH: f32 = 0.01;
 
-/// Whether cloth that has settled is what was asked for.
+/// Whether settled cloth is what was asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// No surface as drawn is nearer to another than [`CLEAR`], none folds, and all keep their
-    /// lengths and their linking.
+    /// No surface, as drawn, is nearer to another than [`CLEAR`], and none folds. All yarns keep
+    /// their lengths and their linking.
     AtRest,
-    /// Yarns of a knit have no room: no form of settling has made them clear.
+    /// Yarns of a knit have no room: even the block form of settling has not made them clear.
     Jammed,
-    /// Something of that is not so.
+    /// A condition of [`Verdict::AtRest`] is not met.
     NotAtRest,
 }
 
@@ -34,7 +34,7 @@ impl fmt::Display for Verdict {
 }
 
 impl Finished {
-    /// What is said of it: in the command line, in the window, and by [`Finished::is_at_rest`].
+    /// The verdict on the cloth. The command line, the window and [`Finished::is_at_rest`] use it.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self {
@@ -43,9 +43,9 @@ impl Finished {
         }
     }
 
-    /// Whether it is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR)) or
-    /// folds, and yarns of a knit keep their lengths and their linking. Then `check` finds neither,
-    /// too.
+    /// Whether the cloth is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR))
+    /// or folds, and yarns of a knit keep their lengths and their linking. `check` finds no
+    /// piercing and no fold then.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.verdict() == Verdict::AtRest
@@ -53,7 +53,7 @@ impl Finished {
 }
 
 impl Settled {
-    /// What is said of it, by its surfaces as they are drawn.
+    /// The verdict, by surfaces as they are drawn.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let Clearance { min, curvature_min, crowd, .. } = &self.clearance;
@@ -67,15 +67,14 @@ impl Settled {
 }
 
 impl WovenRest {
-    /// What is said of it, by its surfaces as they are drawn. Threads that still move by a little
-    /// may be at rest.
+    /// The verdict, by surfaces as they are drawn. Threads that still move a little may be at rest.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if is_clear(self.clearance[1], self.bend) { Verdict::AtRest } else { Verdict::NotAtRest }
     }
 }
 
-/// Whether surfaces of this clearance do not pierce, and of this bend do not fold.
+/// Whether surfaces with this clearance do not pierce, and with this bend do not fold.
 fn is_clear(clearance: f64, bend: f64) -> bool {
     clearance >= CLEAR && bend >= 1.0
 }

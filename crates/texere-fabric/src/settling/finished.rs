@@ -5,15 +5,15 @@ use texere_core::Yarns;
 use super::Settled;
 use crate::{FabricWarning, WovenRest};
 
-/// A fabric that has come to rest, or as near to it as it got: see
+/// A fabric at rest, or as near to it as it came: see
 /// [`Structure::settle`](crate::Structure::settle).
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "a fabric is finished once")]
 pub enum Finished {
-    /// A knit, by whatever touches.
+    /// A knit, settled by contact.
     Knit(Settled),
-    /// Woven cloth, by its crossings.
+    /// Woven cloth, settled by its crossings.
     Woven(WovenRest),
 }
 
@@ -36,7 +36,7 @@ impl Finished {
         }
     }
 
-    /// What a designer should know of how it came to rest: [`FabricWarning::PressMissed`].
+    /// What a designer should know of the fabric at rest: [`FabricWarning::PressMissed`].
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         let press = match self {

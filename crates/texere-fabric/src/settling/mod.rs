@@ -1,5 +1,5 @@
-//! Settling: the yarns of a structure come to rest, and a repeat that has settled is laid side by
-//! side.
+//! Settling: the yarns of a structure come to rest, and copies of a settled repeat are placed side
+//! by side.
 
 mod error;
 mod finished;
@@ -28,14 +28,14 @@ use crate::{FabricError, thickness_mm};
 const PASSED: f64 = 0.9;
 const COMPARED: f64 = 0.95;
 
-/// Lets the yarns of `piece` settle on `backend`: they move until they nowhere pierce one another,
+/// Lets the yarns of `piece` settle on `backend`. They move until they nowhere pierce one another,
 /// nowhere fold, and have the length that `finish` asks for. `progress` gets the share of the work
-/// that is done, from 0 to 1; `Break` ends it within one pass.
+/// done, from 0 to 1; `Break` ends the settling within one pass.
 ///
-/// Where they can't come to rest within their passes, [`Settled::rest`] says so with its figures.
-/// What comes back is the best that was seen: by clearance, then by bends, then by length, never
-/// worse than what came in ([`texere_core::settling::settle`]). Yarns that have passed through one
-/// another are no better whatever they measure: then what came in comes back, and
+/// [`Settled::rest`] says whether they came to rest within their passes, with figures. The result
+/// is the best that was seen: by clearance, then by bends, then by length, never worse than the
+/// start ([`texere_core::settling::settle`]). Yarns that have passed through one another are no
+/// better, whatever they measure: the yarns of `piece` then come back unmoved, and
 /// [`Settled::linking`] names the places.
 ///
 /// **Errors**: [`FinishError::Settling`] for what can't be settled as asked,
@@ -74,7 +74,7 @@ pub fn settle(
     let plan = Arc::new(plan);
     let mut settler = backend.settler(Arc::clone(&plan))?;
     let (mut course, mut stopped) = (Vec::new(), false);
-    // Both forms take so many passes at most, and few more come before.
+    // Both forms take this many passes at most, and few more come before.
     let (mut made, most) = (0.0, 2.0 * f64::from(finish.passes));
     let rest = settling::settle(&plan, settler.as_mut(), |pass, seen| {
         if finish.record {
@@ -113,29 +113,30 @@ pub fn settle(
 /// The share of the progress at which one repeat has settled, and its copies are measured.
 const SETTLED: f64 = 0.8;
 
-/// Lets one repeat settle, and measures [`Settled::clearance`] on all copies of it, as `laid` lays
-/// them.
+/// Lets one repeat settle, and measures [`Settled::clearance`] on all its copies, which `placed`
+/// makes.
 pub(crate) fn settle_repeat(
     repeat: &Repeat,
-    laid: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
+    placed: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
     finish: &Finish,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
     let mut settled = settle(&repeat.piece, finish, backend, |done| progress(SETTLED * done))?;
-    let yarns = laid(&settled.yarns)?;
+    let yarns = placed(&settled.yarns)?;
     let settings = Settings::default();
     settled.clearance =
         clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
     for passage in &mut settled.linking.worst {
-        passage.places = passage.places.map(|place| laid_at(&place, settled.yarns.layout(), yarns.layout()));
+        passage.places =
+            passage.places.map(|place| placed_at(&place, settled.yarns.layout(), yarns.layout()));
     }
     Ok(Settled { yarns, ..settled })
 }
 
 /// A place on a yarn of the repeat, on that yarn's first copy.
-fn laid_at(place: &YarnPlace, repeat: &Layout, laid: &Layout) -> YarnPlace {
+fn placed_at(place: &YarnPlace, repeat: &Layout, placed: &Layout) -> YarnPlace {
     let origin = repeat.yarns()[place.yarn].origin;
-    let yarn = laid.yarns().iter().position(|yarn| yarn.origin == origin);
+    let yarn = placed.yarns().iter().position(|yarn| yarn.origin == origin);
     YarnPlace { yarn: yarn.unwrap_or(place.yarn), ..*place }
 }

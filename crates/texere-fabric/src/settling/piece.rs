@@ -12,7 +12,7 @@ use super::Finish;
 pub struct Piece {
     /// The yarns, about where they belong.
     pub yarns: Yarns,
-    /// Where they end, close up or go on.
+    /// Where the yarns end, close up or go on.
     pub boundary: Boundary,
     /// Control points that stay where they are, by number among all.
     pub pinned: Vec<u64>,
@@ -25,7 +25,7 @@ impl Piece {
         Self { yarns, boundary, pinned: Vec::new() }
     }
 
-    /// A piece cut out of a cloth: every yarn that is not closed ends at its first and its last
+    /// A piece cut out of a cloth. Every yarn that is not closed ends at its first and its last
     /// control point, and is held there.
     ///
     /// ```
@@ -44,7 +44,7 @@ impl Piece {
         Self { boundary: Boundary::without_repeat(layout), pinned, yarns }
     }
 
-    /// Length of all its yarns, mm: of one that goes on, as far as to its next round.
+    /// Length of all its yarns, mm. A yarn that goes on counts as far as its next round.
     #[must_use]
     pub fn length_mm(&self) -> f64 {
         let lengths = lengths_mm(&self.yarns);
@@ -58,7 +58,7 @@ impl Piece {
         yarns.sum()
     }
 
-    /// Its yarns with all their control points elsewhere, in the same order.
+    /// The piece's yarns with other control points, in the same order.
     ///
     /// **Errors**: [`YarnError`] for another number of points, or an invalid one.
     pub fn moved(&self, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
@@ -73,8 +73,8 @@ impl Piece {
         Ok(moved)
     }
 
-    /// The problem that `finish` makes of it: for those who run a settler themselves, and leave
-    /// what came to rest on its device.
+    /// The settling problem that `finish` makes of the piece. Callers that run a settler themselves
+    /// can leave the result on its device.
     #[must_use]
     pub fn settling(&self, finish: &Finish) -> Settling<'_> {
         let settling = Settling::new(&self.yarns)

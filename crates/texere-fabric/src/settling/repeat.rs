@@ -1,4 +1,4 @@
-//! One repeat of a cloth, laid side by side.
+//! One repeat of a cloth, and its copies side by side.
 
 use std::ops::Range;
 
@@ -8,11 +8,11 @@ use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, YarnError, Yarns};
 use super::Piece;
 use crate::FabricError;
 
-/// A repeat that settles has so many wales and courses at least, if the cloth has as many: what
-/// lies over its seam is then another stitch.
+/// The fewest wales and courses of a repeat that settles, if the cloth has as many. What lies over
+/// its seam is then another stitch.
 const SETTLED: u32 = 4;
 
-/// A cloth that is so many copies of one repeat. The repeat settles once, and is then copied.
+/// A cloth made of copies of one repeat. The repeat settles once, and is then copied.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -24,7 +24,7 @@ const SETTLED: u32 = 4;
 /// let boundary = Boundary::new(yarns.layout(), [2.0, 0.5], vec![Ends::Repeats([1, 0])])?;
 /// let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 2] };
 /// // Three repeats of it are one yarn, and there are two such yarns, half a millimetre apart.
-/// let cloth = repeat.laid(&repeat.piece.yarns)?;
+/// let cloth = repeat.placed(&repeat.piece.yarns)?;
 /// assert_eq!(cloth.layout().offsets(), [0, 12, 24]);
 /// assert_eq!((cloth.points()[11].x, cloth.points()[23].y), (5.5, 0.5));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -33,13 +33,13 @@ const SETTLED: u32 = 4;
 pub struct Repeat {
     /// The yarns of one repeat, and how they go on.
     pub piece: Piece,
-    /// How many repeats lie side by side along x and along y.
+    /// Number of copies along x and along y.
     pub copies: [u32; 2],
 }
 
 impl Repeat {
-    /// The repeat with splines of another [tension](texere_core::Layout::tension) through the
-    /// control points of its yarns.
+    /// The repeat with another [tension](texere_core::Layout::tension) of the splines through its
+    /// control points.
     ///
     /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
     pub fn with_tension(mut self, tension: f32) -> Result<Self, YarnError> {
@@ -47,35 +47,35 @@ impl Repeat {
         Ok(self)
     }
 
-    /// All copies of the repeat, side by side. `yarns` are those of [`Repeat::piece`], as they are
-    /// or settled.
+    /// All copies of the repeat, placed side by side. `yarns` are the yarns of [`Repeat::piece`],
+    /// settled or not.
     ///
-    /// A yarn that goes on from one repeat to the next is one yarn through all of them, and is cut
-    /// off where the copies end: at the last control point of its last round. There its first and
-    /// its last interval lack the neighbour that bends them in the repeat, so that they may come
-    /// nearer to others. Others are copied one by one. Yarns come copy by copy, from the left and
-    /// row by row from below, each where it begins. Materials, sections, tension, origins and
-    /// sources are those of the repeat.
+    /// A yarn that goes on from one repeat to the next becomes one yarn through all copies. It is
+    /// cut off at the last control point of its last round. There its first and its last interval
+    /// lack the neighbour that bends them in the repeat, and may come nearer to other yarns. All
+    /// other yarns are copied one by one. Yarns come copy by copy, row by row from below and from
+    /// the left, each where it begins. Materials, sections, tension, origins and sources are those
+    /// of the repeat.
     ///
     /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's,
     /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where there is no copy, or
     /// coordinates would lie too far out.
-    pub fn laid(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        self.laid_beyond(yarns, [0, 0])
+    pub fn placed(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        self.placed_beyond(yarns, [0, 0])
     }
 
-    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control
-    /// points further at its beginning and at its end, so that all of it within the copies bends as
-    /// in the repeat.
+    /// [`Repeat::placed`] with longer yarns: a yarn that is cut off where the copies end goes on
+    /// for `beyond` control points more at its beginning and at its end. All of it within the
+    /// copies then bends as in the repeat.
     ///
-    /// **Errors**: those of [`Repeat::laid`].
-    pub fn laid_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
-        self.laid_as(yarns, beyond, |origin, _| origin, |source, _| source)
+    /// **Errors**: those of [`Repeat::placed`].
+    pub fn placed_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
+        self.placed_as(yarns, beyond, |origin, _| origin, |source, _| source)
     }
 
-    /// As [`Repeat::laid_beyond`], but copies get origins and sources of their own, from those of
-    /// the repeat and by how many repeats they lie along x and y.
-    pub(crate) fn laid_as(
+    /// [`Repeat::placed_beyond`] with origins and sources of the copies' own, made from those of
+    /// the repeat and the copy's place, in repeats along x and y.
+    pub(crate) fn placed_as(
         &self,
         yarns: &Yarns,
         beyond: [u32; 2],
@@ -105,7 +105,7 @@ impl Repeat {
                 Ends::Repeats(onward) => Some(onward.map(i64::from)),
             };
             if onward.is_some_and(|onward| self.holds([cell[0] - onward[0], cell[1] - onward[1]])) {
-                // It has begun in an earlier round.
+                // The yarn has begun in an earlier round.
                 continue;
             }
             let next = |cell: &[i64; 2]| onward.map(|onward| [cell[0] + onward[0], cell[1] + onward[1]]);
@@ -144,12 +144,13 @@ impl Repeat {
             table.push(Yarn { origin: origin(own.origin, cell), ..own });
             offsets.push(points.len() as u64);
         }
-        let laid = Layout::new(table, offsets, layout.sections().to_vec())?.with_tension(layout.tension())?;
-        let laid = Yarns::new(laid, yarns.materials().to_vec(), points)?;
-        Ok(if yarns.sources().is_some() { laid.with_sources(sources)? } else { laid })
+        let placed =
+            Layout::new(table, offsets, layout.sections().to_vec())?.with_tension(layout.tension())?;
+        let placed = Yarns::new(placed, yarns.materials().to_vec(), points)?;
+        Ok(if yarns.sources().is_some() { placed.with_sources(sources)? } else { placed })
     }
 
-    /// All copies, by how many repeats they lie along x and along y.
+    /// All copies, each by its place in repeats along x and along y.
     fn cells(&self) -> impl Iterator<Item = [i64; 2]> {
         let [across, along] = self.copies.map(i64::from);
         (0..along).flat_map(move |y| (0..across).map(move |x| [x, y]))
@@ -160,8 +161,8 @@ impl Repeat {
     }
 }
 
-/// How many repeats of a knit settle together along x and along y, where one has `size` wales and
-/// courses.
+/// Number of repeats of a knit that settle together along x and along y, where one has `size` wales
+/// and courses.
 pub(crate) fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
     [0, 1].map(|axis| tiles(size[axis], copies[axis]))
 }

@@ -1,11 +1,11 @@
-//! A guide bar: its chain, which guides hold which yarn, and by how much single ones are displaced.
+//! Guide bars: the chain, the threading, and the displacements of single guides.
 
 use super::{Chain, Lap};
 
-/// Courses of a rack.
+/// Number of courses in a rack, the unit in which run-ins are given.
 pub(super) const RACK: f64 = 480.0;
 
-/// A guide bar.
+/// A guide bar: its chain, its threading, and its displacements if it is a Jacquard bar.
 ///
 /// ```
 /// use texere_fabric::warp::{Bar, Chain, Threading};
@@ -15,29 +15,29 @@ pub(super) const RACK: f64 = 480.0;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
-    /// How it laps.
+    /// Its movement, course by course.
     pub chain: Chain,
-    /// Which of its guides hold which yarn.
+    /// The yarn of each guide.
     pub threading: Threading,
-    /// Needles by which the whole bar stands further to the high numbers: space 0 of the chain is
-    /// that of guide 0 moved by so many.
+    /// Needles by which the whole bar is moved towards the high numbers. For guide 0, space 0 of
+    /// the chain is space `offset` of the cloth.
     pub offset: i32,
-    /// Length of yarn for a rack of 480 courses, mm; `None` where the bar finds its own.
+    /// Run-in: length of yarn for a rack of 480 courses, mm. With `None` the bar finds its own.
     pub run_in_mm: Option<f64>,
-    /// Where single guides are displaced: the bar is a Jacquard bar.
+    /// Displacements of single guides, for a Jacquard bar.
     pub jacquard: Option<Displacements>,
 }
 
 impl Bar {
-    /// A bar that laps so, all its guides threaded with the first yarn.
+    /// A bar with this chain, whose guides all hold the first yarn.
     #[must_use]
     pub fn new(chain: Chain) -> Self {
         Self { chain, threading: Threading::full(0), offset: 0, run_in_mm: None, jacquard: None }
     }
 
-    /// The lap of a guide at a course, in spaces of the cloth: guide g of a bar without offset,
-    /// whose chain says `a-b`, goes from space g + a to space g + b. Spaces that an `i32` can't
-    /// count are the last that it can.
+    /// The lap of a guide at a course, in spaces of the cloth. For a chain with `a-b` and no
+    /// offset, guide g goes from space g + a to space g + b. Spaces beyond the range of an `i32`
+    /// are clamped to it.
     #[must_use]
     pub fn lap(&self, guide: u32, course: u32) -> Lap {
         let lap = self.chain.lap(course as usize);
@@ -52,7 +52,7 @@ impl Bar {
         Lap { from: space(lap.from, from), to: space(lap.to, to) }
     }
 
-    /// The laps that its Jacquard's colours make of its chain's, with their courses.
+    /// The laps of the chain as each colour of the Jacquard displaces them, with their courses.
     pub(super) fn displaced(&self) -> impl Iterator<Item = (usize, Lap)> + '_ {
         let colours = self.jacquard.iter().flat_map(|jacquard| &jacquard.palette);
         colours.flat_map(|shifts| shifts.iter().enumerate()).map(|(course, shifts)| {
@@ -62,27 +62,27 @@ impl Bar {
     }
 }
 
-/// Which guides of a bar hold which yarn, over and over again from guide 0.
+/// The yarns that the guides of a bar hold. The threading repeats from guide 0 on.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Threading {
     guides: Vec<Option<u32>>,
 }
 
 impl Threading {
-    /// Every guide holds the same yarn, by its number among the cloth's yarns.
+    /// A threading in which every guide holds the same yarn, an index into the cloth's yarns.
     #[must_use]
     pub fn full(yarn: u32) -> Self {
         Self { guides: vec![Some(yarn)] }
     }
 
-    /// The yarn of each guide, or `None` for one that is empty. No guides at all are one that is
-    /// empty.
+    /// A threading with the yarn of each guide, or `None` for an empty guide. An empty list counts
+    /// as one empty guide.
     #[must_use]
     pub fn of(guides: Vec<Option<u32>>) -> Self {
         Self { guides: if guides.is_empty() { vec![None] } else { guides } }
     }
 
-    /// Guides until the threading begins again.
+    /// Number of guides until the threading begins again.
     #[must_use]
     pub const fn period(&self) -> usize {
         self.guides.len()
@@ -101,13 +101,13 @@ impl Threading {
     }
 }
 
-/// By how many needles the guides of a Jacquard bar are displaced, from an image whose colours say
-/// it.
+/// The displacements of a Jacquard bar's guides: an image whose colours stand for displacements.
 ///
-/// Each cell of the image is a guide, x from guide 0 on, and one round of the bar's chain, y from
-/// the first one knitted. It has the number of a colour, and each colour has, for every course of
-/// the chain, the needles by which the lap begins and ends further to the high numbers: 0 or 1.
-/// Beyond its edges the image begins again.
+/// Each cell of the image stands for one guide and one round of the bar's chain. x counts guides
+/// from guide 0, and y counts rounds from the first one knitted. A cell holds the number of a
+/// colour. A colour has two numbers, each 0 or 1, for every course of the chain: the needles by
+/// which the beginning and the end of the lap are moved towards the high numbers. The image repeats
+/// beyond its edges.
 ///
 /// ```
 /// use texere_fabric::warp::{Bar, Chain, Displacements};
@@ -127,11 +127,13 @@ pub struct Displacements {
 }
 
 impl Displacements {
-    /// An image of so many guides and rounds of the chain, with the colour of each cell.
-    /// `palette[colour][course]` is what the lap's beginning and its end are displaced by. `None`
-    /// for an image without cells or with more than a `u32` counts, for colours of no courses or of
-    /// different numbers of them, shifts above 1, and cells of a colour that the palette does not
-    /// have.
+    /// An image of `size` guides and rounds of the chain. `palette[colour][course]` has the
+    /// displacements of the beginning and the end of the lap, and `colour` gives the colour of a
+    /// cell by guide and round.
+    ///
+    /// `None` for an image without cells or with more of them than a `u32` counts, for colours
+    /// without courses or with different numbers of courses, for displacements above 1, and for
+    /// colours that the palette lacks.
     #[must_use]
     pub fn new(
         size: [u32; 2],
@@ -152,13 +154,13 @@ impl Displacements {
         known.then_some(Self { size, palette, cells })
     }
 
-    /// Guides and rounds of the chain after which the image begins again.
+    /// Width of the image in guides, and its height in rounds of the chain.
     #[must_use]
     pub const fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// Courses for each row of the image.
+    /// Courses of one row of the image.
     #[must_use]
     pub fn courses(&self) -> usize {
         self.palette[0].len()
@@ -172,7 +174,7 @@ impl Displacements {
         self.cells[(row * width + guide % width) as usize]
     }
 
-    /// By how many needles the beginning and the end of a guide's lap at a course are displaced.
+    /// Displacements of the beginning and the end of a guide's lap at a course, in needles.
     #[must_use]
     pub fn shifts(&self, guide: u32, course: u32) -> [u8; 2] {
         let colour = &self.palette[usize::from(self.colour(guide, course))];

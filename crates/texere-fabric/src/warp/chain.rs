@@ -1,4 +1,4 @@
-//! Where a guide moves, course by course.
+//! Chains: the movement of a guide bar, course by course.
 
 use std::fmt;
 
@@ -8,11 +8,11 @@ pub const SPACE_MAX: i32 = 512;
 /// The most courses of a chain.
 pub const CHAIN_COURSES: usize = 4096;
 
-/// The most needles that one lap goes round.
+/// The most needles that a lap goes round.
 pub const NEEDLES_MOST: i32 = 2;
 
-/// What a guide does at one course: it swings through the needles in space `from`, moves in front
-/// of them to space `to`, and swings back. Space n lies between the needles n - 1 and n.
+/// The movement of a guide at one course. It swings through the needles in space `from`, moves in
+/// front of them to space `to`, and swings back. Space n lies between the needles n - 1 and n.
 ///
 /// ```
 /// use texere_fabric::warp::{Lap, LapKind};
@@ -27,19 +27,19 @@ pub struct Lap {
     pub to: i32,
 }
 
-/// How many needles a lap goes round.
+/// The kind of a lap, by the number of needles that it goes round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LapKind {
-    /// One: it makes a loop.
+    /// One needle: the lap makes a loop.
     Overlap,
-    /// Two: it makes a loop on each.
+    /// Two needles: the lap makes a loop on each.
     TwoNeedle,
-    /// None: the yarn is laid in, and makes no loop.
+    /// No needle: the yarn is laid in, and makes no loop.
     Inlay,
 }
 
 impl Lap {
-    /// How many needles it goes round.
+    /// The kind of the lap.
     #[must_use]
     pub const fn kind(self) -> LapKind {
         match self.overlap().abs() {
@@ -49,20 +49,21 @@ impl Lap {
         }
     }
 
-    /// By how many needles it moves in front of them; towards higher numbers positive.
+    /// The overlap: needles by which the guide moves in front of them, positive towards higher
+    /// numbers.
     #[must_use]
     pub const fn overlap(self) -> i32 {
         self.to - self.from
     }
 
-    /// The first needle that it goes round, seen from the low numbers; of an inlay, the needle
-    /// after its space.
+    /// The needle with the lowest number that it goes round. For an inlay it is the needle after
+    /// its space.
     #[must_use]
     pub const fn needle(self) -> i32 {
         if self.from < self.to { self.from } else { self.to }
     }
 
-    /// The needles that it goes round, in the order in which it does.
+    /// The needles that it goes round, in the order in which the guide reaches them.
     pub fn needles(self) -> impl Iterator<Item = i32> {
         let (first, count) = (self.needle(), self.overlap().abs());
         let falls = self.overlap() < 0;
@@ -76,10 +77,11 @@ impl fmt::Display for Lap {
     }
 }
 
-/// The laps of a guide bar, course by course from the first one knitted, over and over again.
+/// The chain of a guide bar: its laps, course by course from the first one knitted. After the last
+/// lap the first one follows again.
 ///
-/// It is read from notation ([`Chain::parse`]) or known by name ([`Chain::named`]), and gives its
-/// notation back:
+/// A chain is read from notation ([`Chain::parse`]) or known by a name ([`Chain::named`]). It
+/// displays as notation:
 ///
 /// ```
 /// use texere_fabric::warp::Chain;
@@ -95,8 +97,8 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// A chain of these laps, if there is one at least and [`CHAIN_COURSES`] at most, their spaces
-    /// are numbered from 0 to [`SPACE_MAX`], and each goes round [`NEEDLES_MOST`] needles at most.
+    /// A chain of these laps. `None` for no laps or more than [`CHAIN_COURSES`], for spaces outside
+    /// 0 to [`SPACE_MAX`], and for a lap round more than [`NEEDLES_MOST`] needles.
     #[must_use]
     pub fn new(laps: Vec<Lap>) -> Option<Self> {
         let space = 0..=SPACE_MAX;
@@ -112,35 +114,35 @@ impl Chain {
         &self.laps
     }
 
-    /// Courses until the chain begins again.
+    /// Number of courses until the chain begins again.
     #[must_use]
     pub const fn courses(&self) -> usize {
         self.laps.len()
     }
 
-    /// The lap at a course from 0, however far the chain has gone round.
+    /// The lap at a course, counted from 0. The course may lie beyond the chain's end.
     #[must_use]
     pub fn lap(&self, course: usize) -> Lap {
         self.laps[course % self.laps.len()]
     }
 
-    /// By how many needles the guide moves behind them after its lap at `course`, to that at the
-    /// next one; towards higher numbers positive.
+    /// The underlap after the lap at `course`: needles by which the guide moves behind them to its
+    /// next lap, positive towards higher numbers.
     #[must_use]
     pub fn underlap(&self, course: usize) -> i32 {
         self.lap(course % self.laps.len() + 1).from - self.lap(course).to
     }
 
-    /// Whether the lap at `course` is open: the underlap after it goes on in the direction of its
-    /// overlap, or there is none. After a closed one it goes back, and the yarn crosses itself. An
-    /// inlay is neither, and is none that is open.
+    /// Whether the lap at `course` is open: its underlap goes on in the direction of the overlap,
+    /// or there is no underlap. The underlap of a closed lap goes back, and the yarn crosses
+    /// itself. An inlay is not open.
     #[must_use]
     pub fn is_open(&self, course: usize) -> bool {
         is_open(self.lap(course), self.underlap(course))
     }
 }
 
-/// Whether a lap is open with an underlap of so many needles after it.
+/// Whether a lap is open, when an underlap of `underlap` needles follows it.
 pub(super) const fn is_open(lap: Lap, underlap: i32) -> bool {
     lap.overlap() != 0 && lap.overlap().signum() * underlap >= 0
 }

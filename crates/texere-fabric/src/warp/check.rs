@@ -1,9 +1,9 @@
-//! Whether bars, gauge and yarns can be a cloth.
+//! Checks of bars, gauge and yarns: whether they can be a cloth.
 
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Bar, Laid, LapKind, NEEDLES_MOST, WarpError};
+use super::{Bar, LapKind, NEEDLES_MOST, PlacedLap, WarpError};
 use crate::settling::settled_together;
 use crate::weft::WeftError;
 use crate::weft::check::{passed_max, repeat_points, tiled};
@@ -18,16 +18,16 @@ const OFFSET_MAX: i32 = 1 << 16;
 /// The most wales or courses of all copies.
 const SIDE_MAX: u64 = 1 << 30;
 
-/// The most laps that are laid before they are copied.
-const LAID_MAX: u64 = 1 << 26;
+/// The most laps of a cloth before it is copied.
+const LAPS_MAX: u64 = 1 << 26;
 
-/// Control points of a lap at least.
+/// The fewest control points of a lap.
 const LAP_POINTS: u64 = 2;
 
 /// Control points of a loop.
 const LOOP_POINTS: u64 = 9;
 
-/// Whether bars are sound, and refer only to yarns that there are.
+/// Checks that bars are sound, and refer only to yarns that exist.
 pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     if !(1..=BARS_MAX).contains(&bars.len()) {
         return Err(WarpError::Bars { bars: bars.len(), limit: BARS_MAX });
@@ -53,14 +53,14 @@ pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     Ok(())
 }
 
-/// The first guide that is threaded with the yarn of that number, from 0.
+/// The first guide that holds the yarn with the number `yarn`, from 0.
 pub(super) fn first_guide(bars: &[Bar], yarn: u32) -> Origin {
     let guide = |bar: &Bar| bar.threading.guides().iter().position(|threaded| *threaded == Some(yarn));
     let found = (1..).zip(bars).find_map(|(bar, each)| Some((bar, guide(each)?)));
     found.map_or(Origin::Unknown, |(bar, guide)| Origin::Guide { bar, guide: guide as u32 + 1 })
 }
 
-/// Wales and courses after which all bars begin again, if `size` are multiples of them.
+/// Wales and courses after which all bars begin again. `size` has to be a multiple of them.
 pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError> {
     let periods = bars.iter().map(|bar| {
         let [guides, rounds] = bar.jacquard.as_ref().map_or([1, 1], |image| image.size());
@@ -76,7 +76,7 @@ pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError
     Ok(repeat.map(|count| count as u32))
 }
 
-/// The least common multiple, or more than any size.
+/// The least common multiple; the largest `u64` where that is too large.
 fn common(one: u64, other: u64) -> u64 {
     let (mut greatest, mut rest) = (one, other);
     while rest > 0 {
@@ -85,8 +85,8 @@ fn common(one: u64, other: u64) -> u64 {
     (one / greatest.max(1)).saturating_mul(other)
 }
 
-/// Whether the cloth has loops, and no more control points than are taken: a low estimate, before
-/// any is made.
+/// Checks that the cloth has loops, and by a low estimate that it does not have too many control
+/// points. None has been made then.
 pub(super) fn size(
     bars: &[Bar],
     repeat: [u32; 2],
@@ -94,11 +94,11 @@ pub(super) fn size(
     copies: [u32; 2],
 ) -> Result<(), FabricError> {
     let area = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
-    let laid = area(piece).saturating_mul(bars.len() as u64);
-    let points = laid.saturating_mul(LAP_POINTS).saturating_mul(area(copies));
+    let placed = area(piece).saturating_mul(bars.len() as u64);
+    let points = placed.saturating_mul(LAP_POINTS).saturating_mul(area(copies));
     let far = (0..2).any(|axis| u64::from(piece[axis]) * u64::from(copies[axis]) > SIDE_MAX);
-    if laid > LAID_MAX {
-        return Err(WarpError::Laps { laps: laid, limit: LAID_MAX }.into());
+    if placed > LAPS_MAX {
+        return Err(WarpError::Laps { laps: placed, limit: LAPS_MAX }.into());
     }
     if points > POINTS_MAX {
         return Err(WeftError::KnitPoints { points, limit: POINTS_MAX }.into());
@@ -110,11 +110,11 @@ pub(super) fn size(
         return Err(WeftError::Stitches { what: "no copy of the repeat" }.into());
     }
     let (mut loops, mut inlays, mut passed, mut points) = (0_u64, 0_u64, 0_u64, 0_u64);
-    for laid in laps(bars, repeat[0], repeat[1]) {
-        loops += u64::from(laid.lap.overlap().unsigned_abs());
-        inlays += u64::from(laid.kind() == LapKind::Inlay);
-        passed += u64::from(laid.underlap.unsigned_abs());
-        points += lap_points(&laid);
+    for placed in laps(bars, repeat[0], repeat[1]) {
+        loops += u64::from(placed.lap.overlap().unsigned_abs());
+        inlays += u64::from(placed.kind() == LapKind::Inlay);
+        passed += u64::from(placed.underlap.unsigned_abs());
+        points += lap_points(&placed);
         repeat_points(points)?;
     }
     if loops == 0 {
@@ -123,18 +123,19 @@ pub(super) fn size(
     let laps = loops + inlays;
     let limit = passed_max(laps);
     if passed > limit {
-        return Err(WeftError::KnitRuns { passed, loops: laps, limit, told: None }.into());
+        return Err(WeftError::KnitRuns { passed, loops: laps, limit, operation: None }.into());
     }
     let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
     let tiles = settled_together(repeat, whole);
     Ok(tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)?)
 }
 
-/// Control points of a lap and its underlap, about. Pieces of underlaps are 0.4 wales long.
-fn lap_points(laid: &Laid) -> u64 {
+/// The number of control points of a lap with its underlap, about. Pieces of underlaps are 0.4
+/// wales long.
+fn lap_points(placed: &PlacedLap) -> u64 {
     let [needles, underlap] =
-        [laid.lap.overlap(), laid.underlap].map(|count| u64::from(count.unsigned_abs()));
-    match laid.kind() {
+        [placed.lap.overlap(), placed.underlap].map(|count| u64::from(count.unsigned_abs()));
+    match placed.kind() {
         LapKind::Inlay => 1 + underlap,
         LapKind::Overlap | LapKind::TwoNeedle => {
             LOOP_POINTS * needles + (5 * underlap).div_ceil(2).saturating_sub(1)
@@ -162,7 +163,7 @@ mod tests {
         ] {
             let bars: Vec<_> = bars.iter().map(|chain| Bar::new(Chain::parse(chain, 1).unwrap())).collect();
             let courses = bars.iter().map(|bar| bar.chain.courses()).max().unwrap() as u32;
-            let laps = laps(&bars, 8, courses).map(|laid| lap_points(&laid)).sum::<u64>();
+            let laps = laps(&bars, 8, courses).map(|placed| lap_points(&placed)).sum::<u64>();
             let (yarns, sections) = (vec![KnitYarn::new(0.04)], vec![Section::Circle]);
             let gauge = Gauge::new(1.0, 0.75);
             let materials = vec![Material::default()];

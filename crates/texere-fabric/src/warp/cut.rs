@@ -1,4 +1,4 @@
-//! How yarns end where a warp knit is cut off.
+//! The ends of yarns where a warp knit is cut off.
 
 use texere_core::{Origin, Yarns};
 
@@ -6,26 +6,29 @@ use super::WarpKnitted;
 use crate::FabricError;
 use crate::weft::Cells;
 
-/// How many control points yarns go on below: down into the last loop there.
+/// Control points by which yarns go on below the cloth: down into the last loop there.
 const BELOW: u32 = 3;
 
-/// How many they go on above: up the leg of the next loop, until beyond the heads that hold it.
+/// Control points by which yarns go on above it: up the leg of the next loop, beyond the heads that
+/// hold that leg.
 const ABOVE: u32 = 4;
 
-/// How far such a leg ends aside from where it goes on in the repeat, in differences between the
-/// step to that point and the step after it.
+/// Distance by which the end of such a leg lies aside from where the leg goes on in the repeat. Its
+/// unit is the difference between the last two steps from point to point.
 ///
-/// A spline lacks the point that bends its last interval in the repeat, and runs too straight
-/// there: half way on it is off by 1/16 of that difference, and yarns of guides that share a needle
-/// come to 0.94 of touching. An end aside by 1/7 of it takes that place back, since the spline has
-/// 7/16 of what its end is moved by. Over 200 figures the least clearance was 0.986 then, 0.984
-/// with 0.13 and 0.978 with 0.117, which takes back the place two thirds on. With 0 or 0.117
+/// In the repeat a further point bends the last interval of the spline. At the cut that point is
+/// missing, and the spline runs too straight. Half way along the interval it is off by 1/16 of the
+/// difference, and yarns of guides that share a needle come to a clearance of 0.94. The middle of
+/// the interval moves by 7/16 of what the end moves by, so that 1/7 brings it back to its place.
+///
+/// Over 200 figures the least clearance was 0.986 with 1/7, 0.984 with 0.13, and 0.978 with 0.117,
+/// which corrects the interval at two thirds. With 0 or 0.117
 /// `figures_are_as_clear_where_they_are_cut_off` is red.
 const ASIDE: f32 = 1.0 / 7.0;
 
 impl WarpKnitted {
-    /// How many control points yarns go on beyond the cloth at their beginning and at their end,
-    /// where that does not spoil their count.
+    /// Number of control points by which yarns go on beyond the cloth, at their beginning and at
+    /// their end. There are none where all cells have to have equally many points.
     pub(super) const fn beyond(&self) -> [u32; 2] {
         match self.cells {
             Cells::Round => [BELOW, ABOVE],
@@ -33,7 +36,7 @@ impl WarpKnitted {
         }
     }
 
-    /// Yarns of the cloth, laid so far, as they end above.
+    /// Moves the upper ends of the cloth's yarns aside by [`ASIDE`].
     ///
     /// **Errors**: [`FabricError::Yarns`] where an end would lie too far out.
     pub(super) fn ended(&self, mut yarns: Yarns) -> Result<Yarns, FabricError> {
@@ -42,7 +45,7 @@ impl WarpKnitted {
         }
         for yarn in 0..yarns.layout().yarns().len() {
             let points = yarns.yarn_points(yarn).unwrap_or(&[]);
-            // All rounds are alike: a leg goes on as the cloth's first one does.
+            // All rounds are alike: the leg above goes on as the first leg of the cloth does.
             let leg =
                 points.get(BELOW as usize..).and_then(|own| own.get(ABOVE as usize - 2..=ABOVE as usize));
             let Some([middle, upper, head]) =
@@ -61,7 +64,7 @@ impl WarpKnitted {
         Ok(yarns)
     }
 
-    /// Whether the first lap of a guide makes a loop, which is the next one above the cloth, too.
+    /// Whether the first lap of a guide makes a loop. The same loop follows above the cloth.
     fn begins_with_loop(&self, origin: Origin) -> bool {
         let Origin::Guide { bar, guide } = origin else { return false };
         let bar = self.bars().get((bar as usize).wrapping_sub(1));

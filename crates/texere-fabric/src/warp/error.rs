@@ -1,16 +1,16 @@
-//! What can be wrong with a warp knit.
+//! Errors of warp knits.
 
 use texere_core::counted;
 use thiserror::Error;
 
 use super::chain::Lap;
 
-/// A warp knit that can't be taken. Guide bars and guides are counted from 1 from the front,
-/// courses from 1.
+/// A warp knit that is refused. Guide bars are counted from 1 at the front, guides and courses from
+/// 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WarpError {
-    /// A warp knit of more laps, before it is copied, than are taken.
+    /// Too many laps before the cloth is copied.
     #[error("wales, courses and guide bars make {laps}; {limit} are taken at most", laps = counted(*.laps, "lap"))]
     Laps {
         /// Wales times courses times bars.
@@ -18,7 +18,7 @@ pub enum WarpError {
         /// Most taken.
         limit: u64,
     },
-    /// Guide bars of a warp knit: none, or more than are taken.
+    /// No guide bars, or too many.
     #[error("{bars}; a warp knit has 1 to {limit}", bars = counted(*.bars, "guide bar"))]
     Bars {
         /// How many.
@@ -26,7 +26,7 @@ pub enum WarpError {
         /// Most taken.
         limit: usize,
     },
-    /// A guide that holds a yarn which there is not.
+    /// A guide whose yarn does not exist.
     #[error("a guide of guide bar {bar} holds yarn {yarn}, but there are {yarns}")]
     GuideYarn {
         /// The bar, from 1.
@@ -36,7 +36,7 @@ pub enum WarpError {
         /// How many there are.
         yarns: usize,
     },
-    /// A bar that stands further from the others than any does.
+    /// A bar with too large an offset.
     #[error("guide bar {bar} is offset by {offset}, beyond \u{b1}{limit}", offset = counted(*.offset, "needle"))]
     BarOffset {
         /// The bar, from 1.
@@ -46,7 +46,7 @@ pub enum WarpError {
         /// Most taken, either way.
         limit: i32,
     },
-    /// A run-in that no bar has.
+    /// A run-in outside what is taken.
     #[error("guide bar {bar} has a run-in of {mm} mm, outside {low} to {high} mm a rack of 480 courses")]
     RunIn {
         /// The bar, from 1.
@@ -58,7 +58,7 @@ pub enum WarpError {
         /// Most taken, mm.
         high: f64,
     },
-    /// A Jacquard whose colours are not for as many courses as its bar's chain has.
+    /// A Jacquard whose colours have another number of courses than the chain of its bar.
     #[error("the Jacquard's colours have {courses}, but the chain of guide bar {bar} has {chain}", courses = counted(*.courses, "course"))]
     JacquardCourses {
         /// The bar, from 1.
@@ -68,7 +68,7 @@ pub enum WarpError {
         /// Courses of the chain.
         chain: usize,
     },
-    /// A colour of a Jacquard that makes a lap go round more needles than any does.
+    /// A colour of a Jacquard that makes a lap go round too many needles.
     #[error(
         "a colour of guide bar {bar}'s Jacquard makes its lap {lap} at course {course}: {} needles; a lap goes round {limit} at most",
         .lap.overlap().unsigned_abs()
@@ -83,7 +83,7 @@ pub enum WarpError {
         /// Most needles taken.
         limit: i32,
     },
-    /// Wales or courses of a warp knit that its bars don't repeat in.
+    /// Wales or courses that are no multiple of those after which the bars begin again.
     #[error("{size}, but bars begin again after {multiple}: take a multiple of that", size = counted(*.size, .what))]
     WarpRepeat {
         /// `wale` or `course`.
@@ -93,7 +93,7 @@ pub enum WarpError {
         /// What it must be a multiple of.
         multiple: u64,
     },
-    /// Bars whose guides make no loop.
+    /// Bars whose guides make no loops.
     #[error("no guide makes a loop")]
     NoLoops,
 }

@@ -1,4 +1,4 @@
-//! A warp-knitted cloth: its bars, how close its loops lie, and what its yarns are like.
+//! A warp-knitted cloth: its guide bars, its gauge and its yarns.
 
 use glam::DVec3;
 use texere_core::backend::room_for;
@@ -6,15 +6,15 @@ use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Sectio
 
 use super::laps::laps;
 use super::path::{Cloth, Thread};
-use super::{Bar, Laid, check};
+use super::{Bar, PlacedLap, check};
 use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
 use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 
-/// A warp-knitted cloth: its guide bars, with sizes and yarns.
+/// A warp-knitted cloth: guide bars, the distances between loops, and yarns.
 ///
-/// All guides of a bar move alike but for a Jacquard bar's, and begin again after some wales and
-/// courses: so one repeat settles, and is copied.
+/// All guides of a bar move alike, except those of a Jacquard bar. The laps repeat after some wales
+/// and courses. One repeat therefore settles, and is copied.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -34,8 +34,8 @@ use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 pub struct WarpKnitted {
     bars: Vec<Bar>,
     gauge: Gauge,
-    /// Wales and courses of what `copies` counts.
-    laid: [u32; 2],
+    /// Wales and courses of one copy, where `copies` counts them.
+    lapped: [u32; 2],
     /// Wales and courses after which all bars begin again.
     repeat: [u32; 2],
     yarns: Vec<KnitYarn>,
@@ -46,17 +46,18 @@ pub struct WarpKnitted {
 }
 
 impl WarpKnitted {
-    /// A cloth of these bars, the front one first, on so many wales and courses. So many copies of
-    /// that lie side by side along x and y. The gauge's loop length counts for nothing: bars have
-    /// run-ins.
+    /// A cloth of `bars`, the front bar first, on `wales` and `courses`, at the distances of
+    /// `gauge`. `yarns` are the yarns that threadings refer to; they refer to `materials` and
+    /// `sections` by index. `copies` is the number of copies of the whole along x and y. The loop
+    /// length of the gauge has no effect: bars have run-ins.
     ///
     /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars),
     /// [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn),
     /// [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset),
     /// [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
-    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that none
-    /// are, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and courses
-    /// that are no multiples of those after which the bars begin again,
+    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that are
+    /// not sound, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and
+    /// courses in which the bars do not repeat evenly,
     /// [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops),
     /// [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no cloth has,
     /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and
@@ -76,15 +77,14 @@ impl WarpKnitted {
         weft::check::gauge(&gauge)?;
         weft::check::yarns(&yarns, |number| check::first_guide(&bars, number), &materials, &sections)?;
         check::bars(&bars, yarns.len())?;
-        let laid = [wales, courses];
-        let repeat = check::repeat(&bars, laid)?;
-        check::size(&bars, repeat, laid, copies)?;
-        Ok(Self { bars, gauge, laid, repeat, yarns, materials, sections, copies, cells: Cells::Round })
+        let lapped = [wales, courses];
+        let repeat = check::repeat(&bars, lapped)?;
+        check::size(&bars, repeat, lapped, copies)?;
+        Ok(Self { bars, gauge, lapped, repeat, yarns, materials, sections, copies, cells: Cells::Round })
     }
 
-    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of
-    /// their courses: of [`WarpKnitted::size`] over [`WarpKnitted::copies`], which begin again at
-    /// its edges.
+    /// The laps of all threaded guides, bar by bar, guide by guide and course by course. They are
+    /// those of one copy, [`WarpKnitted::lapped_size`], and repeat beyond its edges.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -94,19 +94,19 @@ impl WarpKnitted {
     /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
     /// let yarns = vec![KnitYarn::new(0.05)];
     /// let cloth = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [1, 1])?;
-    /// let laps: Vec<_> = cloth.laps().map(|laid| (laid.guide, laid.course, laid.lap.needle())).collect();
+    /// let laps: Vec<_> = cloth.laps().map(|placed| (placed.guide, placed.course, placed.lap.needle())).collect();
     /// assert_eq!(laps[..4], [(0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 2)]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn laps(&self) -> impl Iterator<Item = Laid> + '_ {
-        let [wales, courses] = self.laid_size();
+    pub fn laps(&self) -> impl Iterator<Item = PlacedLap> + '_ {
+        let [wales, courses] = self.lapped_size();
         laps(self.bars(), wales, courses)
     }
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
-    /// it was.
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound. The cloth is then
+    /// unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -114,9 +114,9 @@ impl WarpKnitted {
         Ok(())
     }
 
-    /// The same cloth with other numbers of control points: [`Cells::Even`] has 9 for each loop and
-    /// none for underlaps. Plain repeats come to rest so; a Jacquard may not, for its underlaps
-    /// turn too sharply.
+    /// Changes the number of control points of each lap. [`Cells::Even`] has 9 for each loop and
+    /// none for underlaps. Plain repeats come to rest with these. A Jacquard may not, because its
+    /// underlaps turn too sharply.
     #[must_use]
     pub fn with_cells(mut self, cells: Cells) -> Self {
         self.cells = cells;
@@ -129,7 +129,7 @@ impl WarpKnitted {
         &self.bars
     }
 
-    /// How close loops lie.
+    /// The distances between loops.
     #[must_use]
     pub const fn gauge(&self) -> &Gauge {
         &self.gauge
@@ -141,7 +141,7 @@ impl WarpKnitted {
         &self.yarns
     }
 
-    /// What the yarns are of.
+    /// The materials that yarns refer to.
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -153,11 +153,10 @@ impl WarpKnitted {
         self.copies
     }
 
-    /// Wales and courses of what [`WarpKnitted::copies`] are copies of: those that
-    /// [`WarpKnitted::laps`] are on.
+    /// Wales and courses of one of the [`WarpKnitted::copies`].
     #[must_use]
-    pub const fn laid_size(&self) -> [u32; 2] {
-        self.laid
+    pub const fn lapped_size(&self) -> [u32; 2] {
+        self.lapped
     }
 
     /// Wales and courses after which all bars begin again.
@@ -165,42 +164,45 @@ impl WarpKnitted {
         self.repeat
     }
 
-    /// Wales and courses of the whole cloth.
+    /// Number of wales and of courses in the whole cloth.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
-        [0, 1].map(|axis| self.laid[axis] * self.copies[axis])
+        [0, 1].map(|axis| self.lapped[axis] * self.copies[axis])
     }
 
-    /// Width and height of the cloth, mm. Guides at its edges may lap beyond them.
+    /// Width and height of the cloth, mm: wales and courses times their distances. Guides at the
+    /// edges may lap beyond that.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         self.mm(self.size())
     }
 
-    /// Loops of the whole cloth; a two-needle lap makes two.
+    /// Number of loops in the whole cloth. A lap round two needles makes two.
     #[must_use]
     pub fn loops(&self) -> u64 {
         let [across, along] = [0, 1].map(|axis| u64::from(self.size()[axis] / self.repeat[axis]));
-        let loops = |laid: Laid| u64::from(laid.lap.overlap().unsigned_abs());
+        let loops = |placed: PlacedLap| u64::from(placed.lap.overlap().unsigned_abs());
         laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
     }
 
-    /// The yarns, about where they belong: bar by bar, and in each from the left.
+    /// The yarns of the whole cloth, as placed before settling: bar by bar, and in each bar from
+    /// the left.
     ///
-    /// Needle 0 lies half a wale from x = 0, the feet of the first course at y = 0. Origins are
-    /// [`Origin::Guide`], bars and guides counted from 1. The source of a control point is the
+    /// Needle 0 is half a wale from x = 0. The feet of the first course are at y = 0. Origins are
+    /// [`Origin::Guide`], with bars and guides counted from 1. The source of a control point is the
     /// course of its lap, from 1.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`],
-    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for more control points than
-    /// are taken, and [`FabricError::Yarns`] where they can't be taken.
+    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for too many control points,
+    /// and [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        self.laid(&repeat, &repeat.piece.yarns)
+        self.placed(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not, with the names of their own guides and courses.
-    pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    /// All copies of a repeat, settled or not. Origins and sources count guides and courses of the
+    /// whole cloth.
+    pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
         let origin = |origin, [x, _]: [i64; 2]| match origin {
             Origin::Guide { bar, guide } => Origin::Guide { bar, guide: guide + x as u32 * wales },
@@ -209,21 +211,21 @@ impl WarpKnitted {
         let last = i64::from(self.size()[1]);
         let source =
             |own: u32, [_, y]: [i64; 2]| (i64::from(own) + y * i64::from(courses)).clamp(1, last) as u32;
-        self.ended(repeat.laid_as(yarns, self.beyond(), origin, source)?)
+        self.ended(repeat.placed_as(yarns, self.beyond(), origin, source)?)
     }
 
-    /// One repeat of the cloth, and what holds it: see [`WarpKnitted::repeat`].
+    /// One repeat of the cloth, with its boundary. See [`WarpKnitted::repeat`].
     ///
-    /// **Errors**: those of [`WarpKnitted::yarns`].
+    /// **Errors**: the errors of [`WarpKnitted::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
         Ok(self.repeat()?.piece)
     }
 
-    /// What settles, and how many copies of that the cloth is: the wales and courses after which
-    /// all bars begin again, or a few such repeats that are taken together. A Jacquard begins again
-    /// where its image does.
+    /// The piece of cloth that settles, and the number of its copies in the whole cloth. The piece
+    /// has the wales and courses after which all bars begin again. Small repeats are taken a few
+    /// together. A Jacquard bar begins again where its image does.
     ///
-    /// **Errors**: those of [`WarpKnitted::yarns`].
+    /// **Errors**: the errors of [`WarpKnitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
         let repeats = [0, 1].map(|axis| self.size()[axis] / self.repeat[axis]);
         let tiles = settled_together(self.repeat, repeats);
@@ -231,8 +233,8 @@ impl WarpKnitted {
         Ok(Repeat { piece: self.piece_of(size)?, copies: [0, 1].map(|axis| repeats[axis] / tiles[axis]) })
     }
 
-    /// The stitch at a place on one of the cloth's yarns: its course by the place's source, its
-    /// wale by where it lies.
+    /// The stitch at a place on one of the cloth's yarns. The source of the place gives the course,
+    /// and its x gives the wale.
     pub(crate) fn stitch_at(&self, place: &YarnPlace) -> Option<StitchPlace> {
         let wale = (place.position[0] / self.gauge.wale_mm).clamp(0.0, f64::from(self.size()[0].max(1) - 1));
         Some(StitchPlace { wale: wale as u32 + 1, course: place.source? })

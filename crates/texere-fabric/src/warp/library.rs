@@ -1,21 +1,21 @@
-//! Lappings by name.
+//! Named lappings.
 
 use super::{CHAIN_COURSES, Chain, Lap};
 
-/// The names that [`Chain::named`] knows: alone, or with "open" or "closed" before. Atlas and inlay
+/// The names that [`Chain::named`] knows. "open" or "closed" may come before them. Atlas and inlay
 /// take a number.
 pub const LAPPINGS: [&str; 7] = ["pillar", "tricot", "cord", "satin", "velvet", "atlas 4", "inlay 3"];
 
-/// The least courses in which an atlas goes one way.
+/// The fewest courses in which an atlas goes one way.
 const ATLAS_MIN: i32 = 2;
 
-/// The most courses in which an atlas goes one way, and needles that an inlay passes.
+/// The most courses in which an atlas goes one way, and the most needles that an inlay passes.
 const WAY_MAX: i32 = 256;
 
 const _: () = assert!(2 * WAY_MAX as usize <= CHAIN_COURSES, "an atlas is a chain");
 
 impl Chain {
-    /// A lapping by its name, as in `tricot` or `open tricot`; `None` for other names.
+    /// The chain of a named lapping, such as `tricot` or `open tricot`; `None` for other names.
     ///
     /// | name | as a rule | open | closed |
     /// |---|---|---|---|
@@ -74,7 +74,7 @@ impl Chain {
     }
 }
 
-/// A lap round the needle, towards higher numbers or lower ones.
+/// A lap round one needle, towards higher numbers where `up` is set.
 const fn round(needle: i32, up: bool) -> Lap {
     if up { Lap { from: needle, to: needle + 1 } } else { Lap { from: needle + 1, to: needle } }
 }
@@ -83,14 +83,14 @@ fn pillar(open: bool) -> Vec<Lap> {
     vec![round(0, true), round(0, !open)]
 }
 
-/// Two courses, so many needles apart.
+/// A lapping of two courses, `needles` needles apart.
 fn there_and_back(needles: i32, open: Option<bool>) -> Vec<Lap> {
     let open = open.unwrap_or(false);
     vec![round(0, open), round(needles, !open)]
 }
 
-/// So many courses one way, and as many back. A lap is open if it goes the way that the next
-/// underlap does.
+/// An atlas of `courses` courses one way, and as many back. A lap is open if it goes in the
+/// direction of the underlap after it.
 fn atlas(courses: i32, open: Option<bool>) -> Vec<Lap> {
     let needles =
         (0..courses).map(|needle| (needle, true)).chain((1..=courses).rev().map(|needle| (needle, false)));

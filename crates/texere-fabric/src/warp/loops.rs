@@ -1,81 +1,85 @@
-//! Which loops share a needle, and in what order.
+//! Loops that share a needle, and their order.
 
 use std::cmp::Reverse;
 
 use texere_core::OutOfMemory;
 use texere_core::backend::room_for;
 
-use super::{Bar, Laid, Lap, LapKind};
+use super::{Bar, Lap, LapKind, PlacedLap};
 
-/// The place of a loop among those on its needle: bar by bar from the front, and in each bar guide
-/// by guide.
+/// The rank of a loop among the loops on its needle. They are ordered by bar from the front, and
+/// within a bar by guide.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Share {
-    /// How many come before it.
+    /// Number of loops before it.
     rank: u16,
-    /// How many there are.
+    /// Number of all loops on the needle.
     all: u16,
-    /// How many come before it that its own bar makes.
+    /// Number of loops of its own bar before it.
     pub(super) own_rank: u16,
-    /// How many there are that its own bar makes.
+    /// Number of all loops of its own bar.
     own: u16,
 }
 
 impl Share {
-    /// How much further to the front it lies than the middle of all, in loops.
+    /// How far it lies in front of the middle of all loops, in loops.
     pub(super) fn front_most(self) -> f64 {
         0.5 * (f64::from(self.all) - 1.0) - f64::from(self.rank)
     }
 
-    /// How much further to the right it lies than the middle of those that its own bar makes, in
-    /// loops: guides don't pass one another.
+    /// How far it lies to the right of the middle of its own bar's loops, in loops. Guides of one
+    /// bar do not pass one another.
     pub(super) fn own_middle(self) -> f64 {
         f64::from(self.own_rank) - 0.5 * (f64::from(self.own) - 1.0)
     }
 }
 
-/// The laps of a repeat, and how their loops share needles.
+/// The laps of a repeat, and the ranks of their loops on the needles.
 pub(super) struct Loops {
     /// All laps, bar by bar, guide by guide, course by course.
-    pub(super) laid: Vec<Laid>,
-    /// Of each lap, those of its loops.
+    pub(super) placed: Vec<PlacedLap>,
+    /// For each lap, the ranks of its loops; a lap makes two at most.
     shares: Vec<[Share; 2]>,
-    /// The most loops on one needle at a course.
+    /// The most loops on one needle in a course.
     pub(super) most: u16,
-    /// Bars that lap just as another one does.
+    /// For each bar, whether another bar makes the same loops.
     pub(super) alike: Vec<bool>,
-    /// Bars alone on their needles whose laps are open and that stay on one or two of them.
+    /// For each bar, whether it is alone on its needles, and its laps are open and stay on one or
+    /// two needles.
     pub(super) steep: Vec<bool>,
 }
 
 impl Loops {
-    /// `laid` are all laps of a repeat of so many wales and courses, in their order.
-    pub(super) fn new(laid: Vec<Laid>, bars: &[Bar], size: [u32; 2]) -> Result<Self, OutOfMemory> {
+    /// Ranks the loops of `laid`, all laps of a repeat in order. `size` is the number of wales and
+    /// of courses.
+    pub(super) fn new(placed: Vec<PlacedLap>, bars: &[Bar], size: [u32; 2]) -> Result<Self, OutOfMemory> {
         let needles = size[0] as usize * size[1] as usize;
         let (mut shares, mut all, mut own) = (Vec::new(), Vec::new(), Vec::new());
-        room_for(&mut shares, laid.len(), "loops")?;
+        room_for(&mut shares, placed.len(), "loops")?;
         room_for(&mut all, needles, "needles")?;
         room_for(&mut own, needles, "needles")?;
-        let longest = laid.chunk_by(|one, other| one.bar == other.bar).map(<[Laid]>::len).max().unwrap_or(0);
+        let longest =
+            placed.chunk_by(|one, other| one.bar == other.bar).map(<[PlacedLap]>::len).max().unwrap_or(0);
         let mut order: Vec<(Reverse<i32>, usize, usize, usize)> = Vec::new();
         room_for(&mut order, 2 * longest, "loops")?;
-        shares.resize(laid.len(), [Share::default(); 2]);
+        shares.resize(placed.len(), [Share::default(); 2]);
         all.resize(needles, 0_u16);
         own.resize(needles, 0_u16);
-        let place = |laid: &Laid, needle: i32| {
-            needle.rem_euclid(size[0] as i32) as usize + laid.course as usize * size[0] as usize
+        let place = |placed: &PlacedLap, needle: i32| {
+            needle.rem_euclid(size[0] as i32) as usize + placed.course as usize * size[0] as usize
         };
         let mut start = 0;
-        for bar in laid.chunk_by(|one, other| one.bar == other.bar) {
+        for bar in placed.chunk_by(|one, other| one.bar == other.bar) {
             let shares = &mut shares[start..start + bar.len()];
             own.fill(0);
             order.clear();
-            let parts = |lap: &Laid| lap.lap.needles().enumerate();
-            for (number, laid) in bar.iter().enumerate() {
-                // What goes round the repeat comes from the left of all that lies in it.
+            let parts = |lap: &PlacedLap| lap.lap.needles().enumerate();
+            for (number, placed) in bar.iter().enumerate() {
+                // A yarn that comes round the edge of the repeat comes from the left of all yarns
+                // in it.
                 let round = |needle: i32| Reverse(needle.div_euclid(size[0] as i32));
                 order.extend(
-                    parts(laid).map(|(part, needle)| (round(needle), number, part, place(laid, needle))),
+                    parts(placed).map(|(part, needle)| (round(needle), number, part, place(placed, needle))),
                 );
             }
             order.sort_unstable();
@@ -89,9 +93,9 @@ impl Loops {
             }
             start += bar.len();
         }
-        for (laid, shares) in laid.iter().zip(&mut shares) {
-            for (needle, share) in laid.lap.needles().zip(shares) {
-                share.all = all[place(laid, needle)];
+        for (placed, shares) in placed.iter().zip(&mut shares) {
+            for (needle, share) in placed.lap.needles().zip(shares) {
+                share.all = all[place(placed, needle)];
             }
         }
         let most = all.into_iter().max().unwrap_or(1).max(1);
@@ -100,16 +104,16 @@ impl Loops {
             let others = bars.iter().enumerate().filter(|(other, _)| *other != number);
             others.into_iter().any(|(_, other)| laps_alike(bar, other))
         });
-        Ok(Self { alike: alike.collect(), laid, shares, most, steep })
+        Ok(Self { alike: alike.collect(), placed, shares, most, steep })
     }
 
-    /// The place of a loop of the lap with that number: of its only one, or of one of two.
+    /// The rank of a loop: `part` is 0, or 1 for the second loop of a lap round two needles.
     pub(super) fn share(&self, lap: usize, part: usize) -> Share {
         self.shares[lap][part]
     }
 }
 
-/// Whether all laps are open, on one needle or two that are neighbours.
+/// Whether all laps of a bar are open, and on one needle or on two neighbours.
 fn is_steep(bar: &Bar) -> bool {
     let needles = || bar.chain.laps().iter().map(|lap| lap.needle());
     let near = needles().max().zip(needles().min()).is_some_and(|(high, low)| high - low <= 1);

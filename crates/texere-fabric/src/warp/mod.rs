@@ -1,15 +1,21 @@
-//! Warp knits: every guide lays its own yarn round one needle after another, and all of them knit
-//! at once.
+//! Warp knits: every guide laps its own yarn round needle after needle, and all needles knit at
+//! once.
 //!
 //! ```text
 //! notation ──> Chain ──┐
 //! threading, image ────┴──> Bar ──> WarpKnitted ──> Laps | Piece | Yarns
 //! ```
 //!
-//! A [`Chain`] says where the guides of a bar move, course by course. A [`Bar`] adds which of its
-//! guides hold which yarn, and by how much single ones are displaced. A [`WarpKnitted`] is a cloth
-//! of such bars, the front one first: which laps they make ([`WarpKnitted::laps`]), and where their
-//! yarns lie.
+//! A [`Chain`] gives the movement of a guide bar, course by course. A [`Bar`] adds the yarn of each
+//! of its guides and, for a Jacquard bar, the guides that are displaced. [`WarpKnitted`] is a cloth
+//! of such bars, the front bar first. It gives the laps that the guides make
+//! ([`WarpKnitted::laps`]), and places the yarns in space.
+
+// Where the yarn of a lap is placed:
+//
+// - `laps.rs` lists which guide laps which needle at which course.
+// - `loops.rs` says which loops share a needle, and in what order.
+// - `path.rs` places the points: `loop_points` a loop, `between` an underlap, `inlay` an inlay.
 
 mod bar;
 mod chain;
@@ -29,7 +35,7 @@ pub use bar::{Bar, Displacements, Threading};
 pub use chain::{CHAIN_COURSES, Chain, Lap, LapKind, NEEDLES_MOST, SPACE_MAX};
 pub use error::WarpError;
 pub use knitted::WarpKnitted;
-pub use laps::Laid;
+pub use laps::PlacedLap;
 pub use library::LAPPINGS;
 pub use notation::ChainError;
 pub use settle::RunIn;

@@ -1,35 +1,35 @@
-//! Chain notation: text to laps.
+//! Reading chain notation.
 
 use thiserror::Error;
 
 use super::{CHAIN_COURSES, Chain, Lap, NEEDLES_MOST, SPACE_MAX};
 use crate::{hyphen_look_alike, slash_look_alike};
 
-/// The most characters that are read.
+/// The most characters of a notation.
 const TEXT_MAX: usize = 1 << 16;
 
-/// The longest piece of a text that an error shows, in characters.
+/// The most characters of the notation that an error shows.
 const SHOWN: usize = 24;
 
-/// Text that is no chain.
+/// An error in chain notation.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("chain, column {column}: found {found}, expected {expected}")]
 pub struct ChainError {
-    /// The character where it goes wrong, from 1.
+    /// The character at which the error is, from 1.
     pub column: usize,
-    /// What stands there.
+    /// The text that stands there.
     pub found: String,
-    /// What may stand there.
+    /// A description of what may stand there.
     pub expected: String,
 }
 
 impl Chain {
-    /// Reads chain notation: laps from one needle space to another, as in `1-0`, a `/` for the
-    /// underlap to the next course, and `//` at the end, which may be left out.
+    /// Reads chain notation. A lap from one needle space to another is written `1-0`. `/` stands
+    /// for the underlap to the next course. `//` ends the chain, and may be left out.
     ///
-    /// Several courses may be repeated: `(1-0/1-2)x12/2-3//`. Blanks between these count for
-    /// nothing. With `step` 1, spaces are numbered one by one; with 2, as on Raschel machines, only
-    /// every second number is one: `2-0/2-4//` is `1-0/1-2//`.
+    /// Parentheses repeat several courses: `(1-0/1-2)x12/2-3//`. Blanks have no meaning. With
+    /// `step` 1, spaces are numbered one by one. With `step` 2, as on Raschel machines, they have
+    /// even numbers only: `2-0/2-4//` is `1-0/1-2//`.
     ///
     /// **Errors**: [`ChainError`] with the column for anything else, for spaces beyond
     /// [`SPACE_MAX`], laps round more than [`NEEDLES_MOST`] needles and chains of more than
@@ -64,7 +64,7 @@ impl Chain {
     }
 }
 
-/// A text and how far it has been read.
+/// A text, and the place up to which it has been read.
 struct Reader {
     text: Vec<char>,
     at: usize,

@@ -1,15 +1,27 @@
-//! Where the yarns of a warp knit go before they settle.
+//! The path of a yarn before it settles: where the feet, legs and heads of its loops lie, and its
+//! underlaps and inlays.
 //!
-//! A loop comes through the loops of the course below from the back to the face (+z), and all that
-//! goes from needle to needle, the underlap, lies on the back. All loops on one needle come through
-//! all of the course below: the legs of any lie in front of the heads of any. The first of them, by
-//! bars from the front and then by guides, is the foremost on the face; underlaps of the front bar
-//! are the hindmost on the back.
+//! ```text
+//! for each course of a guide:
+//!     lap       a loop on each needle that it goes round (loop_points); an inlay makes none
+//!     between   the underlap to the next lap
+//! ```
 //!
-//! A lap round two needles makes a loop on each, and goes from one to the other as an underlap
-//! does. A yarn that is laid in makes no loop. It goes up between two wales, and from one space to
-//! another behind the legs and heads of loops and in front of the underlaps of the bars before its
-//! own: these hold it.
+//! [`Cloth::loop_points`] places nine points of a loop: a foot, three of a leg, the head, and the
+//! other leg and foot.
+//!
+//! - **Loops** come through the loops of the course below, from the back to the face (+z). All
+//!   loops on one needle come through all loops of the course below, so that the legs of each lie
+//!   in front of the heads of all. The order on a needle is by bar from the front, then by guide:
+//!   the first loop is the foremost on the face.
+//! - **Underlaps** lie on the back. Those of the front bar lie furthest back.
+//! - **A lap round two needles** makes a loop on each, joined as by an underlap.
+//! - **An inlay** makes no loop. Its yarn goes up between two wales. From one space to another it
+//!   passes behind the legs and heads of loops, and in front of the underlaps of bars further
+//!   forward. Those underlaps hold it.
+//!
+//! Yarns need not be clear of one another here, but they have to be linked as in the cloth
+//! (`loops_are_drawn_through_those_below`). Settling makes them clear (`warp_knits_come_to_rest`).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -20,83 +32,92 @@ use texere_core::{ControlPoint, OutOfMemory};
 use super::bar::RACK;
 use super::laps::laps;
 use super::loops::Loops;
-use super::{Bar, Laid, LapKind};
+use super::{Bar, LapKind, PlacedLap};
 use crate::weft::{Cells, Gauge};
 
-/// Height of a loop from foot to head, in courses, where its bar has no run-in.
+/// Height of a loop from foot to head, in courses, where its bar has no run-in. By trial with
+/// single bars in closed and open tricot, pillar, cord and atlas, which stayed clear.
 const HEIGHT: f64 = 1.6;
 
-/// Heights that a run-in may lead to: a loop of any of them goes through loops of any other.
+/// Range of heights that a run-in may lead to, in courses. Loops of all these heights go through
+/// one another.
 const HEIGHTS: [f64; 2] = [1.45, 1.75];
 
-/// Steps in which a height is found, each half as large as the one before.
+/// Number of halvings of that range: 16 leave 5 millionths of a course.
 const HEIGHT_STEPS: u32 = 16;
 
-/// Half the distance of a loop's feet, in wales.
+/// Half the distance between the feet of a loop, in wales. By trial, as [`HEIGHT`].
 const FOOT: f64 = 0.14;
 
-/// How far a loop begins below and ends above its course, in courses.
+/// Height by which a loop begins below and ends above its course, in courses. By eye.
 const SLANT: f64 = 0.25;
 
-/// The same for a bar alone on its needles whose laps are open and that stays on one or two of
-/// them.
+/// [`SLANT`] for a bar alone on its needles, whose laps are open and stay on one or two needles:
+/// pillar and open tricot. By trial, as [`HEIGHT`].
 const SLANT_STEEP: f64 = 0.05;
 
-/// By how much a loop is narrower below, where it comes through another, and wider above, in
-/// diameters either way; and the most of that in wales.
+/// Width by which each leg of a loop lies further in below, where it comes through another loop,
+/// and further out above: in diameters, and at most in wales. 0.9 by trial, as [`HEIGHT`]; 0.2 by
+/// eye.
 const BULGE: f64 = 0.9;
 const BULGE_MOST: f64 = 0.2;
 
-/// By how much loops on one needle are each wider than the next one where their legs begin, in
-/// diameters.
+/// Width by which each loop on a needle differs from the next one where the legs begin, in
+/// diameters. By eye.
 const ASIDE: f64 = 0.8;
 
-/// The length of an underlap's pieces, in wales.
+/// Length of the pieces of an underlap, in wales. By eye.
 const PIECE: f64 = 0.4;
 
-/// How far behind its feet an underlap lies, in diameters.
+/// Distance of an underlap behind its feet, in diameters. By eye.
 const UNDERLAP: f64 = 0.6;
 
-/// How far the loops on one needle are apart, in diameters.
+/// Distance in z between the loops on one needle, in diameters. By trial with two bars in locknit,
+/// satin, sharkskin and others. Legs of each have to lie in front of heads of all, which
+/// [`Cloth::loop_points`] does by placing legs further forward the more loops there are.
 const LAYER: f64 = 0.7;
 
-/// How far behind the middle the feet lie, and how much further those of each bar further forward,
-/// in diameters. With one bar there is nothing to lie behind.
+/// Distance of the feet behind the middle of the cloth, in diameters: of the hindmost of several
+/// bars, of a single bar, and further for each bar further forward. 2.2 by trial, as [`HEIGHT`];
+/// 2.0 and 1.8 by eye.
 const BEHIND: f64 = 2.0;
 const BEHIND_ALONE: f64 = 2.2;
 const BAR: f64 = 1.8;
 
-/// How much further behind all feet lie for each loop that a needle has beyond two, in diameters:
-/// narrow loops have their feet close to their legs, and a spline turns sharply where a short piece
-/// meets a long one.
+/// Distance by which all feet lie further back for each loop on a needle beyond two, in diameters.
+/// Narrow loops have their feet close to their legs, and a spline turns sharply where a short piece
+/// meets a long one. By eye.
 const CROWDED: f64 = 1.0;
 
-/// The same for guides of one bar that share a needle.
+/// Distance by which the feet lie further back for each guide of the same bar that shares the
+/// needle and comes before, in diameters. By eye.
 const BESIDE: f64 = 0.9;
 
-/// From where to where an inlay crosses wales, in courses above its own: between the feet of two
-/// courses. It rises on its way, for all guides of its bar cross at once.
+/// Heights at which an inlay begins and ends to cross wales, in courses above its own. They lie
+/// between the feet of two courses. The inlay rises on its way, because all guides of its bar cross
+/// at once. By eye.
 const CROSSES: [f64; 2] = [0.3, 0.8];
 
-/// A yarn of a repeat that is laid: its first lap, its points, mm, and the course of each, from 0.
+/// A yarn of a repeat, as laid: its first lap, its points in mm, and the course of each point, from
+/// 0.
 pub(super) struct Thread {
-    pub(super) first: Laid,
+    pub(super) first: PlacedLap,
     pub(super) points: Vec<DVec3>,
     pub(super) courses: Vec<u32>,
 }
 
-/// A repeat whose yarns are laid.
+/// A repeat whose yarns are to be laid.
 pub(super) struct Cloth<'a> {
     bars: &'a [Bar],
     gauge: Gauge,
     cells: Cells,
-    /// Wales and courses.
+    /// Number of wales and of courses.
     size: [u32; 2],
     /// Diameter of the thickest yarn, mm.
     diameter: f64,
-    /// Which loops share a needle.
+    /// All laps, and which loops share a needle.
     loops: Loops,
-    /// Height of each bar's loops, in courses.
+    /// Height of the loops of each bar, in courses.
     heights: Vec<f64>,
 }
 
@@ -108,10 +129,10 @@ impl<'a> Cloth<'a> {
         size: [u32; 2],
         cells: Cells,
     ) -> Result<Self, OutOfMemory> {
-        let mut laid = Vec::new();
-        room_for(&mut laid, size[0] as usize * size[1] as usize * bars.len(), "laps")?;
-        laid.extend(laps(bars, size[0], size[1]));
-        let loops = Loops::new(laid, bars, size)?;
+        let mut placed = Vec::new();
+        room_for(&mut placed, size[0] as usize * size[1] as usize * bars.len(), "laps")?;
+        placed.extend(laps(bars, size[0], size[1]));
+        let loops = Loops::new(placed, bars, size)?;
         let mut cloth = Self { bars, gauge, cells, size, diameter, loops, heights: vec![HEIGHT; bars.len()] };
         for (number, bar) in bars.iter().enumerate() {
             if let Some(run_in_mm) = bar.run_in_mm {
@@ -121,8 +142,8 @@ impl<'a> Cloth<'a> {
         Ok(cloth)
     }
 
-    /// Gives a bar's loops the height at which its yarns are of that length in the mean, mm, or the
-    /// nearest height to it.
+    /// Sets the height of a bar's loops. The mean length of its yarns then is `length_mm`, or as
+    /// near to it as heights allow.
     fn reach(&mut self, bar: usize, length_mm: f64) -> Result<(), OutOfMemory> {
         let [mut low, mut high] = HEIGHTS;
         for _ in 0..HEIGHT_STEPS {
@@ -133,11 +154,11 @@ impl<'a> Cloth<'a> {
         Ok(())
     }
 
-    /// Mean length of the yarns of a bar, mm; `None` of a bar without yarns.
+    /// Mean length of a bar's yarns in the repeat, mm; `None` for a bar without yarns.
     fn mean_length_mm(&self, bar: usize) -> Result<Option<f64>, OutOfMemory> {
         let height = f64::from(self.size[1]) * self.gauge.course_mm;
-        let own = (0..self.loops.laid.len()).step_by(self.size[1] as usize);
-        let own: Vec<_> = own.filter(|lap| self.loops.laid[*lap].bar as usize == bar).collect();
+        let own = (0..self.loops.placed.len()).step_by(self.size[1] as usize);
+        let own: Vec<_> = own.filter(|lap| self.loops.placed[*lap].bar as usize == bar).collect();
         let length = |lap: &usize| {
             let point = |at: DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, 1.0);
             let thread = self.thread(*lap)?.points;
@@ -150,27 +171,30 @@ impl<'a> Cloth<'a> {
         Ok((!own.is_empty()).then(|| lengths.iter().sum::<f64>() / own.len() as f64))
     }
 
-    /// The yarns of all guides that are threaded.
+    /// Lays the yarns of all threaded guides.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn lay(&self) -> Result<Vec<Thread>, OutOfMemory> {
         let courses = self.size[1] as usize;
-        (0..self.loops.laid.len() / courses).into_par_iter().map(|yarn| self.thread(yarn * courses)).collect()
+        (0..self.loops.placed.len() / courses)
+            .into_par_iter()
+            .map(|yarn| self.thread(yarn * courses))
+            .collect()
     }
 
-    /// The yarn whose first lap has that number.
+    /// Lays the yarn whose first lap has the number `first`.
     fn thread(&self, first: usize) -> Result<Thread, OutOfMemory> {
         let laps = first..first + self.size[1] as usize;
-        let mut laid: Vec<Vec<DVec3>> = Vec::new();
-        room_for(&mut laid, laps.len(), "laps of a yarn")?;
-        laid.extend(laps.map(|lap| self.lap(lap)));
+        let mut placed: Vec<Vec<DVec3>> = Vec::new();
+        room_for(&mut placed, laps.len(), "laps of a yarn")?;
+        placed.extend(laps.map(|lap| self.lap(lap)));
         let on = DVec3::Y * f64::from(self.size[1]) * self.gauge.course_mm;
         let (mut points, mut courses) = (Vec::new(), Vec::new());
-        for (course, own) in (0..).zip(&laid) {
+        for (course, own) in (0..).zip(&placed) {
             room_for(&mut points, own.len(), "points of a yarn")?;
             points.extend(own);
-            let next = laid.get(course as usize + 1).map_or_else(|| laid[0][0] + on, |next| next[0]);
-            let behind = match self.loops.laid[first + course as usize].kind() {
+            let next = placed.get(course as usize + 1).map_or_else(|| placed[0][0] + on, |next| next[0]);
+            let behind = match self.loops.placed[first + course as usize].kind() {
                 LapKind::Inlay => 0.0,
                 LapKind::Overlap | LapKind::TwoNeedle => UNDERLAP * self.diameter,
             };
@@ -183,12 +207,13 @@ impl<'a> Cloth<'a> {
             room_for(&mut courses, more, "courses of a yarn's points")?;
             courses.resize(points.len(), course);
         }
-        Ok(Thread { first: self.loops.laid[first], points, courses })
+        Ok(Thread { first: self.loops.placed[first], points, courses })
     }
 
-    /// Points of an underlap, so that none of its pieces is much longer than those of a loop: a
-    /// spline turns sharply where a long piece follows a short one. They lie `behind` the feet,
-    /// which other yarns of the same bar have between them.
+    /// The points of an underlap between its two ends, mm. They divide it into pieces about as long
+    /// as those of a loop, because a spline turns sharply where a long piece follows a short one.
+    /// They lie further back than the ends by `behind`: other yarns of the same bar have their feet
+    /// there.
     fn between(&self, from: DVec3, to: DVec3, behind: f64) -> impl ExactSizeIterator<Item = DVec3> + use<> {
         let parts = match self.cells {
             Cells::Round => (from.distance(to) / (PIECE * self.gauge.wale_mm)).round().max(1.0),
@@ -197,15 +222,15 @@ impl<'a> Cloth<'a> {
         (1..parts as usize).map(move |part| from.lerp(to, part as f64 / parts) - DVec3::Z * behind)
     }
 
-    /// The points of one lap, its underlap left out; of an inlay with those at the wales that it
+    /// The points of one lap without its underlap, mm. An inlay has a point at each wale that it
     /// crosses.
     fn lap(&self, number: usize) -> Vec<DVec3> {
-        let laid = &self.loops.laid[number];
-        if laid.kind() == LapKind::Inlay {
-            return self.inlay(laid);
+        let placed = &self.loops.placed[number];
+        if placed.kind() == LapKind::Inlay {
+            return self.inlay(placed);
         }
         let mut points: Vec<DVec3> = Vec::new();
-        for (part, needle) in laid.lap.needles().enumerate() {
+        for (part, needle) in placed.lap.needles().enumerate() {
             let own = self.loop_points(number, part, needle);
             if let Some(last) = points.last().copied() {
                 points.extend(self.between(last, own[0], UNDERLAP * self.diameter));
@@ -215,15 +240,15 @@ impl<'a> Cloth<'a> {
         points
     }
 
-    fn inlay(&self, laid: &Laid) -> Vec<DVec3> {
+    fn inlay(&self, placed: &PlacedLap) -> Vec<DVec3> {
         let Gauge { wale_mm, course_mm, .. } = self.gauge;
-        let behind = self.behind(laid.bar as usize) * self.diameter;
+        let behind = self.behind(placed.bar as usize) * self.diameter;
         let at = |space: f64, above: f64| {
-            DVec3::new(space * wale_mm, (f64::from(laid.course) + above) * course_mm, -behind)
+            DVec3::new(space * wale_mm, (f64::from(placed.course) + above) * course_mm, -behind)
         };
-        let space = f64::from(laid.lap.to);
-        let hand = f64::from(laid.underlap.signum());
-        let count = laid.underlap.unsigned_abs();
+        let space = f64::from(placed.lap.to);
+        let hand = f64::from(placed.underlap.signum());
+        let count = placed.underlap.unsigned_abs();
         let wales = (0..count).map(|wale| {
             let passed = f64::from(wale) + 0.5;
             let [first, last] = CROSSES;
@@ -232,7 +257,7 @@ impl<'a> Cloth<'a> {
         std::iter::once(at(space, 0.0)).chain(wales).collect()
     }
 
-    /// How far behind the middle a bar's feet and inlays lie, in diameters.
+    /// Distance of a bar's feet and inlays behind the middle of the cloth, in diameters.
     fn behind(&self, bar: usize) -> f64 {
         match self.bars.len() - 1 {
             0 => BEHIND_ALONE,
@@ -242,34 +267,40 @@ impl<'a> Cloth<'a> {
         }
     }
 
-    /// One loop, from the foot at which the yarn comes in to the one at which it goes out.
+    /// The nine points of one loop, mm: from the foot at which the yarn comes in to the foot at
+    /// which it goes out. `part` is 0, or 1 for the second loop of a lap round two needles.
+    ///
+    /// The points are symmetrical about the needle: feet [`FOOT`] wales to each side, legs a
+    /// quarter of a wale, heads in the middle. What follows shifts them, so that loops on one
+    /// needle do not lie in one another.
     fn loop_points(&self, number: usize, part: usize, needle: i32) -> [DVec3; 9] {
-        let (laid, share) = (&self.loops.laid[number], self.loops.share(number, part));
+        let (placed, share) = (&self.loops.placed[number], self.loops.share(number, part));
         let (Gauge { wale_mm, course_mm, .. }, diameter) = (self.gauge, self.diameter);
         let apart = f64::from(self.loops.most - 1);
-        // Legs of any in front of heads of any, which takes more than the loops on a needle are
-        // apart.
+        // Legs of each loop lie in front of heads of all. That takes more depth than the loops on a
+        // needle are apart.
         let (forward, tilt) = if apart > 0.0 { (0.65 + 0.35 * apart, 0.3) } else { (0.9, 0.0) };
         let front_most = share.front_most();
         let layer = LAYER * front_most;
-        let behind = self.behind(laid.bar as usize) + BESIDE * f64::from(share.own_rank);
-        let slant = if self.loops.steep[laid.bar as usize] { SLANT_STEEP } else { SLANT };
+        let behind = self.behind(placed.bar as usize) + BESIDE * f64::from(share.own_rank);
+        let slant = if self.loops.steep[placed.bar as usize] { SLANT_STEEP } else { SLANT };
         let bulge = (BULGE * diameter).min(BULGE_MOST * wale_mm);
-        // Loops that lap alike would lie in one another. Of others, what is further to the front at
-        // the legs is further back at the feet: on the way yarns pass beside one another.
-        let (beside, aside) = if self.loops.alike[laid.bar as usize] {
+        // Loops of bars that lap alike would lie in one another, and are shifted sideways. Of other
+        // bars, a loop that is further forward at its legs is further back at its feet. Its legs
+        // begin wider or narrower, so that yarns pass beside one another on the way.
+        let (beside, aside) = if self.loops.alike[placed.bar as usize] {
             (front_most, 0.0)
         } else {
             (share.own_middle(), ASIDE * diameter)
         };
 
-        // Those of one bar are all as wide: each lies beside the next one all the way but at the
+        // Loops of one bar are equally wide. Each lies beside the next one all the way but at the
         // head, where they cross once.
         let wider = front_most + share.own_middle();
-        let height = self.heights[laid.bar as usize];
-        let side = f64::from(laid.lap.overlap().signum());
+        let height = self.heights[placed.bar as usize];
+        let side = f64::from(placed.lap.overlap().signum());
         let middle = (f64::from(needle) + 0.5) * wale_mm + beside * diameter;
-        let course = f64::from(laid.course) * course_mm;
+        let course = f64::from(placed.course) * course_mm;
         let place = |x: f64, y: f64, z: f64| DVec3::new(x, course + y * course_mm, z * diameter);
         let leg = |hand: f64| {
             let at =

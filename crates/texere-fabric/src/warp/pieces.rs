@@ -1,30 +1,30 @@
-//! Which guides hold which: loops by needle, drawn through those of the course below, and what is
-//! laid in between.
+//! Yarns of a warp knit that hold one another: by loops drawn through those of the course below,
+//! and by yarns laid in between.
 
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Laid, LapKind, WarpKnitted};
+use super::{LapKind, PlacedLap, WarpKnitted};
 use crate::Pieces;
 use crate::diagnosis::Joined;
 
-/// A loop: its guide's number among all, and how many repeats its needle lies further than the
-/// guide.
+/// A loop: the number of its guide among all guides, and the repeats by which its needle lies
+/// further than the guide.
 type Loop = (usize, i64);
 
 impl WarpKnitted {
-    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles
-    /// there never is a loop.
+    /// The pieces into which the cloth falls, the yarns that nothing holds, and the needles that
+    /// never have a loop.
     ///
-    /// A loop is held where a loop of the next course is drawn through it, on the same needle: a
-    /// needle that gets no yarn at a course casts off what it holds. What crosses needles, an
-    /// underlap or a yarn that is laid in, is held where it passes between the loops of a bar
-    /// further forward and what this lays from course to course.
+    /// A loop is held where a loop of the next course is drawn through it on the same needle. A
+    /// needle that gets no yarn at a course casts off its loops. An underlap or an inlay is held
+    /// where it passes between the loops of a bar further forward and the yarn which that bar lays
+    /// from course to course.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let [wales, courses] = self.repeat_size();
-        let laid: Vec<Laid> = laps(self.bars(), wales, courses).collect();
-        let guides: Vec<&[Laid]> = laid.chunks(courses as usize).collect();
+        let placed: Vec<PlacedLap> = laps(self.bars(), wales, courses).collect();
+        let guides: Vec<&[PlacedLap]> = placed.chunks(courses as usize).collect();
         let needle =
             |number: i32| (number.rem_euclid(wales as i32), i64::from(number.div_euclid(wales as i32)));
         let place =
@@ -48,7 +48,8 @@ impl WarpKnitted {
                 }
             }
         }
-        // Bars come from the front, so that the first yarn to pass a space is the foremost one.
+        // Bars come in order from the front. The first yarn to pass a space is thus the foremost
+        // one.
         let mut behind: Vec<Option<Loop>> = vec![None; hanging.len()];
         for (guide, laps) in guides.iter().enumerate() {
             for (lap, next) in laps.iter().zip(laps.iter().cycle().skip(1)) {
@@ -77,7 +78,7 @@ impl WarpKnitted {
             .filter(|own| (0..courses as usize).all(|course| hanging[place(*own, course)].is_empty()));
         let empty: Vec<u64> = empty.map(|own| own as u64).collect();
         let origin = |number: usize, copy: u32| {
-            let Laid { bar, guide, .. } = guides[number][0];
+            let PlacedLap { bar, guide, .. } = guides[number][0];
             Origin::Guide { bar: bar + 1, guide: guide + 1 + copy * wales }
         };
         let copies = [0, 1].map(|axis| self.size()[axis] / self.repeat_size()[axis]);
@@ -86,8 +87,8 @@ impl WarpKnitted {
     }
 }
 
-/// The needles that a yarn crosses on its way to its next lap, without those of its own loops.
-fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
+/// The needles that a yarn crosses on its way to its next lap, except the needles of its own loops.
+fn crossed(lap: &PlacedLap, next: &PlacedLap) -> std::ops::Range<i32> {
     let [from, to] = [lap.lap.to, lap.lap.to + lap.underlap];
     let [low, high] = [from.min(to), from.max(to)];
     let own = |needle: i32| lap.lap.needles().chain(next.lap.needles()).any(|own| own == needle);
@@ -96,7 +97,7 @@ fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
 
 /// The spaces that a yarn passes behind the needles on its way from a loop to the next one. Space n
 /// lies between the needles n - 1 and n.
-fn spaces(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
+fn spaces(lap: &PlacedLap, next: &PlacedLap) -> std::ops::Range<i32> {
     let [one, other] = [lap, next].map(|lap| lap.lap.needle());
     if lap.kind() == LapKind::Inlay || next.kind() == LapKind::Inlay {
         return 0..0;

@@ -1,4 +1,4 @@
-//! A warp knit settles, and what is measured of it then.
+//! Settling of a warp knit, and its measures.
 
 use std::ops::ControlFlow;
 
@@ -11,23 +11,24 @@ use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled};
 
-/// How many times its length a yarn may be given.
+/// Range of the factor by which settling may change the length of a yarn.
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
-/// How far lengths may be off where nothing more is given.
+/// Share by which lengths may be off their run-ins without being changed.
 const REACHED: f64 = 0.001;
 
-/// Length of yarn that a bar takes for a rack of 480 courses.
+/// The run-in of a bar: the length of yarn that it takes for a rack of 480 courses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunIn {
-    /// What the bar asks for, mm.
+    /// The run-in that the bar asks for, mm.
     pub asked_mm: Option<f64>,
-    /// What it is, the mean of its yarns, mm; 0 of a bar without yarn.
+    /// The run-in that it has, mm: the mean of its yarns. 0 for a bar without yarn.
     pub reached_mm: f64,
 }
 
 impl RunIn {
-    /// By what share it is off what was asked for: 0.01 where it is one per cent too long.
+    /// The share by which the run-in is off: 0.01 where it is one per cent too long. None where the
+    /// bar asks for none.
     #[must_use]
     pub fn miss(&self) -> Option<f64> {
         Some(self.reached_mm / self.asked_mm? - 1.0)
@@ -37,15 +38,15 @@ impl RunIn {
 impl WarpKnitted {
     /// Lets the yarns settle: one repeat, which is then copied. See [`settle`](crate::settle()).
     ///
-    /// Loops are as high as the run-in of their bar asks for, from 1.45 to 1.75 courses. Where that
-    /// is not enough and every bar has a run-in, yarns are given what lacks in all, if `finish`
-    /// says nothing of lengths; else they keep the length that they have. How far a bar is off its
-    /// run-in then, [`WarpKnitted::run_ins`] says. What [`Settled::clearance`] measures is the
-    /// whole cloth, with its cut edges.
+    /// The run-in of a bar gives the height of its loops, from 1.45 to 1.75 courses. That may not
+    /// suffice. If every bar has a run-in and `finish` leaves the lengths open, all yarns together
+    /// are then given the length that is missing. Otherwise yarns keep their length.
+    /// [`WarpKnitted::run_ins`] says how far each bar is off its run-in in the end.
+    /// [`Settled::clearance`] is that of the whole cloth, with its cut edges.
     ///
-    /// `tension` is that of the splines of all yarns, from 0 to below 1.
+    /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
-    /// **Errors**: those of [`WarpKnitted::yarns`], of [`Yarns::with_tension`] and of
+    /// **Errors**: the errors of [`WarpKnitted::yarns`], of [`Yarns::with_tension`] and of
     /// [`settle`](crate::settle()).
     pub fn settle(
         &self,
@@ -56,18 +57,19 @@ impl WarpKnitted {
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?.with_tension(tension).map_err(FabricError::from)?;
         let finish = self.finish_of(&repeat, finish);
-        let settled = settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, backend, progress)?;
+        let settled =
+            settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)?;
         Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
     }
 
-    /// `finish` with what becomes of the lengths of [`WarpKnitted::repeat`], where it does not say.
+    /// `finish` with a rule for the lengths of [`WarpKnitted::repeat`], where it has none.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece));
         Finish { length: Some(length), ..*finish }
     }
 
-    /// What becomes of lengths where nobody says.
+    /// The rule for lengths where the finish has none.
     fn length(&self, piece: &Piece) -> Length {
         let courses = f64::from(piece.boundary.repeat()[1]) / self.gauge().course_mm;
         let yarns = piece.yarns.layout().yarns();
@@ -89,8 +91,8 @@ impl WarpKnitted {
         self.bars().get((bar as usize).wrapping_sub(1))
     }
 
-    /// What each bar takes for a rack of 480 courses, and what it asks for. `yarns` are the cloth's
-    /// own; yarns of no guide count for nothing.
+    /// The run-in of each bar. `yarns` are those of this cloth. Yarns that belong to no guide do
+    /// not count.
     #[must_use]
     pub fn run_ins(&self, yarns: &Yarns) -> Vec<RunIn> {
         let mut sums = vec![(0.0, 0.0); self.bars().len()];
@@ -110,15 +112,15 @@ impl WarpKnitted {
         self.bars().iter().zip(sums).map(run_in).collect()
     }
 
-    /// What of a yarn is the cloth's. All copies are alike: after the last point comes the first
-    /// one, the cloth's height further.
+    /// The part of a yarn that counts for the cloth. All copies are alike: after the last point the
+    /// first one follows, higher by the height of the cloth.
     fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
         Own::round(yarns, yarn, self.beyond(), [0.0, self.size_mm()[1]])
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own. However many
-    /// copies of the repeat there are, they have the same numbers: what yarns reach beyond the
-    /// cloth does not count.
+    /// Yarn consumption, loops, weight and thickness. `yarns` are those of this cloth. What they
+    /// reach beyond the cloth does not count, so that every copy of the repeat has the same
+    /// numbers.
     #[must_use]
     pub fn measures(&self, yarns: &Yarns) -> Measures {
         let own = |yarn| self.own(yarns, yarn);

@@ -1,5 +1,5 @@
-//! What a yarn does at each needle that it comes to, also at those that it passes without being
-//! told.
+//! The needles that a yarn comes to: those of its program, and those that it floats past on its way
+//! from one to the next.
 
 use std::ops::Range;
 
@@ -12,30 +12,32 @@ use super::{Bed, Direction, Step, Stitches};
 /// What a yarn does at a needle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
-    /// The loop's number; none for a float.
+    /// Number of the loop that it makes; none for a float.
     pub(super) number: Option<u32>,
-    /// In wales, and in courses that may go on beyond the repeat.
+    /// Place of the needle in wales, and the course. Both may go on beyond the repeat.
     pub(super) at: f32,
     pub(super) course: i64,
     pub(super) bed: Bed,
     /// 1 to the right, -1 to the left.
     pub(super) direction: f64,
-    /// How far up it lies in its course, of the room that there is: -0.5 to 0.5.
+    /// Height among the yarns that share its course, from -0.5 for the lowest to 0.5 for the
+    /// highest.
     pub(super) lift: f64,
-    /// How many times a yarn's width that room is.
+    /// Height of the room that these yarns share, in yarn diameters.
     pub(super) sharing: f64,
-    /// Which of several yarns in the same stitches it is.
+    /// Number of the yarn in a plated stitch: 0 lies in front.
     pub(super) plate: u16,
     pub(super) source: u32,
-    /// Whether it is no more than half a wale from a neighbour, and has only that much room.
+    /// Whether a neighbour is only half a wale away. A float has one point then instead of two.
     pub(super) short: bool,
 }
 
-/// Cells nearer than so many wales are of needles that lie half a needle apart.
+/// Distance below which two cells are of needles half a wale apart, in wales: half way between half
+/// a wale and a whole one.
 const SHORT: f32 = 0.75;
 
-/// What a yarn does from its beginning to its end, or in one round; and how many wales and courses
-/// further it then goes on.
+/// The cells of a yarn from its beginning to its end, or of one round of it. With them, the wales
+/// and courses by which the next round lies further; none for a yarn that ends.
 ///
 /// **Errors**: [`OutOfMemory`].
 pub(super) fn cells(
@@ -44,7 +46,7 @@ pub(super) fn cells(
     strand: usize,
 ) -> Result<(Vec<Cell>, Option<[i64; 2]>), OutOfMemory> {
     let steps = stitches.strands[strand].steps.iter().enumerate();
-    let told = steps.map(|(index, step)| told(stitches, layers, [strand, index], step));
+    let made = steps.map(|(index, step)| cell_of(stitches, layers, [strand, index], step));
     let onward = match (stitches.strands[strand].onward, stitches.repeat) {
         (Some(repeats), Some(size)) => {
             Some([0, 1].map(|axis| i64::from(repeats[axis]) * i64::from(size[axis])))
@@ -52,7 +54,7 @@ pub(super) fn cells(
         _ => None,
     };
     let mut cells: Vec<Cell> = Vec::new();
-    for cell in told {
+    for cell in made {
         if let Some(last) = cells.last().copied() {
             pass(&mut cells, &last, &cell)?;
         }
@@ -74,8 +76,8 @@ pub(super) fn cells(
     Ok((cells, onward))
 }
 
-/// A step as a cell. `at` are its strand and its number in that.
-fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Cell {
+/// A step of the program as a cell. `at` is the number of its strand, and its number in that.
+fn cell_of(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Cell {
     let (rank, visit) = (layers.rank(at), stitches.visit(step));
     Cell {
         number: visit.number,
@@ -91,10 +93,10 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
     }
 }
 
-/// Adds a float at each needle that a yarn passes from `one` to `other`.
+/// Adds a float at each needle that a yarn passes on its way from `one` to `other`.
 ///
-/// Where the other lies further out in the direction in which the yarn came, it floats on to there
-/// and turns; where it lies further back, it turns at once and floats back.
+/// Where `other` lies ahead of the carriage, the yarn floats on to it, and turns there if it has
+/// to. Where `other` lies behind the carriage, the yarn turns at once and floats back.
 fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
     let way = f64::from(other.at - one.at) * one.direction;
     let turns = one.direction != other.direction;
@@ -109,8 +111,20 @@ fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemo
     Ok(())
 }
 
-/// The steps of a needle each after which a yarn floats on a way in the direction in which it came,
-/// or against it; and whether the next loop is made in the other direction.
+/// The needles at which a yarn floats on its way from one cell to the next, counted from the first:
+/// 0 is the needle of the first cell itself.
+///
+/// `way` is the distance to the next cell in wales, positive in the direction in which the carriage
+/// came. `turns` says that the next cell is made in the other direction.
+///
+/// - The next cell lies ahead, in the same direction: the yarn floats past the needles between.
+/// - It lies ahead, in the other direction: the yarn also floats past the needle of the next cell,
+///   turns, and comes back to that needle.
+/// - It lies behind: the yarn turns at once, and floats past the needle of the first cell and the
+///   needles between.
+///
+/// There is no float where both cells are on one needle, or on neighbouring needles in the same
+/// direction.
 pub(super) fn passed_on_way(way: f64, turns: bool) -> Range<u32> {
     let gap = way.abs().round() as u32;
     if !turns && way.abs() <= f64::from(STEP) || gap == 0 {

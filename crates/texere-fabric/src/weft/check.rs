@@ -1,4 +1,4 @@
-//! Whether stitches, gauge and yarns can be a cloth.
+//! Checks of stitches, gauge and yarns: whether they can be a cloth.
 
 use texere_core::{Material, Origin, Section, Yarn};
 
@@ -8,29 +8,30 @@ use super::layers::held_until;
 use super::{Direction, Fate, Gauge, KnitYarn, LoopRef, Step, Stitches, Strand, Visit, WeftError};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN, yarn_check};
 
-/// The furthest that a needle lies from the first one, in wales.
+/// The furthest place of a needle from needle 0, in wales.
 const WALES_MAX: f32 = 1e6;
 
 /// The most wales or courses of all copies of a repeat.
 const SIDE_MAX: u32 = 1 << 30;
 
-/// How many wales a loop is moved at most.
+/// The most wales by which a loop is moved.
 pub(super) const MOVED_MAX: f32 = 256.0;
 
 /// The most loops of several repeats that settle together.
 const TILED_MAX: u64 = 1 << 16;
 
-/// Control points of a needle that a yarn floats past, with the arc to the next one, and of a turn.
+/// Control points of a float past one needle with the arc to the next one, and control points of a
+/// turn.
 const PASSED_POINTS: u64 = 3;
 const TURN_POINTS: u64 = 3;
 
-/// The most control points of a repeat, which is laid and settles as one: a gigabyte, for reading
-/// and laying takes 73 to 79 bytes for each. That is a picture of 1,024 × 1,024 stitches, also with
-/// two yarns of which one only floats; of 910 × 910 where both knit.
+/// The most control points of a repeat, which is laid and settles as one. Reading and laying take
+/// 73 to 79 bytes for each, a gigabyte in all. A picture of 1,024 × 1,024 stitches has as many,
+/// also with a second yarn that only floats. Where both yarns knit, 910 × 910 stitches do.
 const REPEAT_POINTS_MAX: u64 = 12_600_000;
 
-/// The most needles and courses that yarns pass: so many, and so many more for each loop. All of
-/// them take memory.
+/// The most needles and courses that yarns pass: a fixed number, and a number for each loop. Each
+/// of them takes memory.
 const PASSED_MAX: u64 = 1 << 16;
 const PASSED_BESIDE_A_LOOP: u64 = 64;
 
@@ -43,7 +44,8 @@ pub(crate) fn gauge(gauge: &Gauge) -> Result<(), WeftError> {
     }
 }
 
-/// Whether yarns are sound; `origin` names the one with a number, from 0.
+/// Checks that yarns are sound. `origin` gives the origin of a yarn by its number, from 0, for
+/// errors.
 pub(crate) fn yarns(
     yarns: &[KnitYarn],
     origin: impl Fn(u32) -> Origin,
@@ -59,7 +61,7 @@ pub(crate) fn yarns(
     Ok(())
 }
 
-/// Whether stitches refer only to what there is, with a yarn for each carrier.
+/// Checks that stitches refer only to loops, repeats and carriers that exist.
 pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), WeftError> {
     let sound = |sound: bool, what| if sound { Ok(()) } else { Err(WeftError::Stitches { what }) };
     let far = |at: f32| at.abs() <= WALES_MAX;
@@ -109,7 +111,7 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), WeftErro
     sound(!stitches.loops.is_empty() && !stitches.strands.is_empty(), "no loops")
 }
 
-/// Whether the cloth has no more control points than are taken: a low estimate, before any is made.
+/// Checks the number of control points before any is made, by a low estimate.
 pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftError> {
     let held = stitches.loops.iter().filter_map(|stitch| {
         let until = held_until(stitches, stitch.fate)?;
@@ -120,7 +122,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftErro
     let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
     let limit = passed_max(loops);
     if passed > limit {
-        return Err(WeftError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
+        return Err(WeftError::KnitRuns { passed, loops, limit, operation: furthest(stitches) });
     }
     let points = repeat_points(points(stitches))?;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
@@ -135,7 +137,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftErro
     if points > POINTS_MAX { Err(WeftError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
 }
 
-/// So many control points of a repeat, unless they are too many to be laid as one.
+/// `points`, unless a repeat has too many of them to be laid as one.
 pub(crate) fn repeat_points(points: u64) -> Result<u64, WeftError> {
     if points > REPEAT_POINTS_MAX {
         return Err(WeftError::KnitRepeat { points, limit: REPEAT_POINTS_MAX });
@@ -143,15 +145,15 @@ pub(crate) fn repeat_points(points: u64) -> Result<u64, WeftError> {
     Ok(points)
 }
 
-/// About as many control points as a knit's yarns have: exact but for their ends, turns over
-/// several courses, and needles half a wale apart.
+/// The number of control points of a knit's yarns, about. It leaves out ends, turns over several
+/// courses, and needles half a wale apart; else it is exact.
 fn points(stitches: &Stitches) -> u64 {
     let loops = (0..stitches.loops.len() as u32).map(|number| point_count(stitches, number));
     let strands = stitches.strands.iter().map(|strand| {
         let visit = |step: &Step| stitches.visit(step);
         let floats = strand.steps.iter().filter(|step| matches!(step, Step::Float { .. })).count() as u64;
         let joins: u64 = strand.steps.windows(2).map(|pair| join(&visit(&pair[0]), &visit(&pair[1]))).sum();
-        // A yarn that goes on comes to its first needle again, in the next repeat.
+        // A yarn that goes on comes to its first needle again in the next repeat.
         let onward = strand.onward.zip(stitches.repeat).zip(strand.steps.first().zip(strand.steps.last()));
         let onward = onward.map_or(0, |(([right, _], [width, _]), (first, last))| {
             let first = visit(first);
@@ -162,19 +164,19 @@ fn points(stitches: &Stitches) -> u64 {
     loops.sum::<u64>() + strands.sum::<u64>()
 }
 
-/// Control points between one needle and another.
+/// Number of control points between two needles.
 fn join(one: &Visit, other: &Visit) -> u64 {
     let turns = one.direction != other.direction;
     let way = f64::from(other.at - one.at) * if one.direction == Direction::Right { 1.0 } else { -1.0 };
     PASSED_POINTS * passed_on_way(way, turns).len() as u64 + if turns { TURN_POINTS } else { 1 }
 }
 
-/// How many needles and courses yarns may pass between so many loops or laps.
+/// The most needles and courses that yarns may pass in a knit of `loops` loops or laps.
 pub(crate) const fn passed_max(loops: u64) -> u64 {
     PASSED_MAX + PASSED_BESIDE_A_LOOP * loops
 }
 
-/// Whether the repeats of so many loops or laps that settle together are not too many.
+/// Checks the size of what settles together: `tiles` copies of a repeat of `loops` loops or laps.
 pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), WeftError> {
     let count = u64::from(tiles[0]) * u64::from(tiles[1]);
     if count > 1 && count.saturating_mul(loops) > TILED_MAX {
@@ -183,12 +185,13 @@ pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), WeftError> {
     Ok(())
 }
 
-/// How many needles a yarn passes from loop to loop, and how many courses.
+/// Number of needles and courses that a yarn passes from step to step.
 fn passed(stitches: &Stitches, strand: &Strand) -> u64 {
     ways(stitches, strand).map(|(passed, _)| passed).sum()
 }
 
-/// How far a yarn goes from each step to the next, in needles and courses, and the source of that.
+/// For each step of a yarn but the first, the needles and courses passed on the way to it, and its
+/// source.
 fn ways(stitches: &Stitches, strand: &Strand) -> impl Iterator<Item = (u64, u32)> {
     strand.steps.windows(2).map(|pair| {
         let [one, other] = [&pair[0], &pair[1]].map(|step| stitches.visit(step));
@@ -197,8 +200,8 @@ fn ways(stitches: &Stitches, strand: &Strand) -> impl Iterator<Item = (u64, u32)
     })
 }
 
-/// The source of the loop after the longest way of a yarn from one to the next, whatever it floats
-/// past in between.
+/// The source of the loop at which the longest way of a yarn between two loops ends. Floats between
+/// them do not end a way.
 fn furthest(stitches: &Stitches) -> Option<u32> {
     let mut longest = (0, None);
     for strand in &stitches.strands {
@@ -225,7 +228,7 @@ mod tests {
         Chart::parse(text, beds).unwrap().program().unwrap()
     }
 
-    /// A Jacquard of so many colours, of blocks or of single stitches.
+    /// A Jacquard with this number of colours, in squares of `block` stitches.
     fn jacquard(colours: u32, block: usize, backing: Option<Backing>) -> Program {
         let colour = |wale: usize, row: usize| ((wale / block + row / block) as u32) % colours;
         Chart::jacquard(12 * block, 12 * block, backing, colour).unwrap().program().unwrap()
@@ -256,9 +259,9 @@ mod tests {
             let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
             let estimate = points(&stitches);
             let knit = Knitted::new(stitches, gauge, yarns, materials, sections, [1, 1]).unwrap();
-            let laid = knit.piece().unwrap().yarns.points().len();
-            let share = estimate as f64 / laid as f64;
-            assert!((0.9..1.1).contains(&share), "{name}: {estimate} for {laid}");
+            let placed = knit.piece().unwrap().yarns.points().len();
+            let share = estimate as f64 / placed as f64;
+            assert!((0.9..1.1).contains(&share), "{name}: {estimate} for {placed}");
         }
     }
 }

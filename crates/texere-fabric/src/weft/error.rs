@@ -1,47 +1,47 @@
-//! What can be wrong with a knitting program, or with a knit of its stitches.
+//! Errors of knitting programs and of knits.
 
 use texere_core::counted;
 use thiserror::Error;
 
 use super::program::Needle;
 
-/// A knit that can't be taken. Carriers and operations are counted from 1. Warp knits have loops,
-/// too: what is wrong with these is said here.
+/// A knitting program or a knit that is refused. Carriers and operations are counted from 1. Warp
+/// knits have loops, too, and give some of these errors.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WeftError {
-    /// A knitting program that is too large in some way.
+    /// A knitting program with too many of something.
     #[error("{count} {what} in a knitting program; {limit} are taken at most")]
     KnitSize {
-        /// Of what.
+        /// What there are too many of.
         what: &'static str,
-        /// How many.
+        /// The number of them.
         count: u64,
         /// Most taken.
         limit: u64,
-        /// The operation where that is so, from 1; 0 where it is so of the whole program.
+        /// The operation that goes beyond the limit, from 1; 0 where the whole program does.
         operation: u64,
     },
-    /// A knit whose yarns run on, between its loops, further than any cloth's.
+    /// A knit whose yarns run too far between its loops.
     #[error(
         "yarns pass {passed} needles and courses between {loops}, or on loops that are held; {limit} are taken at most", loops = counted(*.loops, "loop"))]
     KnitRuns {
-        /// Needles that yarns float past, and courses that they rise or that loops are held.
+        /// Needles that yarns float past, plus courses that they rise and that loops are held.
         passed: u64,
-        /// Loops.
+        /// Number of loops.
         loops: u64,
-        /// Most taken for so many loops.
+        /// Most taken for this number of loops.
         limit: u64,
-        /// The [source](crate::weft::Operation::source) of the operation after the longest way of a
-        /// yarn between two loops; none of a warp knit.
-        told: Option<u32>,
+        /// The [source](crate::weft::Operation::source) of the operation at which the longest way
+        /// of a yarn between two loops ends; none for a warp knit.
+        operation: Option<u32>,
     },
-    /// A needle further out than any machine's, or outside what the machine's beds are racked to.
+    /// A needle beyond those of any machine, as numbered or as the beds are racked.
     #[error("needle {needle}; needles {} to {limit} are taken", -i64::from(*.limit))]
     KnitNeedle {
         /// The needle.
         needle: Needle,
-        /// The furthest taken.
+        /// The furthest needle that is taken.
         limit: i32,
         /// The operation, from 1.
         operation: u64,
@@ -52,7 +52,7 @@ pub enum WeftError {
         /// The operation, from 1.
         operation: u64,
     },
-    /// Wales, courses or loops of a knit that no cloth has.
+    /// Distances of wales or courses, or a length of loops, that no cloth has.
     #[error("{what} of {mm} mm, outside {low} to {high} mm")]
     Gauge {
         /// `wales`, `courses` or `loops`.
@@ -72,13 +72,13 @@ pub enum WeftError {
         /// How many yarns there are.
         yarns: usize,
     },
-    /// Stitches that are not those of any cloth.
+    /// Stitches that can't be a cloth.
     #[error("stitches that no cloth has: {what}")]
     Stitches {
         /// What is wrong.
         what: &'static str,
     },
-    /// Copies of a small repeat of a knit that have to settle together, for their number has no
+    /// Too many copies of a small repeat that have to settle together, because their number has no
     /// divisor up to 16.
     #[error(
         "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops}; {limit} are taken at most: take multiples of 4", loops = counted(*.loops, "loop"))]
@@ -88,7 +88,7 @@ pub enum WeftError {
         /// Most taken.
         limit: u64,
     },
-    /// A knit of more control points than are taken.
+    /// A knit with too many control points.
     #[error("a knit of {points} control points or more; {limit} are taken at most")]
     KnitPoints {
         /// Control points of all yarns, at least.
@@ -96,11 +96,10 @@ pub enum WeftError {
         /// Most taken.
         limit: u64,
     },
-    /// A knit whose repeat, which settles as one before it is copied, has more control points than
-    /// are taken.
+    /// A knit whose repeat has too many control points. It settles as one before it is copied.
     #[error("a repeat of {points} control points or more, before it is copied; {limit} are taken at most")]
     KnitRepeat {
-        /// Control points of the repeat, about; of a knit without one, those of all of it.
+        /// Control points of the repeat, about. A knit that does not repeat counts whole.
         points: u64,
         /// Most taken.
         limit: u64,
@@ -108,8 +107,8 @@ pub enum WeftError {
 }
 
 impl WeftError {
-    /// The operation of a knitting program that is refused, counted from 1: readers say where it
-    /// stands. None of other errors.
+    /// The number of the refused operation, from 1. Readers find its line with it. None for errors
+    /// that concern no operation.
     ///
     /// ```
     /// use texere_fabric::weft::WeftError;

@@ -1,4 +1,29 @@
-//! One loop: where its yarn goes.
+//! One loop: where its feet, legs and head are placed.
+//!
+//! [`Form::points`] lays a loop from foot to foot. The idea is simple: take the plain loop of
+//! `shape.rs`, and put each part of it on the side of what it has to pass.
+//!
+//! ```text
+//! half a loop, from foot to head (Form::half):
+//!     foot       behind the upper legs of all loops that this one is drawn through
+//!     lower leg  on the side to which this loop is drawn, which its bed says
+//!     leg        one node; two where the lower and the upper leg lie on different sides
+//!     held leg   one node for each course in which the needle does not knit
+//!     upper leg  on the side to which the next loop is drawn
+//!     shoulder   on that side, too
+//! head           behind the legs of the next loop
+//! ```
+//!
+//! Across, all nodes are at the needle plus or minus the widths of `shape.rs`. The nodes of a loop
+//! that is transferred move towards its new needle: the foot not at all, the leg half way, the head
+//! all the way.
+//!
+//! A tuck, and a loop on an empty needle, are drawn through nothing. Such an arch has no lower leg.
+//! A dropped loop has no upper leg: its head lies just above the middle of its legs.
+//!
+//! Loops laid so need not be clear of one another, but they have to be linked as in the cloth
+//! (`loops_are_drawn_through_what_the_chart_says`). Settling makes them clear
+//! (`knits_come_to_rest`).
 
 use glam::DVec3;
 
@@ -8,58 +33,58 @@ use super::shape::{
 };
 use super::{Bed, Fate, LoopKind, Stitches};
 
-/// How far legs that cross over others are lifted from where they lie else, in diameters; those
-/// under them lie one lower.
+/// Height to which the uppermost of legs that cross are lifted, in diameters. Each leg below it
+/// lies one diameter lower. By eye.
 const CROSSING: f64 = 0.7;
 
-/// How far the legs of a loop that is moved lean where they come out of the loop before, of the way
-/// to the next needle.
+/// Lean of the lower legs of a transferred loop, as a share of the distance to its new needle. The
+/// legs come out of the loop below there, and have no room to lean further. By eye.
 const LEANS: f64 = 0.1;
 
-/// What nothing holds falls in front of what it is drawn through, below the feet of the next
-/// course; what is drawn through nothing either is a float.
+/// Nodes of a dropped loop. It falls in front of the loop that it is drawn through, below the feet
+/// of the next course. A dropped arch has none of them, and lies as a float does. By eye.
 const FALLEN_LEG: Node = Node { up: 0.4, ..LEG };
 const FALLEN_SHOULDER: Node = Node { up: 0.5, ..LEG };
 const FALLEN_HEAD: Node = Node { up: 0.54, z: 0.8 };
 
-/// How far the feet of two layers of cloth that lie face to face are from the middle between them,
-/// in diameters; and where yarns float there.
+/// Distance of the feet of a layer from the middle between two layers that lie face to face, in
+/// diameters: without and with yarns that float between the layers. By eye.
 const APART: f64 = 0.55;
 const FLOATS_APART: f64 = 1.0;
 
-/// +1 for what is drawn to the face, -1 to the back.
+/// Sign of z on the side to which loops of a bed are drawn: 1 for the face, -1 for the back.
 pub(super) fn side(bed: Bed) -> f64 {
     if bed == Bed::Front { 1.0 } else { -1.0 }
 }
 
-/// A loop's place among those that it is drawn through and that are drawn through it, in mm.
+/// The form of one loop among its neighbours, in mm.
 ///
-/// A loop comes through what hangs on its needle: its feet pass behind the upper legs of that, its
-/// own legs in front of the heads. So its lower half follows the side to which it is drawn itself,
-/// and its upper half that of the loop which is drawn through it. Where these differ, its legs go
-/// through the plane of the cloth.
+/// A loop comes through the loops that hang on its needle. Its feet pass behind their upper legs,
+/// and its own legs pass in front of their heads. The lower half of the loop therefore lies on the
+/// side to which the loop itself is drawn, and the upper half on the side to which the next loop
+/// is drawn. Where the sides differ, the legs cross the plane of the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Form<'a> {
     shape: &'a Shape,
-    /// Its middle.
+    /// x of its needle.
     x: f64,
-    /// Its course.
+    /// y of its course.
     y: f64,
-    /// How far its feet lie above that.
+    /// Height of its feet above `y`.
     lift: f64,
     lower: Half,
     upper: Half,
-    /// How much further back its feet are than behind one loop, because of others that lie between,
-    /// mm.
+    /// Distance by which its feet lie further back than behind a single loop, because more loops
+    /// lie between, mm.
     behind: f64,
-    /// How far its legs come forward, so that those of the hindmost of several yarns still lie in
-    /// front of the heads that they are drawn through, mm.
+    /// Distance by which its legs come forward, mm. In a stitch of several yarns, the legs of the
+    /// hindmost yarn still lie in front of the heads that they are drawn through.
     forward: f64,
-    /// How far to the right its head is.
+    /// Distance of its head to the right of its needle, mm.
     lean: f64,
-    /// For how many courses its needle does not knit.
+    /// Number of courses in which its needle does not knit.
     held: u32,
-    /// How far its legs are lifted over those of others that they cross.
+    /// z by which its legs are lifted over legs that they cross, mm.
     over: f64,
     /// Whether it is drawn through nothing: a tuck, or a loop on an empty needle.
     is_arch: bool,
@@ -67,19 +92,19 @@ pub(super) struct Form<'a> {
     is_dropped: bool,
 }
 
-/// What one half of a loop has in common.
+/// What the nodes of the upper or of the lower half of a loop have in common.
 #[derive(Debug, Clone, Copy)]
 struct Half {
-    /// To which side the loop is drawn: 1 to the face, -1 to the back.
+    /// The side on which it lies: 1 for the face, -1 for the back.
     side: f64,
-    /// z of the plane about which it lies.
+    /// z of the plane about which it lies, mm.
     middle: f64,
-    /// How much further back than that it lies, because of others in front.
+    /// Distance by which it lies further back, because other loops lie in front of it, mm.
     back: f64,
 }
 
 impl Half {
-    /// The upper half of a loop: it follows the loop that is drawn through it.
+    /// The upper half of the loop `number`, on the side of the loop that is drawn through it.
     fn upper(shape: &Shape, stitches: &Stitches, layers: &Layers, number: u32) -> Self {
         let (next, opposite) = drawn_through(stitches, number);
         let layer = stitches.loops[number as usize].head.layer;
@@ -92,13 +117,14 @@ impl Half {
     }
 }
 
-/// z of the plane about which loops of a bed lie, whose opposite needles hold loops or do not.
+/// z of the plane about which the loops of a bed lie, mm. `opposite` says that the needles opposite
+/// hold loops, too.
 fn middle(shape: &Shape, layers: &Layers, bed: Bed, opposite: bool) -> f64 {
     let apart = if layers.has_floats() { FLOATS_APART } else { APART };
     if opposite { side(bed) * (ARC.z.abs() * shape.depth + apart * shape.diameter) } else { 0.0 }
 }
 
-/// The bed to which a loop's head is drawn, and whether needles opposite hold loops then.
+/// The bed to which the head of a loop is drawn, and whether the needle opposite holds loops then.
 fn drawn_through(stitches: &Stitches, number: u32) -> (Bed, bool) {
     let stitch = &stitches.loops[number as usize];
     match stitch.fate {
@@ -111,14 +137,14 @@ fn drawn_through(stitches: &Stitches, number: u32) -> (Bed, bool) {
     }
 }
 
-/// How many yarns the stitch of a loop has.
+/// Number of yarns in the stitch that a loop belongs to.
 fn plates(stitches: &Stitches, number: u32) -> u16 {
     let following = stitches.loops[number as usize..].windows(2);
     let last = following.take_while(|pair| pair[1].plate == pair[0].plate + 1).count();
     stitches.loops[number as usize].plate + 1 + last as u16
 }
 
-/// How many control points [`Form::points`] has for the loop `number`.
+/// Number of control points that [`Form::points`] gives for the loop `number`.
 pub(super) fn point_count(stitches: &Stitches, number: u32) -> u64 {
     let stitch = &stitches.loops[number as usize];
     let is_arch = stitch.kind == LoopKind::Tuck || stitch.parents.is_empty();
@@ -134,7 +160,7 @@ pub(super) fn point_count(stitches: &Stitches, number: u32) -> u64 {
     2 * half + 1
 }
 
-/// For how many courses the needle of a loop does not knit.
+/// Number of courses in which the needle of a loop does not knit.
 fn held(stitches: &Stitches, number: u32) -> u32 {
     let stitch = &stitches.loops[number as usize];
     let held = held_until(stitches, stitch.fate).unwrap_or(0) - i64::from(stitch.course) - 1;
@@ -142,8 +168,8 @@ fn held(stitches: &Stitches, number: u32) -> u32 {
 }
 
 impl<'a> Form<'a> {
-    /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above
-    /// that.
+    /// The form of the loop `number`. Its needle is at `x`, its course at height `y`, and its feet
+    /// lie `lift` above that, all in mm.
     pub(super) fn new(
         shape: &'a Shape,
         stitches: &Stitches,
@@ -154,8 +180,8 @@ impl<'a> Form<'a> {
         let stitch = &stitches.loops[number as usize];
         let is_tuck = stitch.kind == LoopKind::Tuck;
         let upper = Half::upper(shape, stitches, layers, number);
-        // A tuck lies as the loop that is drawn through it and through what else hangs there. So
-        // does an arch on an empty needle: what hangs opposite may have come later.
+        // A tuck takes the plane of the loop that is drawn through it. An arch on an empty needle
+        // does so, too: the loops opposite may have come later.
         let is_arch = is_tuck || stitch.parents.is_empty();
         let (next, _) = drawn_through(stitches, number);
         let middle = if is_arch { upper.middle } else { middle(shape, layers, stitch.bed, stitch.opposite) };
@@ -164,7 +190,7 @@ impl<'a> Form<'a> {
         let behind = if is_tuck {
             f64::from(stitch.head.layer.saturating_sub(1)) * shape.diameter
         } else {
-            // Behind the legs of all that it is drawn through, wherever these go.
+            // Its feet lie behind the legs of every loop that it is drawn through.
             let leg = lower.middle + lower.side * UPPER.z * shape.depth;
             let further = stitches.parents_of(number).iter().map(|parent| {
                 let parent = Half::upper(shape, stitches, layers, parent.number);
@@ -190,7 +216,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// z of the arcs from which its feet come.
+    /// z of the arcs on both sides of the loop, mm.
     pub(super) fn arc_z(&self) -> f64 {
         self.z(self.lower, ARC) - self.lower.side * self.behind
     }
@@ -199,8 +225,8 @@ impl<'a> Form<'a> {
         half.z(self.shape, node)
     }
 
-    /// Its control points from foot to foot, as the yarn takes them that comes from the left
-    /// (`direction` 1) or from the right (-1); and which of them is the head.
+    /// Control points from foot to foot, mm, and the index of the head among them. The yarn comes
+    /// from the left where `direction` is 1, from the right where it is -1.
     pub(super) fn points(&self, direction: f64) -> (Vec<DVec3>, usize) {
         let mut points = self.half(-direction);
         let head = points.len();
@@ -224,11 +250,12 @@ impl<'a> Form<'a> {
         self.y + node.up * self.shape.height()
     }
 
-    /// From foot to head, `hand` -1 the left one, 1 the right one.
+    /// Control points of one half, from foot to shoulder, mm: the left half where `hand` is -1, the
+    /// right half where it is 1.
     fn half(&self, hand: f64) -> Vec<DVec3> {
         let Shape { wale, course, .. } = *self.shape;
         let narrow = self.shape.narrow();
-        // How far along the way from the own needle to the one that it is moved to.
+        // `way` is the share of the distance from the own needle to the one that it is moved to.
         let at = |across: f64, way: f64, y: f64, z: f64| {
             DVec3::new(self.x + hand * across + way * self.lean, y, z)
         };
@@ -245,8 +272,8 @@ impl<'a> Form<'a> {
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
             points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
-            // It has to come out between the shoulders of what it is drawn through, and in front of
-            // them, before it leans.
+            // The leg comes out between the shoulders of the loop below, and in front of them. Only
+            // then can it lean.
             let leans = LEANS * self.lean.clamp(-wale, wale);
             let over = lower.side * f64::max(lower.side * self.over, 0.0);
             let z = self.z(lower, LOWER) + forward + 0.6 * over;
@@ -258,15 +285,13 @@ impl<'a> Form<'a> {
                 return points;
             }
             if lower.side == upper.side {
-                // Of a loop that is moved, the leg on the side that it leaves has nothing in front
-                // of it.
+                // A moved loop leaves one side. Nothing lies in front of the leg on that side.
                 let leaves = hand * self.lean < 0.0;
                 let plated = self.forward > 0.0;
                 let z = if leaves || plated { self.z(lower, LEG) + forward } else { self.z(upper, LEG) };
                 points.push(at(LEG_WIDE * wale, 0.5, self.height(LEG), z + self.over));
             } else {
-                // The leg goes through the plane of the cloth between what it came through and what
-                // comes through it.
+                // The leg crosses the plane of the cloth between the loop below and the loop above.
                 for (half, across, up, forward) in [(lower, 0.2, 0.42, forward), (upper, 0.3, 0.58, 0.0)] {
                     let node = Node { up, z: 0.6 };
                     let z = self.z(half, node) + forward + self.over;

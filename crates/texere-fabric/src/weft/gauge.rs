@@ -1,12 +1,12 @@
-//! How close stitches lie.
+//! Gauge: the distances between the loops of a knit.
 
 use crate::yarn_size::INCH_MM;
 
-/// Munden's constants of plain jersey, dry relaxed: loops a cm along a course and along a wale,
-/// times the loop length in cm.
+/// Munden's constants of plain jersey after dry relaxation, without unit: wales per cm times the
+/// loop length in cm, and courses per cm times that length.
 const MUNDEN: [f64; 2] = [4.2, 5.5];
 
-/// How close the stitches of a weft knit lie, and how long its loops are.
+/// The distances between the loops of a knit, and the length of its loops.
 ///
 /// ```
 /// use texere_fabric::weft::Gauge;
@@ -16,24 +16,24 @@ const MUNDEN: [f64; 2] = [4.2, 5.5];
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gauge {
-    /// From one wale to the next, mm.
+    /// Distance from one wale to the next, mm.
     pub wale_mm: f64,
-    /// From one course to the next, mm.
+    /// Distance from one course to the next, mm.
     pub course_mm: f64,
-    /// The mean length of yarn in a loop that settling is to reach, mm; `None` where it finds its
-    /// own.
+    /// The mean length of yarn in a loop that settling aims for, mm. With `None` loops find their
+    /// own length.
     pub loop_length_mm: Option<f64>,
 }
 
 impl Gauge {
-    /// Wales and courses so many mm apart, with loops of any length.
+    /// A gauge of wales and courses at these distances, mm, with loops of any length.
     #[must_use]
     pub const fn new(wale_mm: f64, course_mm: f64) -> Self {
         Self { wale_mm, course_mm, loop_length_mm: None }
     }
 
-    /// A wale for each needle of a machine with so many to the inch, and so many courses to the cm
-    /// of cloth.
+    /// The gauge of a machine with `needles` per inch, each of which makes one wale, and of cloth
+    /// with `courses_per_cm`.
     ///
     /// ```
     /// assert!((texere_fabric::weft::Gauge::per_inch(14.0, 12.5).wale_mm - 1.814).abs() < 1e-3);
@@ -43,8 +43,8 @@ impl Gauge {
         Self::new(INCH_MM / needles, 10.0 / courses_per_cm)
     }
 
-    /// A wale for each needle of a machine with so many to the inch, and courses as close as plain
-    /// jersey has them, by Munden's constants ([`Gauge::munden`]): 4.2 / 5.5 of a wale.
+    /// The gauge of plain jersey from a machine with `needles` per inch, each of which makes one
+    /// wale. A course is 4.2 / 5.5 of a wale high, by Munden's constants ([`Gauge::munden`]).
     ///
     /// ```
     /// let gauge = texere_fabric::weft::Gauge::plain(14.0);
@@ -57,9 +57,9 @@ impl Gauge {
         Self::new(wale_mm, wales / courses * wale_mm)
     }
 
-    /// Plain jersey with loops of `loop_length_mm`, as it lies after dry relaxation: 4.2 / l wales
-    /// and 5.5 / l courses to the cm, l in cm. Other structures draw in further, or less: they need
-    /// their own figures.
+    /// The gauge of plain jersey with loops of `loop_length_mm` after dry relaxation: 4.2 / l wales
+    /// and 5.5 / l courses per cm, with l in cm. Other structures draw in by other amounts, and
+    /// need figures of their own.
     ///
     /// **Source**: Munden, "The geometry and dimensional properties of plain-knit fabrics", Journal
     /// of the Textile Institute 50, 1959.

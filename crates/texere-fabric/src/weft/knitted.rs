@@ -1,4 +1,4 @@
-//! A knitted cloth: its stitches, how close they lie, and what its yarns are like.
+//! A weft-knitted cloth: its stitches, its gauge and its yarns.
 
 use rayon::prelude::*;
 use texere_core::backend::room_for;
@@ -6,14 +6,14 @@ use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Sectio
 
 use super::layers::Layers;
 use super::path::Cloth;
-use super::pen::Laid;
+use super::pen::YarnPoints;
 use super::shape::Shape;
 use super::{Cells, Gauge, KnitYarn, Stitches, Strand, WeftError, check};
 use crate::reach::Reach;
 use crate::settling::settled_together;
 use crate::{FabricError, POINTS_MAX, Piece, Repeat, ThreadError};
 
-/// A weft-knitted cloth: its stitches, with sizes and yarns.
+/// A weft-knitted cloth: stitches, the distances between them, and a yarn for each carrier.
 #[derive(Debug, Clone)]
 pub struct Knitted {
     stitches: Stitches,
@@ -27,13 +27,15 @@ pub struct Knitted {
 }
 
 impl Knitted {
-    /// A cloth of these stitches, with a yarn for each carrier. Where the stitches are one repeat,
-    /// so many copies of it lie side by side along x and y; else `copies` counts for nothing.
+    /// A cloth of `stitches` at the distances of `gauge`. `yarns` has one yarn for each carrier,
+    /// and refers to `materials` and `sections` by index. `copies` is the number of repeats along x
+    /// and y; it has no effect where the stitches do not repeat.
     ///
     /// **Errors**: [`WeftError::Gauge`] for distances that no cloth has, [`WeftError::Stitches`]
-    /// for stitches that refer to what there is not, [`WeftError::Carrier`] for a carrier without a
-    /// yarn, [`WeftError::KnitPoints`] and [`WeftError::KnitRepeat`] for more control points than
-    /// are taken, and errors of the yarns' radius, twist, material and section.
+    /// for stitches that refer to loops, needles or repeats that do not exist,
+    /// [`WeftError::Carrier`] for a carrier without a yarn, [`WeftError::KnitPoints`] and
+    /// [`WeftError::KnitRepeat`] for more control points than are taken, and errors of the yarns'
+    /// radius, twist, material and section.
     pub fn new(
         stitches: Stitches,
         gauge: Gauge,
@@ -54,8 +56,8 @@ impl Knitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
-    /// it was.
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound. The cloth is then
+    /// unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -64,44 +66,44 @@ impl Knitted {
         Ok(())
     }
 
-    /// The same cloth with other numbers of control points.
+    /// Changes the number of control points of each stitch.
     #[must_use]
     pub fn with_cells(mut self, cells: Cells) -> Self {
         self.cells = cells;
         self
     }
 
-    /// The stitches.
+    /// The loops, and the order in which each yarn makes them.
     #[must_use]
     pub const fn stitches(&self) -> &Stitches {
         &self.stitches
     }
 
-    /// How close they lie.
+    /// The distances between loops, and their length.
     #[must_use]
     pub const fn gauge(&self) -> &Gauge {
         &self.gauge
     }
 
-    /// The yarn of each carrier.
+    /// The yarn of each carrier, by the carrier's index.
     #[must_use]
     pub fn carriers(&self) -> &[KnitYarn] {
         &self.yarns
     }
 
-    /// What the yarns are of.
+    /// The materials that yarns refer to.
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
-    /// Copies of the repeat along x and y; \[1, 1\] of a cloth that is none.
+    /// Copies of the repeat along x and y; \[1, 1\] for a cloth that does not repeat.
     #[must_use]
     pub fn copies(&self) -> [u32; 2] {
         if self.stitches.repeat.is_some() { self.copies } else { [1, 1] }
     }
 
-    /// Wales and courses of the whole cloth.
+    /// Number of wales and of courses in the whole cloth.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         match self.stitches.repeat {
@@ -109,42 +111,43 @@ impl Knitted {
             None => {
                 let (left, right) = extent(&self.stitches);
                 let courses = self.stitches.loops.iter().map(|stitch| stitch.course + 1).max();
-                // A bed that is racked by half a needle adds no wale.
+                // Needles of a bed that is racked by half a needle add no wale.
                 [(right - left).floor() as u32 + 1, courses.unwrap_or(0)]
             }
         }
     }
 
-    /// Width and height of the cloth, mm. The heads of its last course reach out further.
+    /// Width and height of the cloth, mm: wales and courses times their distances. The heads of the
+    /// last course reach beyond that.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         let [wales, courses] = self.size().map(f64::from);
         [wales * self.gauge.wale_mm, courses * self.gauge.course_mm]
     }
 
-    /// The yarns, about where they belong.
+    /// The yarns of the whole cloth, as placed before settling.
     ///
-    /// The first wale lies half its width from x = 0, the feet of the first course at y = 0.
-    /// Origins are [`Origin::Course`] of a yarn that goes through a repeat, [`Origin::Carrier`] of
-    /// one that a carrier brings in and takes out. The source of a control point is that of the
-    /// operation that its stitch or float comes from.
+    /// The middle of the first wale is half a wale from x = 0. The feet of the first course are at
+    /// y = 0. A yarn that goes on from repeat to repeat has the origin [`Origin::Course`]; a yarn
+    /// that a carrier brings in and takes out has [`Origin::Carrier`]. The source of a control
+    /// point is the source of the operation that made its stitch or float.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where they can't be
-    /// taken.
+    /// **Errors**: [`FabricError::OutOfMemory`], [`WeftError::KnitPoints`], and
+    /// [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        self.laid(&repeat, &repeat.piece.yarns)
+        self.placed(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not. Yarns are cut off three control points beyond the
-    /// last loop, where that does not spoil their count: a leg runs straight there, so that what is
-    /// cut off bends as in the repeat, and touches nothing.
-    pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        repeat.laid_beyond(yarns, self.beyond())
+    /// All copies of a repeat, settled or not. Yarns are cut three control points beyond their last
+    /// loop, unless all cells have to have equally many points. A leg runs straight there. The cut
+    /// end therefore bends as it does in the repeat, and touches nothing.
+    pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        repeat.placed_beyond(yarns, self.beyond())
     }
 
-    /// How many control points of a repeat's yarns go on beyond all copies, at the beginning and at
-    /// the end.
+    /// Number of control points by which a repeat's yarns go on beyond all copies, at their
+    /// beginning and at their end.
     pub(super) const fn beyond(&self) -> [u32; 2] {
         match self.cells {
             Cells::Round => [3, 3],
@@ -152,21 +155,21 @@ impl Knitted {
         }
     }
 
-    /// One repeat of the cloth, or all of it where none repeats, and what holds it: see
-    /// [`Knitted::repeat`].
+    /// One repeat of the cloth, with its boundary and its pinned points. It is the whole cloth
+    /// where the stitches do not repeat. See [`Knitted::repeat`].
     ///
-    /// **Errors**: those of [`Knitted::yarns`].
+    /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
         Ok(self.repeat()?.piece)
     }
 
-    /// What settles, and how many copies of that the cloth is.
+    /// The piece of cloth that settles, and the number of its copies in the whole cloth.
     ///
-    /// A cloth that repeats settles as one repeat that goes on at all its edges, or a few that are
-    /// taken together. Any other settles whole: the ends of its yarns are held, the feet of its
-    /// first course, and heads on needles.
+    /// A cloth that repeats settles as one repeat that goes on at all its edges. Small repeats are
+    /// taken a few together. Any other cloth settles whole: the ends of its yarns, the feet of its
+    /// first course and the heads on needles are pinned.
     ///
-    /// **Errors**: those of [`Knitted::yarns`].
+    /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
         let Some(size) = self.stitches.repeat else {
             return Ok(Repeat { piece: self.piece_of(&self.stitches)?, copies: [1, 1] });
@@ -180,17 +183,17 @@ impl Knitted {
         let layers = Layers::new(stitches)?;
         let left = if stitches.repeat.is_some() { 0.0 } else { extent(stitches).0 };
         let cloth = Cloth { stitches, layers: &layers, shape: &self.shape, left, kind: self.cells };
-        let laid: Vec<Laid> = (0..stitches.strands.len())
+        let placed: Vec<YarnPoints> = (0..stitches.strands.len())
             .into_par_iter()
             .map(|strand| cloth.lay(strand))
             .collect::<Result<_, _>>()?;
-        let total = laid.iter().map(|laid| laid.points.len()).sum();
+        let total = placed.iter().map(|placed| placed.points.len()).sum();
         let (mut table, mut offsets, mut ends) = (Vec::new(), vec![0], Vec::new());
         let (mut points, mut sources, mut pinned) = (Vec::new(), Vec::new(), Vec::new());
         room_for(&mut points, total, "control points")?;
         room_for(&mut sources, total, "sources")?;
-        for (strand, laid) in stitches.strands.iter().zip(laid) {
-            if laid.points.is_empty() {
+        for (strand, placed) in stitches.strands.iter().zip(placed) {
+            if placed.points.is_empty() {
                 continue;
             }
             let yarn = &self.yarns[strand.carrier as usize];
@@ -201,11 +204,11 @@ impl Knitted {
             let KnitYarn { radius_mm, material, section, twist } = *yarn;
             table.push(Yarn { material, section, closed: false, twist, origin });
             ends.push(strand.onward.map_or(Ends::Open, Ends::Repeats));
-            pinned.extend(laid.pinned.iter().map(|pin| pin + points.len() as u64));
+            pinned.extend(placed.pinned.iter().map(|pin| pin + points.len() as u64));
             let point =
                 |at: &glam::DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, radius_mm);
-            points.extend(laid.points.iter().map(point));
-            sources.extend(laid.sources);
+            points.extend(placed.points.iter().map(point));
+            sources.extend(placed.sources);
             offsets.push(points.len() as u64);
         }
         if points.len() as u64 > POINTS_MAX {
@@ -225,7 +228,7 @@ fn used<'a>(stitches: &'a Stitches, yarns: &'a [KnitYarn]) -> impl Iterator<Item
     stitches.strands.iter().map(|strand| yarns[strand.carrier as usize])
 }
 
-/// Diameter of the thickest of some yarns, mm.
+/// Diameter of the thickest of `yarns`, mm.
 pub(crate) fn thickest(yarns: impl Iterator<Item = KnitYarn>, sections: &[Section]) -> f64 {
     let half = |yarn: KnitYarn| {
         let [width, height] = Reach::new(&sections[yarn.section as usize]).room(yarn.twist);
@@ -234,7 +237,7 @@ pub(crate) fn thickest(yarns: impl Iterator<Item = KnitYarn>, sections: &[Sectio
     2.0 * f64::from(yarns.map(half).fold(0.0, f32::max))
 }
 
-/// The places of the first and of the last needle that any yarn comes to.
+/// The places of the leftmost and of the rightmost needle that any yarn comes to, in wales.
 pub(super) fn extent(stitches: &Stitches) -> (f32, f32) {
     let steps = stitches.strands.iter().flat_map(|strand| &strand.steps);
     let places =

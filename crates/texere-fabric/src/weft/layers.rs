@@ -1,5 +1,5 @@
-//! What lies over and under what: loops that cross on their way to other needles, yarns that share
-//! a course, floats behind loops.
+//! The order of yarns that lie over one another: loops that cross on their way to other needles,
+//! yarns that share a course, and floats behind loops.
 
 use std::collections::HashMap;
 
@@ -9,72 +9,74 @@ use texere_core::backend::{filled, room_for};
 use super::stitches::HALVES;
 use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};
 
-/// Loops further apart than so many wales have needles between them that are passed.
+/// Distance in wales from which two loops have needles between them. Places are whole and half
+/// wales, so that it divides 1.5 from 2.
 pub(super) const STEP: f32 = 1.6;
 
-/// The loops of one bed at one needle, in one course.
+/// The loops on the needle of one bed in one course.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hanging {
     /// Whether any hangs there.
     any: bool,
-    /// Whether one is made there in that very course.
+    /// Whether one is made there in this course.
     made: bool,
 }
 
-/// A course's place in cloth that may repeat: the course, and half wales from the left.
+/// A needle in one course: the course, and half wales from the left. Where the cloth repeats, both
+/// lie within the repeat.
 type Place = [i64; 2];
 
-/// What a yarn does between two changes of direction or course.
+/// A run of a yarn's steps in one direction and in one course.
 #[derive(Debug, Clone, Copy)]
 struct Pass {
     strand: usize,
-    /// Its steps in the strand.
+    /// Its first and its last step in the strand.
     first: usize,
     last: usize,
     course: u32,
-    /// When: the number of its first loop.
+    /// When it is made: the number of its first loop.
     time: u32,
-    /// Which of several yarns in the same stitches it is.
+    /// Number of the yarn in a plated stitch, from 0.
     plate: u16,
     /// Whether it goes from bed to bed, or floats.
     mixed: bool,
 }
 
-/// What lies over and under what.
+/// The order of all yarns and loops of a knit that lie over one another.
 #[derive(Debug)]
 pub(super) struct Layers {
     hanging: HashMap<Place, [Hanging; 2]>,
     repeat: Option<[u32; 2]>,
-    /// How many legs lie between each loop's own and the side that its head is drawn to; nothing
-    /// where it crosses no other.
+    /// For each loop, the number of legs between its own legs and the side to which its head is
+    /// drawn; none where it crosses no other loop.
     crossed: Vec<Option<u16>>,
-    /// For each step of each strand.
+    /// The rank of each step of each strand.
     ranks: Vec<Vec<Rank>>,
     /// Whether any yarn floats.
     floats: bool,
 }
 
-/// Where a step lies among the yarns of its course.
+/// The rank of a step among the yarns of its course.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Rank {
-    /// How far up, of the room that there is: -0.5 to 0.5.
+    /// Height among these yarns, from -0.5 for the lowest to 0.5 for the highest.
     pub(super) lift: f64,
-    /// How many times a yarn's width that room is.
+    /// Height of the room that they share, in yarn diameters.
     pub(super) sharing: f64,
-    /// Which of several yarns in the same stitches it is.
+    /// Number of the yarn in a plated stitch, from 0.
     pub(super) plate: u16,
 }
 
-/// How a float lies where it passes a needle.
+/// What a float lies behind, where it passes a needle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Behind {
     /// Between loops of both beds.
     Between,
-    /// Behind the loops of one bed; those may be made in the same course, by another yarn.
+    /// Behind the loops of one bed.
     One {
         /// The bed.
         bed: Bed,
-        /// Whether they are.
+        /// Whether another yarn makes them in the same course.
         made: bool,
     },
 }
@@ -97,31 +99,31 @@ impl Layers {
         Ok(layers)
     }
 
-    /// Of a loop whose legs cross those of others on the way to its needle: how many of these lie
-    /// between its own and the side that its head is drawn to.
+    /// The number of legs between a loop's own legs and the side to which its head is drawn. None
+    /// where the loop crosses no other on its way to its needle.
     pub(super) fn crossed(&self, number: u32) -> Option<f64> {
         self.crossed[number as usize].map(f64::from)
     }
 
-    /// Where a step lies among the yarns of its course: of the strand with the first number, the
-    /// step with the second.
+    /// The rank of a step, which is given by the number of its strand and its number in that.
     pub(super) fn rank(&self, [strand, step]: [usize; 2]) -> Rank {
         self.ranks[strand][step]
     }
 
-    /// Whether any yarn is told to float.
+    /// Whether the program lets any yarn float.
     pub(super) const fn has_floats(&self) -> bool {
         self.floats
     }
 
-    /// Whether any loop hangs at a place.
+    /// Whether a loop hangs on a needle at the place `at`, in wales, in a course.
     pub(super) fn is_held(&self, course: i64, at: f32) -> bool {
         self.hanging.contains_key(&self.place(course, at))
     }
 
-    /// What a yarn passes behind that floats past a needle, laid by `bed`.
+    /// What a yarn lies behind where it floats past the needle of `bed` at the place `at`, in
+    /// wales.
     pub(super) fn behind(&self, course: i64, at: f32, bed: Bed) -> Behind {
-        // Needles of a bed that is racked by half a pitch lie on either side.
+        // Needles of a bed that is racked by half a pitch lie half a wale to each side.
         let beside = [-1.0, 0.0, 1.0].map(|halves| self.place(course, at + halves / HALVES as f32));
         let hanging = beside.map(|place| self.hanging.get(&place).copied().unwrap_or_default());
         let of = |bed: usize| Hanging {
@@ -147,7 +149,7 @@ impl Layers {
         }
     }
 
-    /// Notes each loop in every course in which it hangs on a needle.
+    /// Records each loop in every course in which it hangs on a needle.
     fn hang(&mut self, stitches: &Stitches) -> Result<(), OutOfMemory> {
         for stitch in &stitches.loops {
             let bed = |bed| usize::from(bed == Bed::Back);
@@ -162,7 +164,7 @@ impl Layers {
         Ok(())
     }
 
-    /// What is noted of a place, nothing so far if it is new.
+    /// The record of a place; an empty one is added for a new place.
     fn at(&mut self, place: Place) -> Result<&mut [Hanging; 2], OutOfMemory> {
         let bytes = (self.hanging.len() as u64 + 1) * size_of::<(Place, [Hanging; 2])>() as u64;
         let refused = |_| OutOfMemory { what: "needles that hold loops", bytes };
@@ -171,7 +173,8 @@ impl Layers {
     }
 }
 
-/// The course in which a loop is drawn through one of that fate, counted on through repeats.
+/// The course in which another loop is drawn through a loop of this fate. It may lie beyond the
+/// repeat. None for a loop that no other is drawn through.
 pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
     let Fate::Held(child) = fate else { return None };
     let courses = stitches.repeat.map_or(0, |[_, courses]| i64::from(courses));
@@ -179,8 +182,8 @@ pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
     Some(own + i64::from(child.repeat[1]) * courses)
 }
 
-/// For each loop that crosses others of its course on their way to other needles, how many legs lie
-/// over its own.
+/// For each loop that crosses others of its course on the way to another needle, the number of legs
+/// that lie over its own.
 fn crossed(stitches: &Stitches) -> Result<Vec<Option<u16>>, OutOfMemory> {
     let loops = &stitches.loops;
     let mut levels = filled("loops", loops.len(), None)?;
@@ -220,11 +223,11 @@ fn cross(one: &Stitch, other: &Stitch) -> bool {
     one.head.bed == other.head.bed && (other.at - one.at) * (other.head.at - one.head.at) < 0.0
 }
 
-/// For each step, where it lies among the yarns of its course.
+/// The rank of each step among the yarns of its course.
 ///
-/// Yarns cross where one goes from its loops to floating behind those of another, or from bed to
-/// bed: there the one that is laid later lies above. Yarns that only knit side by side on one bed
-/// don't cross.
+/// Yarns of a course cross where one floats behind the loops of another, or goes from bed to bed.
+/// The yarn that is laid later lies above there. Yarns that only knit side by side on one bed do
+/// not cross.
 fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, OutOfMemory> {
     let strands = &stitches.strands;
     let (mut all, mut passes) = (Vec::new(), Vec::new());
@@ -236,7 +239,7 @@ fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, OutOfMemory> {
     passes.sort_unstable_by_key(|pass| (pass.course, pass.time, pass.plate, pass.strand, pass.first));
     for course in passes.chunk_by(|one, other| one.course == other.course) {
         let crosses = course.iter().any(|pass| pass.mixed);
-        // All plates of a stitch go the same way.
+        // All yarns of a plated stitch take the same path, and count as one.
         let most = course.iter().filter(|pass| pass.plate == 0).count().saturating_sub(1) as f64;
         let mut number = -1.0;
         for pass in course {
@@ -249,7 +252,7 @@ fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, OutOfMemory> {
     Ok(all)
 }
 
-/// Adds the passes of a strand, in order.
+/// Appends the passes of a strand in order.
 fn passes_of(stitches: &Stitches, strand: usize, passes: &mut Vec<Pass>) -> Result<(), OutOfMemory> {
     let mut steps = Vec::new();
     room_for(&mut steps, stitches.strands[strand].steps.len(), "stitches of a yarn")?;

@@ -1,4 +1,4 @@
-//! Which stitch of a knit a place on a yarn belongs to.
+//! From a place on a yarn to the stitch of the knit that it belongs to.
 
 use texere_core::{YarnPlace, Yarns};
 
@@ -6,12 +6,12 @@ use super::knitted::{Knitted, extent};
 use crate::StitchPlace;
 
 impl Knitted {
-    /// The stitch at a place on one of the cloth's `yarns`. None where no loop comes from the
-    /// place's source: in floats, and where yarns have no sources.
+    /// The stitch at a place on one of the cloth's `yarns`. None in floats, and for yarns without
+    /// sources.
     ///
-    /// A source tells the stitch within a repeat; which copy it is in is told by the height of the
-    /// stitch's feet and by its middle, to the nearest, so that stitches may have moved a little as
-    /// they came to rest.
+    /// The source of the place gives the stitch within a repeat. The copy of the repeat is the one
+    /// whose stitch lies nearest, by the height of the feet and by the place's x. Stitches may thus
+    /// have moved a little as they settled.
     pub(crate) fn stitch_at(&self, yarns: &Yarns, place: &YarnPlace) -> Option<StitchPlace> {
         let source = place.source?;
         let (stitches, gauge) = (self.stitches(), self.gauge());
@@ -19,7 +19,7 @@ impl Knitted {
         let (wale, course) =
             (place.position[0] / gauge.wale_mm - 0.5, self.feet(yarns, place)? / gauge.course_mm);
         let repeat = stitches.repeat.map(|size| size.map(f64::from));
-        // The copy of a place in a repeat that lies nearest.
+        // Coordinate of the nearest copy, along one axis.
         let copy = |own: f64, axis: usize, near: f64| match repeat {
             Some(size) => {
                 let copies = f64::from(self.size()[axis]) / size[axis];
@@ -37,8 +37,8 @@ impl Knitted {
         Some(StitchPlace { wale: wale.round().max(0.0) as u32 + 1, course: course as u32 + 1 })
     }
 
-    /// The height of the feet of the stitch at a place, mm: the lowest of the control points round
-    /// it that have its source.
+    /// Height of the feet of the stitch at a place, mm. It is the lowest of the control points
+    /// around the place that have its source.
     fn feet(&self, yarns: &Yarns, place: &YarnPlace) -> Option<f64> {
         let (points, range) = (yarns.yarn_points(place.yarn)?, yarns.range(place.yarn)?);
         let sources = yarns.sources()?.get(range)?;

@@ -1,13 +1,21 @@
-//! Weft knits: loops of yarn that are drawn through loops of the course before.
+//! Weft knits: each loop of yarn is drawn through loops of an earlier course.
 //!
 //! ```text
 //! knitout ──┐
 //! chart ────┴──> Program ──> Stitches ──> Knitted ──> Piece | Yarns
 //! ```
 //!
-//! A [`Program`] is what a knitting machine is told, needle by needle. [`Stitches`] is what comes
-//! of it: which loop is drawn through which, and in what order each yarn makes its loops. A knitted
-//! cloth adds what yarns are like and how close they lie.
+//! A [`Program`] lists the operations of a knitting machine, needle by needle. A [`Machine`] runs
+//! it and gives [`Stitches`]: which loop is drawn through which, and in what order each yarn makes
+//! its loops. [`Knitted`] adds the distances between loops and the properties of the yarns, and
+//! places the yarns in space.
+
+// Where the yarn of a loop is placed:
+//
+// - `shape.rs` has the plain loop: a table of its feet, legs and head.
+// - `form.rs` bends that table into any other loop: purl, tuck, held, moved, dropped.
+// - `path.rs` follows a yarn from loop to loop, and places what lies between them.
+// - `cells.rs` lists the needles that a yarn comes to; `layers.rs` says what lies over what there.
 
 mod cells;
 mod chart;
@@ -29,13 +37,11 @@ mod stitches;
 mod tile;
 mod yarn;
 
-pub use chart::{
-    Backing, Beds, CHART_CELLS_MAX, CHART_MOVED_MAX, CHART_SIDE_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError,
-};
+pub use chart::{Backing, Beds, Cell, Chart, ChartError};
 pub use error::WeftError;
 pub use gauge::Gauge;
 pub use knitted::Knitted;
-pub use machine::{FAULTS_LISTED, Fault, FaultKind, Knit, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};
+pub use machine::{Fault, FaultKind, Knit, Machine, NEEDLE_MAX, STACK_MAX};
 pub use program::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 pub use stitches::{Fate, Head, LoopKind, LoopRef, Parent, Step, Stitch, Stitches, Strand, Visit};
 pub use yarn::{Cells, KnitYarn};

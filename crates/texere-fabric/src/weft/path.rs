@@ -1,4 +1,14 @@
-//! The way of a yarn: from loop to loop, behind the needles that it passes, and round at the edges.
+//! The path of a yarn: loop after loop, with what lies between them.
+//!
+//! ```text
+//! for each needle that the yarn comes to (cells.rs):
+//!     join   the arc from the needle before; a turn where the carriage has reversed
+//!     cell   the loop on the needle (form.rs), or a float behind it
+//! ```
+//!
+//! A yarn that ends in the cloth also has a beginning before the first needle, and an end after the
+//! last one. The points of a loop's legs come from [`Form::points`]; this file gives that loop its
+//! place, in [`Cloth::form`].
 
 use glam::DVec3;
 use texere_core::OutOfMemory;
@@ -6,43 +16,47 @@ use texere_core::OutOfMemory;
 use super::cells::{Cell, cells};
 use super::form::{Form, side};
 use super::layers::{Behind, Layers};
-use super::pen::{Laid, Pen};
+use super::pen::{Pen, YarnPoints};
 use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
 
-/// Yarns that share a course lie so many diameters apart where they cross, if the course has room
-/// for it.
+/// Distance of yarns that share a course where they cross, in diameters, if the course has room for
+/// it: they just touch.
 const CROSSING: f64 = 1.0;
 
-/// The share of a course that such yarns take.
+/// Share of a course that such yarns may take. By eye.
 const ROOM: f64 = 0.75;
 
-/// The end of a yarn lies so many diameters behind loops that hang where it begins or ends.
+/// Distance of a yarn's end behind loops that hang where the yarn begins or ends, in diameters. By
+/// eye.
 const END_BEHIND: f64 = 1.3;
 
-/// How far a yarn goes out beyond its arc where it turns, in wales; and each carrier further than
-/// the one before, in diameters.
+/// Distance by which a yarn goes out beyond its arc where it turns, in wales; and distance by which
+/// each carrier goes further than the one before, in diameters. By eye: turns of several yarns lie
+/// beside one another.
 const TURN: f64 = 0.3;
 const NEXT_TURN: f64 = 1.1;
 
-/// A cloth that is to be laid.
+/// A cloth whose yarns are to be laid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cloth<'a> {
     pub(super) stitches: &'a Stitches,
     pub(super) layers: &'a Layers,
     pub(super) shape: &'a Shape,
-    /// The place of the leftmost needle, in wales.
+    /// Place of the leftmost needle, in wales.
     pub(super) left: f32,
     pub(super) kind: Cells,
 }
 
 impl Cloth<'_> {
-    /// Lays a yarn, one round of it where it goes on in the next repeat.
+    /// Lays a yarn. Of one that goes on in the next repeat it lays one round.
     ///
     /// **Errors**: [`OutOfMemory`].
-    pub(super) fn lay(&self, strand: usize) -> Result<Laid, OutOfMemory> {
+    pub(super) fn lay(&self, strand: usize) -> Result<YarnPoints, OutOfMemory> {
         let (cells, onward) = cells(self.stitches, self.layers, strand)?;
-        let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return Ok(Laid::default()) };
+        let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
+            return Ok(YarnPoints::default());
+        };
         let mut pen = Pen::default();
         match onward {
             Some([right, up]) => {
@@ -65,23 +79,23 @@ impl Cloth<'_> {
             DVec3::new(right as f64 * self.shape.wale, up as f64 * self.shape.course, 0.0)
         });
         match self.kind {
-            Cells::Round => Ok(pen.laid()),
+            Cells::Round => Ok(pen.into_points()),
             Cells::Even => pen.even(onward),
         }
     }
 
-    /// The middle of a needle's wale, mm.
+    /// x of the middle of a needle's wale, mm.
     fn x(&self, at: f32) -> f64 {
         (f64::from(at - self.left) + 0.5) * self.shape.wale
     }
 
-    /// The height of the arcs on either side of a cell, mm.
+    /// y of the arcs on both sides of a cell, mm.
     fn y(&self, cell: &Cell) -> f64 {
         let room = (CROSSING * self.shape.diameter * cell.sharing).min(ROOM * self.shape.course);
         cell.course as f64 * self.shape.course + cell.lift * room
     }
 
-    /// z of the arcs on either side of a cell.
+    /// z of the arcs on both sides of a cell, mm.
     fn z(&self, cell: &Cell) -> f64 {
         if let Some(number) = cell.number {
             return self.form(cell, number).arc_z();
@@ -97,13 +111,15 @@ impl Cloth<'_> {
         }
     }
 
+    /// The form of the loop that a yarn makes at a cell: its needle gives x, its course and its
+    /// lift give y.
     fn form(&self, cell: &Cell, number: u32) -> Form<'_> {
         let y = cell.course as f64 * self.shape.course;
         let at = [self.x(cell.at), y, self.y(cell) - y];
         Form::new(self.shape, self.stitches, self.layers, number, at)
     }
 
-    /// What a yarn does at a needle.
+    /// Lays what a yarn does at a needle: a loop, or a float.
     fn cell(&self, pen: &mut Pen, cell: &Cell) -> Result<(), OutOfMemory> {
         match cell.number {
             Some(number) => {
@@ -129,7 +145,7 @@ impl Cloth<'_> {
         Ok(())
     }
 
-    /// The yarn between two needles.
+    /// Lays the yarn between two needles.
     fn join(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
         if one.direction != other.direction {
             return self.turn(pen, strand, one, other);
@@ -137,7 +153,7 @@ impl Cloth<'_> {
         let x = f64::midpoint(self.x(one.at), self.x(other.at));
         let y = f64::midpoint(self.y(one), self.y(other));
         let [from, to] = [self.z(one), self.z(other)];
-        // From bed to bed, yarns of one stitch change places: the one in front passes above.
+        // Plated yarns change places on their way from bed to bed. The one in front passes above.
         let below = if from * to < 0.0 { f64::from(one.plate) * self.shape.diameter } else { 0.0 };
         pen.room(1)?;
         pen.point(DVec3::new(x, y - below, between(from, to)));
@@ -147,7 +163,7 @@ impl Cloth<'_> {
         Ok(())
     }
 
-    /// Whether a loop is of the first course, drawn through nothing.
+    /// Whether a cell is a loop of the first course that is drawn through nothing.
     fn is_first(&self, cell: &Cell) -> bool {
         let stitch = cell.number.map(|number| &self.stitches.loops[number as usize]);
         self.stitches.repeat.is_none()
@@ -155,7 +171,7 @@ impl Cloth<'_> {
             && stitch.is_some_and(|stitch| stitch.parents.is_empty())
     }
 
-    /// The yarn turns round beside the outer of two needles.
+    /// Lays the turn of a yarn beside the outer of two needles.
     fn turn(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
         let Shape { wale, course, diameter, .. } = *self.shape;
         let outwards = one.direction;
@@ -164,7 +180,7 @@ impl Cloth<'_> {
         let out = outwards * (outer + TURN * wale + NEXT_TURN * carrier * diameter);
         let (mut from, mut to) = (self.y(one), self.y(other));
         if (to - from).abs() < diameter {
-            // In the same course it lies beside itself.
+            // The yarn turns within one course. It lies beside itself there.
             let middle = f64::midpoint(from, to);
             (from, to) = (middle - diameter / 2.0, middle + diameter / 2.0);
         }
@@ -181,7 +197,7 @@ impl Cloth<'_> {
         Ok(())
     }
 
-    /// The beginning of a yarn.
+    /// Lays the beginning of a yarn, and pins it.
     fn begin(&self, pen: &mut Pen, first: &Cell) -> Result<(), OutOfMemory> {
         pen.room(2)?;
         let [near, far] = self.loose(first, -first.direction);
@@ -194,7 +210,7 @@ impl Cloth<'_> {
         Ok(())
     }
 
-    /// The end of a yarn.
+    /// Lays the end of a yarn, and pins it.
     fn end(&self, pen: &mut Pen, last: &Cell) -> Result<(), OutOfMemory> {
         pen.room(2)?;
         pen.tail();
@@ -205,7 +221,8 @@ impl Cloth<'_> {
         Ok(())
     }
 
-    /// Half a wale and a whole one beside a cell: level, or behind what hangs there.
+    /// Points of a yarn's end, half a wale and a whole wale beside a cell, mm. The yarn runs level,
+    /// or goes behind the loops that hang there.
     fn loose(&self, cell: &Cell, outwards: f64) -> [DVec3; 2] {
         let beside = cell.at + outwards as f32;
         let behind =
@@ -219,8 +236,8 @@ impl Cloth<'_> {
     }
 }
 
-/// z of the arc between two loops: as far back as the further one, half way if they lie on opposite
-/// sides.
+/// z of the arc between two loops, mm: that of the loop which lies further back, or half way
+/// between two loops on opposite sides.
 fn between(one: f64, other: f64) -> f64 {
     if one * other <= 0.0 {
         f64::midpoint(one, other)

@@ -1,4 +1,4 @@
-//! Control points as they are written down, cell by cell.
+//! A pen that records the control points of a yarn cell by cell.
 
 use glam::DVec3;
 use texere_core::OutOfMemory;
@@ -6,78 +6,79 @@ use texere_core::backend::room_for;
 
 use super::shape::cardinal;
 
-/// Control points of a cell where all have as many: those of a plain loop and the arc before it.
+/// Control points of a cell with [`Cells::Even`](super::Cells::Even): as many as a plain loop and
+/// the arc before it have. `even_cells_have_twelve_points_each` counts them.
 const EVEN: usize = 12;
 
-/// The control points of a yarn.
+/// The control points of a yarn that has been laid.
 #[derive(Debug, Default)]
-pub(super) struct Laid {
+pub(super) struct YarnPoints {
     pub(super) points: Vec<DVec3>,
-    /// What each comes from: see [`Operation::source`](super::Operation::source).
+    /// The source of each point: see [`Operation::source`](super::Operation::source).
     pub(super) sources: Vec<u32>,
-    /// Those that nothing but the machine holds: ends of the yarn, feet of the first course, and
-    /// heads on needles.
+    /// Indices of the points that only the machine holds: ends of the yarn, feet of the first
+    /// course, and heads on needles.
     pub(super) pinned: Vec<u64>,
 }
 
-/// Writes control points down.
+/// Records the control points of one yarn.
 #[derive(Debug, Default)]
 pub(super) struct Pen {
-    laid: Laid,
+    placed: YarnPoints,
     source: u32,
-    /// Where each cell begins.
+    /// Index of the first point of each cell.
     cells: Vec<usize>,
-    /// Where the last one ends, if something comes after it.
+    /// Index at which the last cell ends, if points come after it.
     tail: Option<usize>,
 }
 
 impl Pen {
-    /// Makes room for so many points more.
+    /// Reserves memory for `points` more points.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn room(&mut self, points: usize) -> Result<(), OutOfMemory> {
-        room_for(&mut self.laid.points, points, "points of a yarn")?;
-        room_for(&mut self.laid.sources, points, "sources of a yarn's points")
+        room_for(&mut self.placed.points, points, "points of a yarn")?;
+        room_for(&mut self.placed.sources, points, "sources of a yarn's points")
     }
 
-    /// A cell begins.
+    /// Begins a cell whose points have this source.
     pub(super) fn cell(&mut self, source: u32) {
         self.source = source;
-        self.cells.push(self.laid.points.len());
+        self.cells.push(self.placed.points.len());
     }
 
-    /// The last cell has ended.
+    /// Ends the last cell.
     pub(super) fn tail(&mut self) {
-        self.tail = Some(self.laid.points.len());
+        self.tail = Some(self.placed.points.len());
     }
 
-    /// What comes next comes from there.
+    /// Sets the source of the points that follow.
     pub(super) fn source(&mut self, source: u32) {
         self.source = source;
     }
 
     pub(super) fn point(&mut self, point: DVec3) {
-        self.laid.points.push(point);
-        self.laid.sources.push(self.source);
+        self.placed.points.push(point);
+        self.placed.sources.push(self.source);
     }
 
-    /// Pins the last point.
+    /// Pins the point that was recorded last.
     pub(super) fn pin(&mut self) {
-        self.laid.pinned.push(self.laid.points.len() as u64 - 1);
+        self.placed.pinned.push(self.placed.points.len() as u64 - 1);
     }
 
-    /// The points as they were written.
-    pub(super) fn laid(self) -> Laid {
-        self.laid
+    /// The points as they were recorded.
+    pub(super) fn into_points(self) -> YarnPoints {
+        self.placed
     }
 
-    /// As many points in each cell, along the curve through those that were written. `onward` is
-    /// how far the yarn's next round lies from this one. What comes before the first cell and after
-    /// the last stays as it is.
+    /// Equally many points for each cell, on the curve through the recorded points. `onward` is the
+    /// way from this round of the yarn to its next one, mm. Points before the first cell and after
+    /// the last one stay unchanged.
     ///
     /// **Errors**: [`OutOfMemory`].
-    pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, OutOfMemory> {
-        let Laid { points, sources, pinned } = &self.laid;
+    pub(super) fn even(self, onward: Option<DVec3>) -> Result<YarnPoints, OutOfMemory> {
+        let YarnPoints { points, sources, pinned } = &self.placed;
         let count = points.len() as isize;
         let at = |number: isize| match onward {
             Some(shift) => {
@@ -86,11 +87,11 @@ impl Pen {
             None => points[number.clamp(0, count - 1) as usize],
         };
         let end = self.tail.unwrap_or(points.len());
-        let mut even = Laid::default();
+        let mut even = YarnPoints::default();
         let total = self.cells.len() * EVEN + points.len();
         room_for(&mut even.points, total, "points of a yarn")?;
         room_for(&mut even.sources, total, "sources of a yarn's points")?;
-        let keep = |range: std::ops::Range<usize>, even: &mut Laid| {
+        let keep = |range: std::ops::Range<usize>, even: &mut YarnPoints| {
             for number in range {
                 if pinned.binary_search(&(number as u64)).is_ok() {
                     even.pinned.push(even.points.len() as u64);
@@ -113,7 +114,7 @@ impl Pen {
                 even.points.push(cardinal(four, along.fract()));
                 even.sources.push(sources[first]);
             }
-            // Of pinned points the nearest to where they were.
+            // The new point that lies nearest to a pinned one is pinned instead.
             let pins = pinned.iter().filter(|pin| (first as u64..last as u64).contains(pin));
             for pin in pins {
                 let along = (pin - first as u64) as f64 / (last - first) as f64;

@@ -1,5 +1,5 @@
-//! Which yarns of a knit hold which: loops that are drawn through others, and what floats between
-//! two beds.
+//! Yarns of a weft knit that hold one another: by loops that are drawn through others, and by
+//! floats between two beds.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,12 +12,12 @@ use crate::Pieces;
 use crate::diagnosis::Joined;
 
 impl Knitted {
-    /// Into how many pieces the cloth falls, which of its yarns nothing holds, and on which needles
-    /// there never is a loop.
+    /// The pieces into which the cloth falls, the yarns that nothing holds, and the needles that
+    /// never have a loop.
     ///
-    /// Yarns hold one another where a loop of one is drawn through a loop of the other, and where
-    /// both go from bed to bed. A yarn without loops is held where it passes between loops of both
-    /// beds.
+    /// Two yarns hold one another where a loop of one is drawn through a loop of the other, and
+    /// where both go from bed to bed. A yarn without loops is held where it passes between loops of
+    /// both beds.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let stitches = self.stitches();
@@ -67,7 +67,8 @@ impl Knitted {
         };
         let around = |at: i64| if stitches.repeat.is_some() { at.rem_euclid(wales * HALVES) } else { at };
         let knitting: HashSet<i64> = needles.keys().map(|at| around(*at)).collect();
-        // Ribs that go from bed to bed past one another, as interlock does, can't be taken apart.
+        // Two ribs whose yarns go from bed to bed past one another can't be taken apart. Interlock
+        // is made so.
         let mut crossing: HashMap<i64, (usize, i64)> = HashMap::new();
         for (strand, each) in stitches.strands.iter().enumerate() {
             for pair in each.steps.windows(2) {
@@ -83,7 +84,7 @@ impl Knitted {
                 }
             }
         }
-        // A racked needle of the other bed stands half a wale further.
+        // A needle of a bed that is racked by half a pitch stands half a wale further.
         let has =
             |wale: &i64| (0..HALVES).any(|half| knitting.contains(&around(first + wale * HALVES + half)));
         let empty: Vec<u64> = (0..wales).filter(|wale| !has(wale)).map(|wale| wale as u64).collect();

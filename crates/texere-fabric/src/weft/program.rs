@@ -1,4 +1,4 @@
-//! What a knitting machine is told to do.
+//! Knitting programs: the operations of a knitting machine.
 
 use std::fmt;
 
@@ -22,7 +22,7 @@ impl Bed {
     }
 }
 
-/// A needle, or the slider beside it that can hold loops but not knit.
+/// A needle, or its slider, which can hold loops but not knit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Needle {
     /// Its bed.
@@ -48,7 +48,7 @@ impl Needle {
 }
 
 impl fmt::Display for Needle {
-    /// As knitout writes it: `f3`, `bs-1`.
+    /// Writes the needle in knitout's notation: `f3`, `bs-1`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let bed = if self.bed == Bed::Front { 'f' } else { 'b' };
         let slider = if self.slider { "s" } else { "" };
@@ -56,7 +56,7 @@ impl fmt::Display for Needle {
     }
 }
 
-/// Which way the carriage moves while a stitch is made.
+/// The direction in which the carriage moves while a stitch is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// To the left: needle numbers fall. Knitout's `-`.
@@ -65,11 +65,11 @@ pub enum Direction {
     Right,
 }
 
-/// Which yarns an operation takes: an index into [`Program::carrier_sets`].
+/// The carriers of an operation: an index into [`Program::carrier_sets`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct CarrierSet(pub u32);
 
-/// One thing that the machine does. Names and meaning are those of knitout 2 (McCann, "The Knitout
+/// One instruction of a knitting machine. Names and meaning follow knitout 2 (McCann, "The Knitout
 /// File Format", v0.6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Instruction {
@@ -83,35 +83,36 @@ pub enum Instruction {
     Out,
     /// Yarns are cut, and their ends taken out by the hook.
     OutHook,
-    /// Draws a new loop through all loops of a needle, which fall off it. Without a carrier they
-    /// just fall.
+    /// Draws a new loop through all loops of a needle, which then fall off it. Without a carrier
+    /// the loops only fall.
     Knit(Direction, Needle),
-    /// Lays a loop on a needle, on top of what it holds.
+    /// Lays a loop on a needle, on top of the loops that it holds.
     Tuck(Direction, Needle),
     /// Knits, but the loops of the first needle go to the second instead of falling off.
     Split(Direction, Needle, Needle),
     /// Lets all loops of a needle fall.
     Drop(Needle),
-    /// Moves all loops of a needle to one of the other bed, in front of what hangs there.
+    /// Moves all loops of a needle to a needle of the other bed, in front of the loops that hang
+    /// there.
     Transfer(Needle, Needle),
     /// Carriers pass a needle: `Left` to its left side, `Right` to its right side.
     Miss(Direction, Needle),
-    /// Back needle b comes to lie at front needle b + rack. A fraction puts back needles between
-    /// front ones.
+    /// Shifts the back bed, so that back needle b faces front needle b + rack. A fraction puts back
+    /// needles half way between front needles.
     Rack(f64),
-    /// From here on loops are so long, mm; `None`: as the cloth says.
+    /// Sets the length of the loops that follow, mm. `None` leaves it to the cloth.
     LoopLength(Option<f64>),
 }
 
 impl fmt::Display for Direction {
-    /// As knitout writes it: `+` or `-`.
+    /// Writes the direction in knitout's notation: `+` or `-`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", if *self == Self::Right { '+' } else { '-' })
     }
 }
 
 impl fmt::Display for Instruction {
-    /// As knitout writes it, without its carriers: `knit + f3`.
+    /// Writes the instruction in knitout's notation, without carriers: `knit + f3`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::In => write!(f, "in"),
@@ -132,31 +133,32 @@ impl fmt::Display for Instruction {
     }
 }
 
-/// An instruction with its yarns, and where it stands.
+/// An instruction with its carriers and its source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Operation {
-    /// What is done.
+    /// The instruction.
     pub instruction: Instruction,
-    /// The yarns that take part. In a set of several the first lies in front on the face: yarns are
-    /// plated.
+    /// The carriers that take part. A set of several plates their yarns: the first one lies in
+    /// front on the face.
     pub carriers: CarrierSet,
-    /// The line of the file, or the cell of the chart, that it comes from: kept with each control
-    /// point.
+    /// The line of the file, or the cell of the chart, that it comes from. Every control point
+    /// keeps it.
     pub source: u32,
 }
 
-/// A knitting program: what a machine is told, in order.
+/// A knitting program: the operations of a machine, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Program {
-    /// The names of the yarn carriers. Which yarn is in which the cloth says.
+    /// The names of the yarn carriers. [`Knitted`](super::Knitted) says which yarn each of them
+    /// holds.
     pub carriers: Vec<String>,
-    /// The sets of carriers that operations take, each a list of indices into `carriers`. The first
-    /// set is the empty one.
+    /// The sets of carriers that operations refer to. Each is a list of indices into `carriers`.
+    /// The first set is empty.
     pub carrier_sets: Vec<Vec<u32>>,
     /// The operations.
     pub operations: Vec<Operation>,
-    /// Width of a repeat, in needles, where the program is one repeat of a cloth: needles are 0 to
-    /// `width` - 1, and what is done on others is done in the neighbouring repeats. The operations
-    /// then end where they begin again: in the next courses.
+    /// Width of the repeat in needles, where the program is one repeat of a cloth. The needles of
+    /// the repeat are 0 to `width` - 1; other needles belong to the neighbouring repeats. After the
+    /// last operation the first one follows again, in the next courses.
     pub repeat: Option<u32>,
 }

@@ -1,4 +1,4 @@
-//! A knit settles, and what is measured of it then.
+//! Settling of a weft knit, and its measures.
 
 use std::ops::ControlFlow;
 
@@ -10,20 +10,20 @@ use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, settle};
 
-/// How many times its length a yarn may be given.
+/// Range of the factor by which settling may change the length of a yarn.
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
 impl Knitted {
-    /// Lets the yarns settle: one repeat, which is then copied, or the whole cloth where none
-    /// repeats. See [`settle`].
+    /// Lets the yarns settle. A cloth that repeats settles as one repeat, which is then copied. Any
+    /// other cloth settles whole. See [`settle`].
     ///
-    /// Where `finish` says nothing of lengths, the mean loop gets the length that the gauge asks
-    /// for; where that asks for none, lengths are free. What [`Settled::clearance`] measures is the
-    /// whole cloth, with its cut edges.
+    /// `finish` may leave the lengths open. The mean loop then gets the length of the gauge, and
+    /// lengths are free where the gauge has none, too. [`Settled::clearance`] is that of the whole
+    /// cloth, with its cut edges.
     ///
-    /// `tension` is that of the splines of all yarns, from 0 to below 1.
+    /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
-    /// **Errors**: those of [`Knitted::yarns`], of [`Yarns::with_tension`] and of [`settle`].
+    /// **Errors**: the errors of [`Knitted::yarns`], of [`Yarns::with_tension`] and of [`settle`].
     pub fn settle(
         &self,
         finish: &Finish,
@@ -36,7 +36,7 @@ impl Knitted {
         if self.stitches().repeat.is_none() {
             return settle(&repeat.piece, &finish, backend, progress).map(|settled| self.pressed(settled));
         }
-        settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, backend, progress)
+        settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)
             .map(|settled| self.pressed(settled))
     }
 
@@ -44,15 +44,15 @@ impl Knitted {
         settled.pressed(|yarns| self.measured(yarns).thickness_mm)
     }
 
-    /// `finish` with what becomes of the lengths of [`Knitted::repeat`], where it does not say.
+    /// `finish` with a rule for the lengths of [`Knitted::repeat`], where it has none.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies));
         Finish { length: Some(length), ..*finish }
     }
 
-    /// What becomes of lengths where nobody says: all loops together get what each of them asks
-    /// for, or else the gauge.
+    /// The rule for lengths where the finish has none. Each loop has the length that its program or
+    /// else the gauge gives; the yarns together get the sum.
     fn length(&self, piece: &Piece, copies: [u32; 2]) -> Length {
         let stitches = &self.stitches().loops;
         let each = |stitch: &Stitch| stitch.length_mm.map(f64::from).or(self.gauge().loop_length_mm);
@@ -73,16 +73,16 @@ impl Knitted {
         }
     }
 
-    /// Loops of the whole cloth.
+    /// Number of loops in the whole cloth.
     #[must_use]
     pub fn loops(&self) -> u64 {
         let [across, along] = self.copies().map(u64::from);
         self.stitches().loops.len() as u64 * across * along
     }
 
-    /// What of a yarn is the cloth's: one that goes on from repeat to repeat without what reaches
-    /// beyond them, another one without the tails that hang out beyond its first and its last
-    /// stitch.
+    /// The part of a yarn that counts for the cloth. A yarn that goes on from repeat to repeat
+    /// counts without what reaches beyond the cloth. Any other yarn counts without its tails beyond
+    /// the first and the last stitch.
     fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         if !matches!(yarns.layout().yarns()[yarn].origin, Origin::Course(_)) {
@@ -93,9 +93,9 @@ impl Knitted {
         Own::round(yarns, yarn, self.beyond(), [width, 0.0])
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own. However many
-    /// copies of a repeat there are, they have the same numbers: what is cut off at the edges does
-    /// not count, nor do the tails of other yarns.
+    /// Yarn consumption, loops, weight and thickness. `yarns` are those of this cloth. Cut ends at
+    /// the edges and tails of yarns do not count, so that every copy of a repeat has the same
+    /// numbers.
     ///
     /// **Errors**: none so far.
     pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {

@@ -1,34 +1,34 @@
-//! Which loop is drawn through which: what comes of a knitting program.
+//! Stitches: the loops that a knitting program makes, and which of them is drawn through which.
 
 use std::ops::Range;
 
 use super::{Bed, Direction};
 
-/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the
-/// other.
+/// Number of half wales in a wale. Places are kept in half wales, because the needles of a bed that
+/// is racked by half a pitch lie half way between those of the other bed.
 pub(super) const HALVES: i64 = 2;
 
-/// A loop, by its number in [`Stitches::loops`], and in which repeat it lies as seen from the one
+/// A reference to a loop: its number in [`Stitches::loops`], and its repeat relative to the loop
 /// that refers to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct LoopRef {
-    /// Its number.
+    /// The number of the loop.
     pub number: u32,
-    /// So many repeats to the right and upwards; 0 where nothing repeats.
+    /// Number of repeats to the right, and upwards. Both are 0 where nothing repeats.
     pub repeat: [i32; 2],
 }
 
-/// A loop that another one is drawn through.
+/// A reference to a loop that the referring loop is drawn through.
 pub type Parent = LoopRef;
 
 /// How a loop was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LoopKind {
-    /// Drawn through what its needle held; a cast-on where that was nothing.
+    /// Drawn through the loops that its needle held. On an empty needle it is a cast-on.
     Knit,
-    /// Laid on its needle.
+    /// Laid on its needle, and drawn through nothing.
     Tuck,
-    /// Drawn through what its needle held, while that went to another needle.
+    /// Drawn through the loops that its needle held, while these moved to another needle.
     Split,
 }
 
@@ -43,92 +43,94 @@ pub enum Fate {
     Dropped,
 }
 
-/// Where the head of a loop hangs when its fate comes.
+/// Where the head of a loop hangs in the end: when another loop is drawn through it, when it falls,
+/// or when the program ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Head {
-    /// Its needle's place, in wales from that of front needle 0. Other than [`Stitch::at`] where
+    /// The place of its needle, in wales from front needle 0. It differs from [`Stitch::at`] where
     /// the loop was transferred.
     pub at: f32,
     /// The bed of its needle.
     pub bed: Bed,
-    /// How many loops of the same needle lie between it and the side that the next loop is drawn
-    /// to: 0 for the loop that came to the needle first.
+    /// Number of loops on the same needle between it and the side to which the next loop is drawn:
+    /// 0 for the loop that came to the needle first.
     pub layer: u16,
-    /// Where heads of one course cross on their way to other needles, the one that was transferred
-    /// first, and so lies nearer its new bed, has the smaller number; 0 for one that was never
-    /// transferred.
+    /// Order of its transfer: 0 for a loop that was never transferred. Where heads of one course
+    /// cross on their way to other needles, the head that was transferred first has the smaller
+    /// number, and lies nearer to its new bed.
     pub moved: u32,
 }
 
 /// A loop of yarn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stitch {
-    /// How it was made.
+    /// The way in which it was made.
     pub kind: LoopKind,
     /// The bed on which it was made: the side to which it is drawn.
     pub bed: Bed,
-    /// Its needle's place when it was made, in wales from that of front needle 0, rising to the
+    /// The place of its needle when it was made, in wales from front needle 0, positive to the
     /// right.
     pub at: f32,
-    /// Whether the needle opposite holds loops of its own then, so that two layers of cloth lie
-    /// face to face there.
+    /// Whether the needle opposite holds loops of its own then. Two layers of cloth lie face to
+    /// face there.
     pub opposite: bool,
-    /// Its course, from 0: one more than the highest that any stitch of its pass is drawn through.
+    /// Its course, from 0. It is one more than the highest course that a stitch of the same pass is
+    /// drawn through.
     pub course: u32,
-    /// Of several yarns in one stitch, which one: 0 lies in front on the side to which the loop is
-    /// drawn.
+    /// Number of its yarn in a plated stitch, from 0. Yarn 0 lies in front, on the side to which
+    /// the loop is drawn.
     pub plate: u16,
-    /// The loops that it is drawn through, in [`Stitches::parents`], in the order in which they
-    /// came to the needle.
+    /// The loops that it is drawn through: a range of [`Stitches::parents`], in the order in which
+    /// they came to the needle.
     pub parents: Range<u32>,
     /// Where its head hangs in the end.
     pub head: Head,
     /// What becomes of it.
     pub fate: Fate,
-    /// Its length, mm, where the program says.
+    /// The length of yarn in it, mm, where the program gives one.
     pub length_mm: Option<f32>,
     /// Its [`Operation::source`](super::Operation::source).
     pub source: u32,
 }
 
-/// What a yarn does next.
+/// One step of a yarn: a loop or a float.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
-    /// It makes a loop, while the carriage moves that way.
+    /// The yarn makes a loop.
     Loop {
         /// The loop's number.
         number: u32,
-        /// Which way.
+        /// The direction of the carriage.
         direction: Direction,
     },
-    /// It passes a needle of that bed without a loop, behind what hangs there (seen from the side
-    /// to which the needle draws).
+    /// The yarn passes a needle without making a loop. It lies behind the loops that hang there,
+    /// seen from the side to which the needle draws.
     Float {
-        /// The needle's place, in wales.
+        /// The place of the needle, in wales.
         at: f32,
         /// Its bed.
         bed: Bed,
         /// The course of the pass.
         course: u32,
-        /// Which way.
+        /// The direction of the carriage.
         direction: Direction,
         /// The operation's source.
         source: u32,
     },
 }
 
-/// A needle that a yarn comes to, whatever it does there.
+/// A needle that a yarn comes to, to make a loop or to float.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Visit {
-    /// The loop that it makes; none where it floats.
+    /// Number of the loop that it makes; none where it floats.
     pub number: Option<u32>,
-    /// The needle's place, in wales.
+    /// The place of the needle, in wales.
     pub at: f32,
     /// Its bed.
     pub bed: Bed,
     /// The course.
     pub course: u32,
-    /// Which way the carriage moves.
+    /// The direction in which the carriage moves.
     pub direction: Direction,
     /// The operation's source.
     pub source: u32,
@@ -137,30 +139,32 @@ pub struct Visit {
 /// A yarn from where it is brought in to where it is cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strand {
-    /// Its carrier, an index into the program's.
+    /// Its carrier: an index into [`Program::carriers`](super::Program::carriers).
     pub carrier: u32,
-    /// What it does, in order.
+    /// Its steps, in order.
     pub steps: Vec<Step>,
-    /// Where the program is one repeat: how many repeats to the right and upwards the yarn goes on
-    /// after its last step with its first. `None` where it ends.
+    /// Number of repeats to the right and upwards after which the yarn begins again: after its last
+    /// step comes its first step there. `None` for a yarn that ends in the cloth.
     pub onward: Option<[i32; 2]>,
 }
 
-/// Loops and yarns of a knitted cloth: its topology, without sizes.
+/// The loops and yarns of a knitted cloth: its topology, without any sizes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stitches {
     /// The loops, in the order in which they are made.
     pub loops: Vec<Stitch>,
-    /// The loops that others are drawn through: see [`Stitch::parents`].
+    /// References to the loops that others are drawn through: [`Stitch::parents`] are ranges of
+    /// this list.
     pub parents: Vec<Parent>,
     /// The yarns.
     pub strands: Vec<Strand>,
-    /// Wales and courses of a repeat, where the program was one.
+    /// Wales and courses of the repeat, where the program is one repeat.
     pub repeat: Option<[u32; 2]>,
 }
 
 impl Stitches {
-    /// The loops that a loop is drawn through, in the order in which they came to its needle.
+    /// The loops that the loop `number` is drawn through, in the order in which they came to its
+    /// needle.
     ///
     /// **Panics** past the last loop.
     #[must_use]
@@ -169,7 +173,7 @@ impl Stitches {
         &self.parents[start as usize..end as usize]
     }
 
-    /// Where a yarn is at a step, and which way it goes.
+    /// The needle of a step, with its course, direction and source.
     ///
     /// **Panics** for a loop past the last one.
     #[must_use]

@@ -1,10 +1,10 @@
-//! Several copies of a repeat, as one repeat.
+//! Several copies of a repeat, joined to one larger repeat.
 
 use super::{Fate, LoopRef, Step, Stitch, Stitches, Strand};
 
 impl Stitches {
-    /// `tiles` copies of the repeat along x and along y, as one repeat; itself where nothing
-    /// repeats.
+    /// `tiles` copies of the repeat along x and y, joined to one repeat. A cloth that does not
+    /// repeat stays as it is.
     pub(super) fn tiled(&self, tiles: [u32; 2]) -> Self {
         let Some(size) = self.repeat.filter(|_| tiles != [1, 1]) else { return self.clone() };
         let tiling = Tiling { tiles: tiles.map(i64::from), loops: self.loops.len() as u32, size };
@@ -29,7 +29,7 @@ impl Stitches {
         let rows = 0..tiling.tiles[1];
         for strand in &self.strands {
             let begins: Vec<_> = match strand.onward {
-                // Through all copies that lie side by side.
+                // The yarn goes on through all copies that lie side by side.
                 Some([right, _]) => {
                     rows.clone().map(|y| [if right < 0 { tiling.tiles[0] - 1 } else { 0 }, y]).collect()
                 }
@@ -41,7 +41,7 @@ impl Stitches {
     }
 }
 
-/// So many copies of a repeat of so many loops, wales and courses.
+/// How copies of a repeat are numbered: copies along x and y, and loops, wales and courses of one.
 struct Tiling {
     tiles: [i64; 2],
     loops: u32,
@@ -49,14 +49,14 @@ struct Tiling {
 }
 
 impl Tiling {
-    /// A copy's number, and in which round of all copies it lies.
+    /// The number of the copy at `cell`, and the repeat of all copies in which it lies.
     fn copy(&self, cell: [i64; 2]) -> (usize, [i32; 2]) {
         let [x, y] = [0, 1].map(|axis| cell[axis].rem_euclid(self.tiles[axis]));
         let round = [0, 1].map(|axis| cell[axis].div_euclid(self.tiles[axis]) as i32);
         ((y * self.tiles[0] + x) as usize, round)
     }
 
-    /// What a loop in copy `cell` refers to.
+    /// A reference of a loop in copy `cell`, in numbers of the large repeat.
     fn of(&self, cell: [i64; 2], LoopRef { number, repeat }: LoopRef) -> LoopRef {
         let (copy, repeat) = self.copy([0, 1].map(|axis| cell[axis] + i64::from(repeat[axis])));
         LoopRef { number: number + copy as u32 * self.loops, repeat }
@@ -70,7 +70,7 @@ impl Tiling {
         course + (cell[1] * i64::from(self.size[1])) as u32
     }
 
-    /// The yarn that begins in copy `cell`, through all copies that it goes on in.
+    /// The yarn that begins in the copy at `[x, y]`, through all copies that it goes on in.
     fn strand(&self, strand: &Strand, [x, y]: [i64; 2]) -> Strand {
         let right = strand.onward.map_or(1, |[right, _]| i64::from(right));
         let copies = if strand.onward.is_some() { self.tiles[0] } else { 1 };

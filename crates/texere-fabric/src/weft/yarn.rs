@@ -1,6 +1,6 @@
-//! What yarns of a knit are like, and how many control points they get.
+//! The yarns of a knit, and the number of their control points.
 
-/// A yarn of a knitted cloth.
+/// A yarn of a weft or warp knit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnitYarn {
     /// Its radius, mm.
@@ -22,10 +22,11 @@ impl KnitYarn {
     }
 }
 
-/// How many control points stitches get.
+/// The number of control points of a stitch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cells {
-    /// As many as their yarn needs for its bends: 12 for a plain loop, 3 where it floats.
+    /// The number that the bends of the yarn need: 12 for a plain loop, 3 for a float past a
+    /// needle.
     #[default]
     Round,
     /// 12 for each needle that the yarn comes to, whether it makes a loop there or floats.

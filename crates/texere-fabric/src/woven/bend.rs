@@ -1,52 +1,54 @@
-//! How threads bend round those that they cross: depths, and the shoulders of those that change
-//! sides.
+//! How threads bend round those that they cross: depths of threads, and the shoulders of threads
+//! that change sides.
 
 use super::crossing;
 use super::shape::{Set, Shape};
 
-/// How far from a crossing, in distances that the two centrelines keep there, a thread that changes
-/// sides has its shoulder; at most [`SHOULDER_MOST`] of the way.
+/// Distance of a shoulder from its crossing, in distances that the two centrelines keep there. A
+/// shoulder is the control point beside a crossing of a thread that changes sides. It lies at most
+/// [`SHOULDER_MOST`] of the way to the next crossing.
 const SHOULDER: f32 = 0.7;
 
-/// The most of the way to the next crossing that a shoulder may be away.
+/// The greatest distance of a shoulder, as a share of the way to the next crossing.
 const SHOULDER_MOST: f32 = 0.32;
 
-/// How far a shoulder lies below the crossing at most, in distances that the two centrelines keep
+/// The greatest fall of a shoulder below the crossing, in distances that the two centrelines keep
 /// there.
 ///
-/// Deeper shoulders bend threads less and bring them nearer to one another. Of the places and
-/// depths tried on plain weave, 3/1 and 2/2 twill, matt, satins, damask and random weaves these
-/// bend least tightly among those that keep threads at 0.99 of touching, alike or not, round or
-/// flat. Of round threads alike the tightest bend has 1.7 radii at 3 diameters, 1.4 at 2.5, 1.05 at
-/// 2, 0.95 at 1.9 and 0.83 at 1.8: below 1.95 diameters they fold. Three points need not: with
-/// places and depths of their own for round threads alike, and others beside floats, 1.03 was found
-/// at 1.8 diameters. But at the least pitch 0.88 was the best.
+/// Deeper shoulders bend threads less and bring them nearer to one another. Places and depths were
+/// tried on plain weave, 3/1 and 2/2 twill, matt, satins, damask and random weaves. These bend
+/// least tightly among those that keep threads at 0.99 of touching, alike or not, round or flat.
+/// The tightest bend of round threads alike has 1.7 radii at 3 diameters, 1.4 at 2.5, 1.05 at 2,
+/// 0.95 at 1.9 and 0.83 at 1.8: below 1.95 diameters they fold. Other places and depths, chosen for
+/// round threads alike and others beside floats, came to 1.03 at 1.8 diameters. At the least pitch
+/// 0.88 was the best.
 const FALL: f32 = 0.155;
 
-/// The most that a shoulder falls, in what a circle round the crossed thread has fallen there.
+/// The greatest fall of a shoulder, as a share of the fall of a circle round the crossed thread.
 const FALL_OF_CIRCLE: f32 = 0.75;
 
-/// How steeply a thread may lie at a crossing between a float and a change of sides, as far as its
-/// shoulder decides: two threads that both do come nearer to one another beside the crossing, by
-/// half the square of it each.
+/// The steepest slope, as far as its shoulder decides, of a thread at a crossing between a float
+/// and a change of sides. Two threads that both slope come nearer to one another beside the
+/// crossing, by half the square of the slope each.
 const TILT: f32 = 0.06;
 
-/// How far a thread falls at most from the edge thread to where it leaves the cloth, in distances
-/// that the two centrelines keep there. Further, and its crossing tilts where the shoulder beside a
+/// The greatest fall of a thread from the edge thread to where it leaves the cloth, in distances
+/// that the two centrelines keep there. With more its crossing tilts where the shoulder beside a
 /// distant neighbour lies low.
 const FALL_OUT: f32 = 0.2;
 
 /// The longest step to the next control point, in steps before it.
 ///
-/// The spline runs through all of its intervals in the same time: out of a long one it comes into a
-/// short one so fast that it bends sharply where it slows down, from five on so that it turns back.
+/// The spline runs through all its intervals in the same time. Out of a long interval it comes into
+/// a short one so fast that it bends sharply where it slows down. From a ratio of five on it turns
+/// back.
 pub(super) const STRIDE: f32 = 3.34;
 
-/// The share by which lengths differ from a stride where rounding is not to decide: a shoulder may
-/// lie just a stride away.
+/// The share by which a length must differ from a stride, so that rounding does not decide: a
+/// shoulder may lie exactly a stride away.
 pub(super) const ROUNDING: f32 = 1e-3;
 
-/// Threads of one height, and what they cross.
+/// Threads of one height, with the threads that they cross.
 #[derive(Clone, Copy)]
 pub(super) struct Bend<'a> {
     pub(super) shape: Shape,
@@ -70,7 +72,7 @@ impl Bend<'_> {
         self.half_height + self.crossed.half_height[number]
     }
 
-    /// How far the thread lies from the cloth's middle at crossing `number`, up or down, mm.
+    /// Distance of the thread from the cloth's middle at crossing `number`, up or down, mm.
     pub(super) fn depth(&self, number: usize) -> f32 {
         let room = self.room(number);
         match self.shape {
@@ -79,14 +81,14 @@ impl Bend<'_> {
         }
     }
 
-    /// The shoulder at crossing `number` towards a neighbour `pitch` away: how far from the
-    /// crossing, and its distance from the cloth's middle, mm.
+    /// The shoulder at crossing `number` towards a neighbour `pitch` away: its distance from the
+    /// crossing and from the cloth's middle, mm.
     ///
-    /// The thread goes a little outside of a circle round the crossed one, which flat threads
-    /// stretch to `across`.
+    /// The thread goes a little outside a circle round the crossed thread. Flat threads stretch
+    /// that circle to `across`.
     ///
-    /// Where the neighbour is far away, it slides down the line to the middle between the two, so
-    /// that no step is longer than [`STRIDE`] shorter ones.
+    /// Where the neighbour is far away the shoulder slides down the line to the middle between the
+    /// two, so that no step is longer than [`STRIDE`] times the step before.
     pub(super) fn shoulder(&self, number: usize, pitch: f32) -> (f32, f32) {
         let (room, depth) = (self.room(number), self.depth(number));
         let across = self.crossed.half_width[number] + self.half_height;
@@ -101,12 +103,12 @@ impl Bend<'_> {
         (aside, (depth - fall).max(0.5 * depth) * slid)
     }
 
-    /// Height of the shoulders at crossing `number`, from the cloth's middle, mm, of a thread that
-    /// changes sides between it and the neighbour `one`; `other` is the neighbour on the other
-    /// side, if any, and `both` says whether the thread changes sides there too.
+    /// Height of the shoulders at crossing `number`, from the cloth's middle, mm. The thread
+    /// changes sides between that crossing and the neighbour `one`. `other` is the neighbour on the
+    /// other side, if any, and `both` says whether the thread changes sides there too.
     ///
-    /// Where it does, the height is that of the higher one, so that at the crossing itself the
-    /// thread is level. Beside a short float a shoulder falls less.
+    /// If it does, both shoulders have the height of the higher one, so that the thread is level at
+    /// the crossing. Beside a short float a shoulder falls less.
     pub(super) fn shoulder_z(&self, number: usize, one: usize, other: Option<usize>, both: bool) -> f32 {
         let (aside, z) = self.shoulder(number, self.pitch(number, one));
         let Some(other) = other else {
@@ -120,16 +122,17 @@ impl Bend<'_> {
         if both {
             return z.max(self.shoulder(number, pitch).1);
         }
-        // Just a stride away it falls less: with `pitch` there threads of unlike spacing came to
-        // 0.9896 of touching, not 0.99.
+        // A neighbour just a stride away makes the shoulder fall less. Without that, threads of
+        // unlike spacing came to 0.9896 of touching, not 0.99.
         let far = pitch > (1.0 - ROUNDING) * STRIDE * aside;
         let step = if far { (STRIDE - 1.0) * aside } else { pitch };
         z.max(self.depth(number) - TILT * (step + aside))
     }
 
-    /// Height of a thread where it leaves the cloth `aside` of crossing `number`, mm: about that of
-    /// the shoulder on the other side, so that it is level at the crossing, or that of the float
-    /// there. Where the edge is near, it falls no further than a shoulder so near may.
+    /// Height of a thread where it leaves the cloth `aside` of crossing `number`, mm. It is about
+    /// that of the shoulder on the other side, so that the thread is level at the crossing, or that
+    /// of the float there. Where the edge is near the thread falls no further than a shoulder so
+    /// near may.
     pub(super) fn leaving_z(&self, number: usize, aside: f32, above: impl Fn(usize) -> bool) -> f32 {
         let depth = self.depth(number);
         let beyond = if number == 0 { 1 } else { number - 1 };
@@ -142,7 +145,7 @@ impl Bend<'_> {
         if above(number) { z } else { -z }
     }
 
-    /// How low a thread may lie at most where it leaves the cloth `aside` of crossing `number`, mm.
+    /// The least height of a thread where it leaves the cloth `aside` of crossing `number`, mm.
     fn lowest_out(&self, number: usize, aside: f32) -> f32 {
         let across = self.crossed.half_width[number] + self.half_height;
         let fall = FALL_OUT.min(FALL_OF_CIRCLE * circle(aside.min(across), across));
@@ -150,7 +153,7 @@ impl Bend<'_> {
     }
 }
 
-/// How far a circle of radius `across` has fallen `aside` of its top, of its radius.
+/// The fall of a circle of radius `across` at `aside` of its top, in radii.
 fn circle(aside: f32, across: f32) -> f32 {
     1.0 - (1.0 - (aside / across).powi(2)).sqrt()
 }

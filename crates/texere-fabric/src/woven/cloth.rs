@@ -5,13 +5,13 @@ use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Se
 use super::thread::{
     FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread, middles,
 };
-use super::{Crimp, Drawdown, Shape};
+use super::{BySet, Crimp, Drawdown, Shape};
 use crate::{FabricError, ThreadError, WovenError, yarn_check};
 
 /// The most control points of a cloth: 64 GiB of them.
-pub const POINTS_MAX: u64 = 1 << 32;
+pub(crate) const POINTS_MAX: u64 = 1 << 32;
 
-/// A woven cloth, checked: how its threads interlace, and what each of them is like.
+/// A woven cloth, checked: how its threads interlace, and what each thread is like.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -52,7 +52,7 @@ impl Woven {
     /// sections that they refer to.
     ///
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
-    /// points than [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii
+    /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii
     /// outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], twists beyond
     /// [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections that are
     /// not sound, and cloth wider or longer than [`COORDINATE_LIMIT`].
@@ -72,7 +72,8 @@ impl Woven {
         yarn_check::sections(&sections)?;
         let (shape, crimp) = (Shape::default(), Crimp::default());
         let cloth = Self { drawdown, warp, weft, materials, sections, shape, crimp, selvedge: false };
-        // The least that any shape has: where the cloth's own has more, its yarns are refused.
+        // The number that every shape has at least. A shape with more is refused when its yarns are
+        // made.
         let (longer, wider) = (picks as u64 + 2, ends as u64 + 2);
         let points = ends as u64 * longer + picks as u64 * wider;
         if points > POINTS_MAX {
@@ -89,7 +90,7 @@ impl Woven {
         Ok(cloth)
     }
 
-    /// A cloth of other threads, else like this one.
+    /// A cloth of another drawdown and other threads, with the other settings of this one.
     pub(crate) fn like(
         &self,
         drawdown: Drawdown,
@@ -100,7 +101,7 @@ impl Woven {
         Ok(Self { shape: self.shape, crimp: self.crimp, selvedge: self.selvedge, ..cloth })
     }
 
-    /// The same cloth with ends and picks so many times as far apart.
+    /// This cloth with the spacings of ends and of picks multiplied by `times`, the ends' first.
     pub(crate) fn spaced(&self, times: [f64; 2]) -> Result<Self, FabricError> {
         let [warp, weft] = [(&self.warp, times[0]), (&self.weft, times[1])].map(|(set, times)| {
             set.iter().map(|thread| Thread { spacing_mm: thread.spacing_mm * times, ..*thread }).collect()
@@ -168,7 +169,7 @@ impl Woven {
         &mut self.drawdown
     }
 
-    /// Says whether the warp is up at a crossing, end and pick counted from 0.
+    /// Puts the warp up or down at a crossing, end and pick counted from 0.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -187,8 +188,8 @@ impl Woven {
         self.drawdown.set(end, pick, up)
     }
 
-    /// The same cloth, its drawdown, shape, crimp and selvedge, of other yarns: other ends (`warp`)
-    /// and picks (`weft`), and the materials and sections that they refer to.
+    /// This cloth's drawdown, shape, crimp and selvedge with other yarns: other ends (`warp`) and
+    /// picks (`weft`), and the materials and sections that they refer to.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -205,7 +206,7 @@ impl Woven {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: those of [`Woven::new`].
+    /// **Errors**: the errors of [`Woven::new`].
     pub fn with_threads(
         &self,
         warp: Vec<Thread>,
@@ -258,9 +259,9 @@ impl Woven {
         &self.sections
     }
 
-    /// Flattens all threads alike: width over height of each, with its area.
+    /// Flattens all threads alike. `flatness` is width over height; each thread keeps its area.
     ///
-    /// **Errors**: [`WovenError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and
+    /// **Errors**: [`WovenError::Flatness`] outside \[0.1, 10\], and
     /// [`WovenError::Half`] for a thread that would be too thin or too wide; the cloth is then as
     /// it was.
     pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {
@@ -318,7 +319,7 @@ impl Woven {
         Ok(())
     }
 
-    /// The warp's share of the crimp: the number that [`Woven::crimp`] comes to in this cloth.
+    /// The warp's share of the crimp, 0 to 1: the value of [`Woven::crimp`] in this cloth.
     #[must_use]
     pub fn warp_share(&self) -> f32 {
         self.crimp.warp_share(&self.warp, &self.weft)
@@ -336,8 +337,8 @@ impl Woven {
         self.selvedge = selvedge;
     }
 
-    /// Where the middles of ends (x) and picks (y) lie, mm from the cloth's left and lower edges:
-    /// each in the middle of a column as wide as its own spacing.
+    /// Middles of the ends (x) and of the picks (y), mm from the cloth's left and lower edges. Each
+    /// thread lies in the middle of a column as wide as its own spacing.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -346,12 +347,12 @@ impl Woven {
     /// let plain = Weave::parse("plain")?.drawdown(3, 1)?;
     /// let (warp, weft) = (vec![thin, thick, thin], vec![thin]);
     /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-    /// assert_eq!(cloth.middles_mm(), [vec![0.5, 2.0, 3.5], vec![0.5]]);
+    /// assert_eq!(cloth.middles_mm().warp, [0.5, 2.0, 3.5]);
     /// assert_eq!(cloth.size_mm(), [4.0, 1.0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     #[must_use]
-    pub fn middles_mm(&self) -> [Vec<f64>; 2] {
-        [&self.warp, &self.weft].map(|threads| middles(threads).collect())
+    pub fn middles_mm(&self) -> BySet<Vec<f64>> {
+        BySet { warp: &self.warp, weft: &self.weft }.map(|threads| middles(threads).collect())
     }
 }

@@ -1,19 +1,19 @@
-//! How warp and weft share the way that they swing out of the cloth's middle.
+//! The crimp's shares: how far warp and weft swing out of the cloth's middle.
 
 use super::thread::Thread;
 use crate::WovenError;
 
-/// How the distance that crossing threads keep is split between the warp and the weft.
+/// The split of the distance that crossing threads keep, between warp and weft.
 ///
 /// At a crossing the two centrelines are apart by half the heights of both sections, R. The warp
-/// lies `share × R` on its side of the cloth's middle, the weft the rest on the other. A cloth has
-/// one share, not each crossing its own: a thread then keeps one level where those that it crosses
-/// are alike, as a thread under tension does, and what one set gives up the other takes everywhere
-/// at once.
+/// lies `share × R` on its side of the cloth's middle, the weft the rest on the other side. The
+/// share is the cloth's, not a crossing's. A thread then keeps one level where the threads that it
+/// crosses are alike, as a thread under tension does, and what one set gives up the other takes
+/// everywhere at once.
 ///
-/// That is crimp interchange: pull a cloth along the warp, and the warp straightens (its share
-/// falls) while the weft crimps. A pitch that changes with it is the caller's to give, as the
-/// threads' spacings.
+/// This is crimp interchange: pull a cloth along the warp, and the warp straightens (its share
+/// falls) while the weft crimps. The pitch changes with it; the caller gives it, as the threads'
+/// spacings.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
 /// 1937: h₁ + h₂ = D.
@@ -21,9 +21,9 @@ use crate::WovenError;
 #[non_exhaustive]
 pub enum Crimp {
     /// By the threads' stiffness in bending, which grows with the fourth power of a thread's
-    /// diameter: the stiffer set stays the straighter. Half and half where both sets are alike, 20
-    /// to 80 % at the most: beyond, the yarn that bends more needs a pitch that few cloths have,
-    /// and thin yarns do not hold thick ones quite straight.
+    /// diameter. The stiffer set stays the straighter. The share is a half where both sets are
+    /// alike, and 20 to 80 % at most. Beyond that the yarn that bends more needs a pitch that few
+    /// cloths have, and thin yarns do not hold thick ones quite straight.
     #[default]
     Stiffness,
     /// The warp's share, 0 (straight ends) to 1 (straight picks).

@@ -1,14 +1,14 @@
-//! How far threads swing out of the cloth's middle where they cross.
+//! Swing of threads out of the cloth's middle where they cross.
 
-/// How far a thread has to swing at a crossing, against the pitch of the threads that it crosses:
-/// (pitch over room, swing as a multiple of half the room).
+/// The least swing of a thread at a crossing, by the pitch of the threads that it crosses: pairs of
+/// pitch over room, and swing as a multiple of half the room.
 ///
 /// Two threads that cross at half their room each just touch there. With one control point a
-/// crossing, though, the spline cuts corners on its way from one side to the other, the more so the
-/// closer the threads that it crosses; and the nearest approach is then beside the crossing. These
-/// are the smallest multiples with which the centrelines of round yarns of one size, measured on
-/// finely sampled splines, stay 0.992 diameters apart in plain weave, 3/1 and 2/2 twill, satins on
-/// 5 and 8 ends, and random weaves.
+/// crossing the spline cuts corners on its way from one side to the other, the more so the closer
+/// the crossed threads lie, and the nearest approach is beside the crossing. These multiples are
+/// the smallest with which the centrelines of round yarns of one size stay 0.992 diameters apart in
+/// plain weave, 3/1 and 2/2 twill, satins on 5 and 8 ends, and random weaves, measured on finely
+/// sampled splines.
 const SWING: [(f32, f32); 8] = [
     (2.0, 1.33),
     (2.25, 1.17),
@@ -28,8 +28,7 @@ pub(super) fn swing(pitch: f32) -> f32 {
     let mut below = SWING[0];
     for above in SWING {
         if pitch < above.0 {
-            // Before the first entry `below` and `above` are the same, and there is nothing between
-            // them.
+            // Before the first entry `below` and `above` are the same, with nothing between them.
             let share = if above.0 > below.0 { (pitch - below.0) / (above.0 - below.0) } else { 0.0 };
             return below.1 + share * (above.1 - below.1);
         }

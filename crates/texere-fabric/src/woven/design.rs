@@ -1,5 +1,4 @@
-//! A woven design: a cloth, the draft that it is woven by, and what is done about its jammed
-//! threads.
+//! A woven design: a cloth, its draft, and the relief of its jammed threads.
 
 use texere_core::Section;
 
@@ -16,8 +15,8 @@ use crate::{FabricError, WovenError};
 /// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
 /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
 /// let design = WovenDesign::new(cloth, None, Relief::Flatten)?;
-/// assert_eq!(design.jam_report().before[0].jammed, 19);
-/// assert_eq!(design.jam_report().after[0].jammed, 0);
+/// assert_eq!(design.jam_report().before.warp.jammed, 19);
+/// assert_eq!(design.jam_report().after.warp.jammed, 0);
 /// assert!(design.cloth().warp_share() > 0.5);
 /// # Ok::<(), texere_fabric::FabricError>(())
 /// ```
@@ -32,10 +31,10 @@ pub struct WovenDesign {
 }
 
 impl WovenDesign {
-    /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that it
-    /// is woven by, if it has one: its drawdown is the cloth's.
+    /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that
+    /// weaves the cloth, if there is one: its drawdown is the cloth's.
     ///
-    /// **Errors**: those of [`Woven::relieve`].
+    /// **Errors**: the errors of [`Woven::relieve`].
     pub fn new(mut cloth: Woven, draft: Option<Draft>, relief: Relief) -> Result<Self, FabricError> {
         let (jam_report, given) = relieve(&mut cloth, relief)?;
         Ok(Self { cloth, draft, relief, jam_report, given })
@@ -47,7 +46,7 @@ impl WovenDesign {
         &self.cloth
     }
 
-    /// The shaft draft that the cloth is woven by, where the design has one.
+    /// The shaft draft that weaves the cloth, if the design has one.
     #[must_use]
     pub const fn draft(&self) -> Option<&Draft> {
         self.draft.as_ref()
@@ -59,7 +58,7 @@ impl WovenDesign {
         &self.jam_report
     }
 
-    /// What is done about its jammed threads.
+    /// The relief of jammed threads.
     #[must_use]
     pub const fn relief(&self) -> Relief {
         self.relief
@@ -71,19 +70,19 @@ impl WovenDesign {
         self.given.as_ref().unwrap_or(&self.cloth)
     }
 
-    /// Whether the cloth is another than was given, because jammed threads were relieved.
+    /// Whether relief has changed the cloth that was given.
     #[must_use]
     pub const fn is_relieved(&self) -> bool {
         self.given.is_some()
     }
 
-    /// The design of another cloth, whose jammed threads nothing relieves.
+    /// The design of another cloth, without relief.
     pub(crate) fn of(&self, cloth: Woven) -> Result<Self, FabricError> {
         Self::new(cloth, self.draft.clone(), Relief::Report)
     }
 
-    /// Says whether the warp is up at a crossing, end and pick counted from 0, and relieves the
-    /// cloth again. A shaft draft does not weave it any more then, and goes.
+    /// Puts the warp up or down at a crossing, end and pick counted from 0, and relieves the cloth
+    /// again. A shaft draft does not weave that cloth any more, and is dropped.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -131,7 +130,7 @@ impl WovenDesign {
     }
 }
 
-/// Relieves jammed threads. Gives the report, and the cloth as it was before, where it was changed.
+/// Relieves jammed threads. Returns the report, and the cloth before, where relief has changed it.
 fn relieve(cloth: &mut Woven, relief: Relief) -> Result<(JamReport, Option<Woven>), FabricError> {
     if relief == Relief::Report {
         return Ok((cloth.relieve(relief)?, None));

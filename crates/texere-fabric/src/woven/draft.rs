@@ -1,16 +1,16 @@
-//! The draft: how a weaver writes a weave down, and what the loom makes of it.
+//! The draft: a weaver's plan of a weave, and the drawdown that the loom makes of it.
 
 use std::collections::HashMap;
 
 use texere_core::backend::zeroed;
 
-use super::drawdown::WORD;
-use crate::{CROSSINGS_MAX, Drawdown, FabricError, WovenError};
+use super::drawdown::{CROSSINGS_MAX, WORD};
+use crate::{Drawdown, FabricError, WovenError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
 ///
-/// All numbers are counted from 1, as weavers write them; 0 stands for none, and a list may be
-/// empty.
+/// Shafts and treadles are counted from 1, as weavers write them. 0 stands for none, and a list may
+/// be empty.
 ///
 /// ```
 /// use texere_fabric::{Draft, Shedding};
@@ -30,12 +30,12 @@ use crate::{CROSSINGS_MAX, Drawdown, FabricError, WovenError};
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Draft {
-    /// For each end the shafts that carry it.
+    /// The shafts that carry each end.
     pub threading: Vec<Vec<u32>>,
-    /// What each pick lifts.
+    /// The shafts or treadles of each pick.
     pub shedding: Shedding,
-    /// Whether lifted shafts carry the warp to the face. Where they don't (a sinking shed),
-    /// everything is inverted.
+    /// Whether lifted shafts carry the warp to the face. With a sinking shed (`false`) the drawdown
+    /// is inverted.
     pub rising_shed: bool,
 }
 
@@ -44,13 +44,12 @@ pub struct Draft {
 pub enum Shedding {
     /// By treadles.
     TieUp {
-        /// For each treadle the shafts that are tied to it. A treadle past the last one lifts
-        /// nothing.
+        /// The shafts that are tied to each treadle. A treadle past the last one lifts nothing.
         tie_up: Vec<Vec<u32>>,
-        /// For each pick the treadles that are pressed.
+        /// The treadles that each pick presses.
         treadling: Vec<Vec<u32>>,
     },
-    /// Shaft by shaft, as a dobby does: for each pick the shafts that are lifted.
+    /// The shafts that each pick lifts, as a dobby lifts them.
     LiftPlan(Vec<Vec<u32>>),
 }
 
@@ -65,23 +64,23 @@ impl Shedding {
 }
 
 impl Draft {
-    /// How many ends are threaded.
+    /// Number of ends.
     #[must_use]
     pub fn ends(&self) -> usize {
         self.threading.len()
     }
 
-    /// How many picks are woven.
+    /// Number of picks.
     #[must_use]
     pub fn picks(&self) -> usize {
         self.shedding.picks().len()
     }
 
-    /// The cloth that this draft weaves: the warp is up where one of the end's shafts is among
+    /// The drawdown that this draft weaves. The warp is up where one of the end's shafts is among
     /// those that the pick lifts.
     ///
-    /// **Errors**: those of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
-    /// exceed [`CROSSINGS_MAX`].
+    /// **Errors**: the errors of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
+    /// exceed 2³².
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
         let shafts = self.shafts()?;
@@ -106,7 +105,7 @@ impl Draft {
         Ok(drawdown)
     }
 
-    /// What each shaft lifts, by its number.
+    /// The ends of each shaft, by its number.
     fn shafts(&self) -> Result<HashMap<u32, Lift>, FabricError> {
         let mut shafts: HashMap<u32, Vec<u32>> = HashMap::new();
         for (end, carried_by) in (0..).zip(&self.threading) {
@@ -118,7 +117,7 @@ impl Draft {
         shafts.into_iter().map(|(shaft, ends)| Ok((shaft, Lift::new(ends, words)?))).collect()
     }
 
-    /// What each treadle lifts, by its number.
+    /// The ends that each treadle lifts, by its number.
     fn treadles(
         &self,
         tie_up: &[Vec<u32>],
@@ -147,8 +146,8 @@ enum Lift {
 }
 
 impl Lift {
-    /// `ends` of a cloth whose rows have `words`. A list as long as a row has words takes as long
-    /// to lift as the row.
+    /// The lift of `ends`, in a cloth whose rows have `words`. A list with one end for each word of
+    /// a row takes as long to lift as the row.
     fn new(ends: Vec<u32>, words: usize) -> Result<Self, FabricError> {
         let many = ends.len() > words;
         let few = Self::Few(ends);

@@ -6,19 +6,20 @@ use texere_core::backend::zeroed;
 
 use crate::{FabricError, WovenError};
 
-/// The most ends, and the most picks, of a cloth.
+/// The most ends of a cloth, and the most picks.
 ///
 /// The finest silk has 300 ends to the centimetre; a million of them are more than thirty metres
 /// across.
 pub const THREADS_MAX: usize = 1_000_000;
 
-/// The most crossings of a drawdown: what a `u32` numbers, and half a gigabyte of bits.
-pub const CROSSINGS_MAX: u64 = 1 << 32;
+/// The most crossings of a drawdown. A `u32` numbers them, and their bits take half a gigabyte.
+pub(super) const CROSSINGS_MAX: u64 = 1 << 32;
 
 /// Bits in a word.
 pub(super) const WORD: usize = u64::BITS as usize;
 
-/// Ends × picks, one bit a crossing: whether the warp is up, that is on the face of the cloth.
+/// A bit for each crossing of ends and picks: whether the warp is up, that is on the face of the
+/// cloth.
 ///
 /// Ends are counted from 0 at the left, picks from 0 at the first one woven (the bottom).
 ///
@@ -39,7 +40,7 @@ pub struct Drawdown {
 }
 
 impl fmt::Debug for Drawdown {
-    /// The size alone: the bits of a damask are too many to print.
+    /// Shows the size alone, since the bits of a damask are too many to print.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Drawdown")
             .field("ends", &self.ends)
@@ -52,7 +53,7 @@ impl Drawdown {
     /// A drawdown with every warp down.
     ///
     /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of
-    /// either; [`WovenError::Crossings`] for more than [`CROSSINGS_MAX`];
+    /// either; [`WovenError::Crossings`] for more than 2³²;
     /// [`FabricError::OutOfMemory`].
     pub fn new(ends: usize, picks: usize) -> Result<Self, FabricError> {
         if !(1..=THREADS_MAX).contains(&ends) || !(1..=THREADS_MAX).contains(&picks) {
@@ -68,7 +69,7 @@ impl Drawdown {
 
     /// A drawdown whose warp is up where `up(end, pick)` says so.
     ///
-    /// **Errors**: those of [`Drawdown::new`].
+    /// **Errors**: the errors of [`Drawdown::new`].
     pub fn from_fn(
         ends: usize,
         picks: usize,
@@ -83,11 +84,11 @@ impl Drawdown {
         Ok(drawdown)
     }
 
-    /// A drawdown whose warp is up where `up(end, pick)` says so of the first `repeat.0` ends and
-    /// `repeat.1` picks, from where they repeat over all others. `up` is asked once for each
-    /// crossing of the repeat that the cloth has.
+    /// A drawdown that repeats `repeat.0` ends and `repeat.1` picks. Its warp is up where `up(end,
+    /// pick)` is true of the repeat. `up` is called once for each crossing of the repeat that the
+    /// cloth has.
     ///
-    /// **Errors**: those of [`Drawdown::new`].
+    /// **Errors**: the errors of [`Drawdown::new`].
     ///
     /// ```
     /// use texere_fabric::Drawdown;
@@ -119,20 +120,19 @@ impl Drawdown {
         Ok(cloth)
     }
 
-    /// How many ends there are.
+    /// Number of ends.
     #[must_use]
     pub const fn ends(&self) -> usize {
         self.ends
     }
 
-    /// How many picks there are.
+    /// Number of picks.
     #[must_use]
     pub const fn picks(&self) -> usize {
         self.picks
     }
 
-    /// Whether the warp is up where `end` and `pick` cross, both from 0. Outside the cloth nothing
-    /// is.
+    /// Whether the warp is up where `end` and `pick` cross, both from 0; `false` outside the cloth.
     #[must_use]
     pub fn up(&self, end: usize, pick: usize) -> bool {
         end < self.ends
@@ -157,11 +157,11 @@ impl Drawdown {
         Ok(())
     }
 
-    /// How many picks each end lies on.
+    /// Number of picks that each end lies on.
     pub(super) fn ups_of_ends(&self) -> Vec<u64> {
         let mut ups = vec![0; self.ends];
         for (word, ups) in ups.chunks_mut(WORD).enumerate() {
-            // Sixty-four ends at a time: each word holds a binary digit of all their counts.
+            // Sixty-four ends at a time. Each word holds one binary digit of all their counts.
             let mut digits: Vec<u64> = Vec::new();
             for row in self.words.chunks_exact(self.row) {
                 let mut carry = row[word];
@@ -179,7 +179,7 @@ impl Drawdown {
         ups
     }
 
-    /// How many ends each pick lies on.
+    /// Number of ends that each pick lies on.
     pub(super) fn downs_of_picks(&self) -> Vec<u64> {
         let ups = |row: &[u64]| row.iter().map(|word| u64::from(word.count_ones())).sum::<u64>();
         self.words.chunks_exact(self.row).map(|row| self.ends as u64 - ups(row)).collect()
@@ -190,12 +190,13 @@ impl Drawdown {
         &mut self.words[pick * self.row..][..self.row]
     }
 
-    /// Makes pick `to` as pick `from` is.
+    /// Makes pick `to` a copy of pick `from`.
     pub(super) fn copy_pick(&mut self, from: usize, to: usize) {
         self.words.copy_within(from * self.row..(from + 1) * self.row, to * self.row);
     }
 
-    /// Turns the cloth over in place, without mirroring it: what was up is down.
+    /// Inverts the drawdown: what was up is down. That is the cloth turned over without being
+    /// mirrored.
     pub(super) fn invert(&mut self) {
         let last = u64::MAX >> (self.row * WORD - self.ends);
         for row in self.words.chunks_exact_mut(self.row) {

@@ -3,14 +3,14 @@
 use texere_core::{Origin, counted};
 use thiserror::Error;
 
-/// The names that a person may want to hear of.
+/// Names of weaves that a message suggests.
 const TOLD: &str = "plain (tabby), twill, satin, sateen, matt (hopsack, basket), herringbone, pointed, honeycomb (waffle), crepe, or floats such as 2/2";
 
-/// Woven cloth that can't be taken. Threads are counted from 1, as weavers do.
+/// Woven cloth that is refused. Threads are counted from 1, as weavers count them.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WovenError {
-    /// No threads at all in one direction, or more than are taken.
+    /// No threads in one direction, or more than are taken.
     #[error("cloth of {ends} and {picks}; each must be 1 to {limit}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Size {
         /// Ends asked for.
@@ -123,7 +123,7 @@ pub enum WovenError {
         /// Ends in the repeat.
         ends: usize,
     },
-    /// There is no regular satin on so many ends: none on fewer than 5, and none on 6.
+    /// No regular satin has this number of ends: fewer than 5, or 6.
     #[error(
         "weave \"{text}\", character {position}: no regular satin has {ends}, for that takes 5, or 7 and more{}",
         irregular_satin(*.ends), ends = counted(*.ends, "end"))]
@@ -157,7 +157,7 @@ pub enum WovenError {
         /// Most taken of either.
         limit: usize,
     },
-    /// As many threads must be described as the drawdown has.
+    /// Another number of threads than the drawdown has.
     #[error("{threads} described, but the drawdown has {planned}", threads = counted(*.threads, .set))]
     ThreadCount {
         /// `end` or `pick`.
@@ -167,7 +167,7 @@ pub enum WovenError {
         /// In the drawdown.
         planned: usize,
     },
-    /// A spacing that is not a number, not positive, or no cloth's.
+    /// A spacing that is not a number, or outside its limits.
     #[error("spacing of {thread} is {spacing_mm} mm, outside {low} to {high} mm")]
     Spacing {
         /// The thread.
@@ -217,7 +217,7 @@ pub enum WovenError {
         /// Most taken, mm.
         high: f32,
     },
-    /// A material that there is not.
+    /// A material that does not exist.
     #[error("material {material}, but there are {materials}, counted from 0")]
     NoMaterial {
         /// The material.
@@ -225,7 +225,7 @@ pub enum WovenError {
         /// How many there are.
         materials: usize,
     },
-    /// A share of the crimp that neither set can have.
+    /// A share of the crimp outside its limits.
     #[error("the warp's share of the crimp is {share}, outside {low} to {high}")]
     Crimp {
         /// The share.
@@ -235,14 +235,14 @@ pub enum WovenError {
         /// Most taken.
         high: f32,
     },
-    /// Yarns that are not those of the cloth that is measured.
+    /// Yarns that don't belong to the cloth that is measured.
     #[error("yarn {yarn} is not one of the cloth's")]
     OtherCloth {
-        /// The first yarn that differs, from 0; the number of the cloth's where there are more or
-        /// fewer.
+        /// The first yarn that differs, from 0. Where there are too many or too few it is the
+        /// number of yarns of the cloth.
         yarn: usize,
     },
-    /// A cloth further across than coordinates reach.
+    /// A cloth larger than coordinates reach.
     #[error("{set} lie over {extent_mm} mm, more than {limit} mm")]
     Extent {
         /// `ends` or `picks`.
@@ -254,7 +254,7 @@ pub enum WovenError {
     },
 }
 
-/// An irregular satin of so many ends as textbooks have it, where there is no regular one.
+/// Textbooks' irregular satin on a number of ends that no regular one has.
 const fn irregular_satin(ends: usize) -> &'static str {
     match ends {
         6 => "; an irregular one names the end that each pick binds: satin 6(1 3 5 2 6 4)",

@@ -1,5 +1,4 @@
-//! Whether threads have the room that they need beside one another and between those that cross
-//! them.
+//! Room of threads: beside one another, and between those that cross them.
 
 use rayon::prelude::*;
 use texere_core::Origin;
@@ -9,18 +8,18 @@ use super::thread::pitches;
 use super::{Shape, Woven, crossing};
 use crate::FabricWarning;
 
-/// The share by which room may fall short before it counts: radii are rounded to `f32`.
+/// The share by which room may fall short before it counts. Radii are rounded to `f32`.
 pub(super) const ROUNDING: f64 = 1e-6;
 
-/// The least pitch of two threads, in half their widths and twice half the height of a thread that
-/// changes sides between them, all added up; `share` is that thread's share of the crimp.
+/// The least pitch of two threads, over the sum of half their widths and twice half the height of a
+/// thread that changes sides between them. `share` is that thread's share of the crimp.
 ///
-/// It is jammed when it goes from arc to arc with nothing straight between. Round a crossed thread
-/// its centreline follows a circle of radius R, half the heights together. The centre of the circle
-/// is (1 - share) R beyond the cloth's middle, so that the circle meets the middle √(share (2 -
-/// share)) R to the side. Flat threads stretch it in the ratio of half the crossed thread's width
-/// and half the own height to R. For two sets of round threads of diameter d and half the crimp
-/// each it is √3 d.
+/// The thread between is jammed where it goes from arc to arc with nothing straight between. Round
+/// a crossed thread its centreline follows a circle of radius R, half the heights together. The
+/// centre of the circle is (1 - share) R beyond the cloth's middle, so that the circle meets the
+/// middle √(share (2 - share)) R to the side. Flat threads stretch the circle in the ratio of half
+/// the crossed thread's width and half the own height to R. Two sets of round threads of diameter d
+/// with half the crimp each need √3 d.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
 /// 1937: both sets' jamming at l = D θ, here for each of them at its own share of the crimp.
@@ -31,7 +30,7 @@ pub(super) fn reach(share: f32) -> f32 {
 /// Two neighbouring threads of one set.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
-    /// Number of the second of them, from 1.
+    /// Number of the second thread, from 1.
     pub(super) thread: u32,
     /// Distance between the two, mm.
     pub(super) pitch: f64,
@@ -40,12 +39,12 @@ pub(super) struct Gap {
     /// Half their heights together, mm.
     heights: f32,
     /// Twice half the height of the thickest thread that changes sides between them, mm; none where
-    /// none does.
+    /// no thread does.
     pub(super) between: Option<f32>,
 }
 
 impl Gap {
-    /// The least pitch at which the threads between are not jammed, mm; `share` is their share of
+    /// The least pitch at which the threads between are not jammed, mm. `share` is their share of
     /// the crimp.
     pub(super) fn needed(&self, shape: Shape, share: f32) -> f64 {
         self.between.map_or(0.0, |between| match shape {
@@ -55,8 +54,8 @@ impl Gap {
     }
 }
 
-/// The gaps between the threads of `set`; `apart(thread, crossing)` says whether that one of the
-/// `crossing` threads lies on different sides of `thread` and the next one.
+/// The gaps between the threads of `set`. `apart(thread, crossing)` says whether that thread of the
+/// `crossing` set lies on different sides of `thread` and the next one.
 pub(super) fn gaps(
     set: &Set,
     pitches: impl Iterator<Item = f64>,
@@ -64,7 +63,7 @@ pub(super) fn gaps(
     apart: impl Fn(usize, usize) -> bool + Sync,
 ) -> Vec<Gap> {
     let pitches: Vec<f64> = pitches.collect();
-    // From the thickest on, so that the first one that changes sides is the one looked for.
+    // The thickest come first, so that the first one that changes sides is the thickest.
     let mut crossing: Vec<(usize, f32)> = crossing.half_height.iter().copied().enumerate().collect();
     crossing.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     pitches
@@ -95,8 +94,7 @@ impl Woven {
         ]
     }
 
-    /// What a designer should know before looking at the cloth: threads without the room that they
-    /// need.
+    /// Warnings of threads without the room that they need.
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         let [warp, weft] = self.gaps();
@@ -112,7 +110,7 @@ impl Woven {
         .collect()
     }
 
-    /// Threads too close together for those that cross them to pass between.
+    /// Threads too close together for crossing threads to pass between.
     fn jammed(&self, gaps: &[Gap], share: f32, origin: fn(u32) -> Origin) -> Option<FabricWarning> {
         let lacking = gaps.iter().map(|gap| (origin(gap.thread), gap.needed(self.shape(), share), gap.pitch));
         let (count, first, (worst, needed_mm, pitch_mm)) = worst(lacking)?;
@@ -120,15 +118,15 @@ impl Woven {
     }
 }
 
-/// Threads that are wider, with the thread before, than the distance between the two.
+/// Threads that are wider, together with the thread before, than the distance between the two.
 fn crowded(gaps: &[Gap], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
     let lacking = gaps.iter().map(|gap| (origin(gap.thread), f64::from(gap.widths), gap.pitch));
     let (count, first, (worst, needed_mm, spacing_mm)) = worst(lacking)?;
     Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
 }
 
-/// Among threads (which, room needed, room there is): how many lack room, the first, and the one
-/// that lacks most.
+/// Of threads (thread, room needed, room there is) that lack room: their number, the first, and the
+/// one that lacks most.
 fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
     threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
         Some(match found {

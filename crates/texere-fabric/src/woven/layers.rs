@@ -4,34 +4,33 @@ use std::cmp::Reverse;
 
 use texere_core::Origin;
 
-use super::Drawdown;
+use super::{BySet, Drawdown};
 
 impl Drawdown {
-    /// The layers that the cloth falls apart into, the one on the face first: how many ends and
-    /// picks each has. One that hangs together is a single layer; a double cloth whose layers
-    /// nothing stitches together is two; threads that lie loose on the face or the back are layers,
-    /// too. Which threads they are: those that lie on top most often are in the first.
+    /// The layers that the cloth falls apart into, the one on the face first: the numbers of ends
+    /// and picks of each. A cloth that hangs together is a single layer. A double cloth whose
+    /// layers nothing stitches together is two. Threads that lie loose on the face or the back are
+    /// layers, too. The threads that lie on top most often are in the first layer.
     ///
     /// **Source**: C. R. J. Clapham, "When a fabric hangs together", Bulletin of the London
     /// Mathematical Society 12, 1980: some ends and picks can be lifted off the others where they
     /// lie on top as often as they cross these and one another.
     ///
     /// ```
-    /// use texere_fabric::{Drawdown, Weave};
-    /// assert_eq!(Weave::parse("2/2")?.drawdown(8, 8)?.layers(), [[8, 8]]);
+    /// use texere_fabric::{BySet, Drawdown, Weave};
+    /// assert_eq!(Weave::parse("2/2")?.drawdown(8, 8)?.layers(), [BySet { warp: 8, weft: 8 }]);
     /// // Every other end and pick makes a plain cloth over another one of the rest.
     /// let double = Drawdown::from_fn(8, 8, |end, pick| match (end % 2, pick % 2) {
     ///     (0, 0) | (1, 1) => (end / 2 + pick / 2) % 2 == 0,
     ///     (face, _) => face == 0,
     /// })?;
-    /// assert_eq!(double.layers(), [[4, 4], [4, 4]]);
+    /// assert_eq!(double.layers(), [BySet { warp: 4, weft: 4 }; 2]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     #[must_use]
-    pub fn layers(&self) -> Vec<[usize; 2]> {
+    pub fn layers(&self) -> Vec<BySet<usize>> {
         let [ends, picks] = [self.ends(), self.picks()];
-        // How often each thread lies on top, those that do so most often first; and how often the
-        // first so many of each set do.
+        // Counts of how often each thread lies on top, the highest first, and their running sums.
         let [over, under] = [self.ups_of_ends(), self.downs_of_picks()].map(|mut counts| {
             counts.sort_unstable_by_key(|count| Reverse(*count));
             counts
@@ -46,10 +45,10 @@ impl Drawdown {
         });
         let (mut layers, mut last) = (Vec::<[usize; 2]>::new(), [0, 0]);
         for (first, over) in sums_over.iter().enumerate() {
-            // Each further pick crosses so many ends that are not among the first, and lies on as
-            // many as its count says. Counts only fall, so what the threads cross and how often
-            // they lie on top come nearest to one another where these two are the same, and can be
-            // equal only there.
+            // Each further pick crosses the ends that are not among the first, and lies on as many
+            // as its count. Counts only fall, so the number of crossings and the number of times on
+            // top come nearest to one another where these two are the same, and can be equal only
+            // there.
             let others = (ends - first) as u64;
             let [fewest, most] = [
                 under.partition_point(|count| *count > others),
@@ -71,10 +70,11 @@ impl Drawdown {
                 last = [first, second];
             }
         }
-        layers
+        layers.into_iter().map(BySet::of).collect()
     }
-    /// The threads of those of the cloth's `layers` that have threads of one set alone: ends first.
-    pub(crate) fn loose(&self, layers: &[[usize; 2]]) -> Vec<Origin> {
+
+    /// The threads of those `layers` of the cloth that have threads of one set alone, ends first.
+    pub(crate) fn loose(&self, layers: &[BySet<usize>]) -> Vec<Origin> {
         let orders = [self.ups_of_ends(), self.downs_of_picks()].map(|counts| {
             let mut order: Vec<usize> = (0..counts.len()).collect();
             order.sort_by_key(|thread| Reverse(counts[*thread]));
@@ -84,7 +84,7 @@ impl Drawdown {
         let of = |set: usize| {
             let mut first = 0;
             let mut loose = Vec::new();
-            for layer in layers {
+            for layer in layers.iter().map(|layer| layer.into_array()) {
                 if layer[1 - set] == 0 {
                     loose.extend_from_slice(&orders[set][first..first + layer[set]]);
                 }

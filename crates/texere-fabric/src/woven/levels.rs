@@ -1,23 +1,23 @@
-//! Which threads of a set lie above others of it.
+//! Levels of threads: which threads of a set lie above others of it.
 
-use super::Drawdown;
+use super::{BySet, Drawdown};
 
-/// A thread lies above the next one where at most one in so many of what they cross says otherwise:
-/// the stitches of a double cloth.
+/// A thread lies above the next one where at most one in this many of the threads that they cross
+/// says otherwise. The exceptions are stitches of a double cloth.
 const STITCHED: u64 = 4;
 
-/// More threads side by side than that are no layer of a cloth that has several: a satin stripe
-/// lies above the plain weave beside it, but not over it.
+/// More threads side by side than this are no layer of a cloth of several layers. A satin stripe
+/// lies higher than the plain weave beside it, but not over it.
 const SIDE_BY_SIDE: usize = 4;
 
-/// Of a cloth of several layers at least so great a share of neighbours lie above one another:
-/// where three threads of the face go to one of the back, a half.
+/// The least share of neighbours that lie above one another in a cloth of several layers. Where
+/// three threads of the face go to one of the back it is a half.
 const STACKED: f64 = 0.4;
 
-/// No more levels than that are told apart.
+/// The most levels that are told apart.
 const LEVELS_MAX: u32 = 8;
 
-/// What two neighbours of a set are to one another.
+/// How two neighbours of a set lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Neighbours {
     SideBySide,
@@ -26,41 +26,41 @@ enum Neighbours {
 }
 
 impl Drawdown {
-    /// The level of each end, and of each pick, among its set: 0 for the lowest one. Threads of one
-    /// level lie side by side, those of another one above or below: a double cloth has two levels
-    /// of ends and of picks, a weft-backed cloth two of picks. Most cloths have one.
+    /// The level of each end and of each pick among its set, 0 for the lowest. Threads of one level
+    /// lie side by side, threads of different levels above one another. A double cloth has two
+    /// levels of ends and of picks, a weft-backed cloth two of picks. Most cloths have one.
     ///
-    /// A pick lies above the next one where ends that lie between both say so: below the first,
-    /// above the second. Where as many say the opposite, as in plain weave, twills and satins, both
-    /// lie side by side; stitches of two layers, one end in five at most, don't count. Of ends
-    /// likewise. Where neighbours contradict one another round the cloth, or fewer than two in five
-    /// lie above one another, all threads lie side by side.
+    /// A pick lies above the next one where ends lie between both: below the first, above the
+    /// second. Both lie side by side where equally many ends say the opposite, as in plain weave,
+    /// twills and satins. Stitches of two layers, one end in five at most, don't count. Ends are
+    /// compared in the same way. All threads lie side by side where neighbours contradict one
+    /// another round the cloth, or where fewer than two in five lie above one another.
     ///
     /// ```
     /// use texere_fabric::{Drawdown, Weave};
-    /// assert_eq!(Weave::parse("satin 8(3)")?.drawdown(8, 8)?.levels(), [[0; 8], [0; 8]]);
+    /// assert_eq!(Weave::parse("satin 8(3)")?.drawdown(8, 8)?.levels().warp, [0; 8]);
     /// // Every other end and pick makes a plain cloth over another one of the rest.
     /// let double = Drawdown::from_fn(8, 8, |end, pick| match (end % 2, pick % 2) {
     ///     (0, 0) | (1, 1) => (end / 2 + pick / 2) % 2 == 0,
     ///     (face, _) => face == 0,
     /// })?;
-    /// assert_eq!(double.levels(), [[1, 0, 1, 0, 1, 0, 1, 0]; 2]);
+    /// assert_eq!(double.levels().weft, [1, 0, 1, 0, 1, 0, 1, 0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     #[must_use]
-    pub fn levels(&self) -> [Vec<u32>; 2] {
+    pub fn levels(&self) -> BySet<Vec<u32>> {
         let [ends, picks] = [self.ends(), self.picks()];
-        let mut counts = [vec![[0_u64; 2]; ends], vec![[0_u64; 2]; picks]];
+        let mut counts = BySet { warp: vec![[0_u64; 2]; ends], weft: vec![[0_u64; 2]; picks] };
         for (end, pick) in (0..picks).flat_map(|pick| (0..ends).map(move |end| (end, pick))) {
             let up = self.up(end, pick);
             match [up, self.up((end + 1) % ends, pick)] {
-                [true, false] => counts[0][end][0] += 1,
-                [false, true] => counts[0][end][1] += 1,
+                [true, false] => counts.warp[end][0] += 1,
+                [false, true] => counts.warp[end][1] += 1,
                 _ => {}
             }
             match [up, self.up(end, (pick + 1) % picks)] {
-                [false, true] => counts[1][pick][0] += 1,
-                [true, false] => counts[1][pick][1] += 1,
+                [false, true] => counts.weft[pick][0] += 1,
+                [true, false] => counts.weft[pick][1] += 1,
                 _ => {}
             }
         }
@@ -68,7 +68,8 @@ impl Drawdown {
     }
 }
 
-/// By how many threads say that the first one lies above, and how many the second one.
+/// How two neighbours lie, by the numbers of threads that have the first one above, and the second
+/// one.
 const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     if first > 0 && second * STITCHED <= first {
         Neighbours::FirstAbove
@@ -79,11 +80,12 @@ const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     }
 }
 
-/// The lowest levels that agree with all neighbours; 0 for all where none do. What the last thread
-/// is to the first one counts where one of them lies above the other: a cloth need not repeat.
+/// The lowest levels that agree with all neighbours; 0 for all where no levels do. The last thread
+/// and the first one count as neighbours where one of them lies above the other, since a cloth need
+/// not repeat.
 fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
     let count = neighbours.len();
-    // Threads side by side follow one another: the number of each one's run, and how long runs are.
+    // Threads side by side form runs: the number of each thread's run, and the length of each run.
     let (mut runs, mut lengths) = (vec![0], vec![1]);
     for what in &neighbours[..count - 1] {
         match lengths.last_mut() {
@@ -106,7 +108,8 @@ fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
         return vec![0; count];
     }
     let mut heights = vec![0_u32; lengths.len()];
-    // Each pass lifts what must lie higher; that ends after as many as there are levels.
+    // Each pass lifts threads that must lie higher. It ends after as many passes as there are
+    // levels.
     for _ in 0..LEVELS_MAX {
         let mut lifted = false;
         for &[above, below] in &over {

@@ -1,9 +1,9 @@
-//! Weaves that go by a name: reversed twills, and the ones that are drawn.
+//! Weaves by name: reversed twills, and weaves that are drawn.
 
-/// The larger repeat that is commonly woven on eight shafts: a ridge of warp and a ridge of weft
-/// round each hollow, and plain weave at its bottom. Last pick on top, `#` warp up.
+/// The honeycomb that is commonly woven on eight shafts: a ridge of warp and a ridge of weft round
+/// each hollow, and plain weave at its bottom. Last pick on top, `#` warp up.
 ///
-/// Source: Encyclopædia Britannica, 11th edition, 1911, "Honeycomb", design A, the perfect
+/// **Source**: Encyclopædia Britannica, 11th edition, 1911, "Honeycomb", design A, the perfect
 /// honeycomb: seven of weft and five of warp in its longest floats.
 pub(super) const HONEYCOMB: [&str; 8] =
     [".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."];
@@ -11,9 +11,9 @@ pub(super) const HONEYCOMB: [&str; 8] =
 /// Crepe (crape, oatmeal) on eight ends, without a line in any direction. Last pick on top, `#`
 /// warp up.
 ///
-/// Source: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes of the
-/// ends of a twill in another order, and gives the twill 2/2*1/1*1/1 for it; here every third of
-/// its ends follows, as in an eight-end satin.
+/// **Source**: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes of
+/// the ends of a twill in another order, and gives the twill 2/2*1/1*1/1 for it. Here every third
+/// of its ends follows, as in an eight-end satin.
 pub(super) const CREPE: [&str; 8] =
     ["##...#.#", "..#.###.", ".###...#", "#...#.##", ".#.###..", "###...#.", "...#.###", "#.###..."];
 
@@ -24,19 +24,19 @@ pub(super) fn drawn(drawing: &[&str], end: usize, pick: usize) -> bool {
     row == Some(&b'#')
 }
 
-/// How a twill's ends turn round where its line changes direction.
+/// How a twill's line changes direction.
 #[derive(Clone, Copy)]
 pub(super) enum Reversal {
-    /// Herringbone: the line is cut, and the other way starts half a repeat further on, so that
-    /// floats of warp meet floats of weft.
+    /// Herringbone: the line is cut, and the other direction starts half a repeat further on, so
+    /// that floats of warp meet floats of weft.
     Cut,
     /// The line turns at a single end, the point.
     Point,
 }
 
 impl Reversal {
-    /// The fewest ends one way with which each pick of a twill on `repeat` ends still meets all of
-    /// them.
+    /// The fewest ends in one direction with which each pick of a twill on `repeat` ends still
+    /// meets all of them.
     pub(super) const fn least(self, repeat: usize) -> usize {
         match self {
             Self::Cut => repeat.div_ceil(2),
@@ -44,7 +44,7 @@ impl Reversal {
         }
     }
 
-    /// Ends of the whole repeat, `way` of them in each direction; a point counts for both.
+    /// Ends of the whole repeat, with `way` ends in each direction. A point counts for both.
     pub(super) const fn ends(self, way: usize) -> usize {
         match self {
             Self::Cut => 2 * way,
@@ -52,7 +52,7 @@ impl Reversal {
         }
     }
 
-    /// Which end of a twill on `repeat` ends stands as `end`, from 0, of a whole repeat.
+    /// The end of a twill on `repeat` ends that stands at `end`, from 0, of a whole repeat.
     pub(super) const fn origin(self, end: usize, way: usize, repeat: usize) -> usize {
         if end < way {
             return end;

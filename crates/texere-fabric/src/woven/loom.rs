@@ -1,4 +1,4 @@
-//! A cloth whose lifts are edited: single yarns are laid anew.
+//! A cloth whose lifts are edited, and single yarns placed anew.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -11,10 +11,10 @@ use super::path::Station;
 use super::yarns::{Kind, Measured, Pass};
 use crate::{FabricError, WovenError, yarn_check};
 
-/// A cloth on the loom: its lifts are changed, and the yarns that this changes are laid anew, each
-/// for itself.
+/// A cloth on the loom. Its lifts are changed one by one, and only the yarns that a change affects
+/// are placed anew.
 ///
-/// Yarns are as [`Woven::yarns`] has them, to the bit, and have its numbers. A lift changes the end
+/// Yarns equal those of [`Woven::yarns`] to the bit, and have its numbers. A lift changes the end
 /// and the pick that cross there, and no other yarn.
 ///
 /// ```
@@ -39,7 +39,7 @@ pub struct Loom {
     passes: Vec<Pass>,
     /// The passes of each yarn.
     yarns: Vec<Range<usize>>,
-    /// The path of threads of each kind, for as long as no thread changes.
+    /// The path of threads of each kind. It stays while no thread changes.
     paths: BTreeMap<Kind, Arc<[Station]>>,
 }
 
@@ -71,15 +71,15 @@ impl Loom {
         self.cloth
     }
 
-    /// Says whether the warp is up at a crossing, both counted from 0. Gives the numbers of the
-    /// yarns that this changes; none where it was so before.
+    /// Puts the warp up or down at a crossing, both counted from 0. Returns the numbers of the
+    /// yarns that this changes: none where it was so before.
     ///
     /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<Vec<usize>, WovenError> {
         self.set_lifts(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
 
-    /// Says whether the warp is up at all crossings of some ends and picks, counted from 0. Gives
+    /// Puts the warp up or down at all crossings of some ends and picks, counted from 0. Returns
     /// the numbers of the yarns that this changes, in order.
     ///
     /// **Errors**: [`WovenError::NoCrossing`] where a crossing lies outside the cloth, which is
@@ -93,7 +93,7 @@ impl Loom {
         let first_pick = self.cloth.warp().len();
         let drawdown = self.cloth.drawdown_mut();
         if ends.end > drawdown.ends() || picks.end > drawdown.picks() {
-            // Counted from 1, as weavers do.
+            // Errors count from 1, as weavers do.
             let (end, pick) = (ends.end, picks.end);
             return Err(WovenError::NoCrossing { end, pick, ends: drawdown.ends(), picks: drawdown.picks() });
         }
@@ -114,17 +114,17 @@ impl Loom {
         Ok(yarns)
     }
 
-    /// Replaces material number `material`, from 0. No yarn lies otherwise for it.
+    /// Replaces material number `material`, from 0. No yarn moves.
     ///
     /// **Errors**: [`WovenError::NoMaterial`].
     pub fn set_material(&mut self, material: usize, with: Material) -> Result<(), WovenError> {
         self.cloth.set_material(material, with)
     }
 
-    /// Gives the threads that yarn number `yarn` consists of the material, the section and the
-    /// twist of `what`. No yarn lies otherwise for it.
+    /// Gives the threads of yarn number `yarn` the material, the section and the twist of `what`.
+    /// No yarn moves.
     ///
-    /// **Errors**: those of [`Woven::new`] for a thread; the cloth is then as it was.
+    /// **Errors**: the errors of [`Woven::new`] for a thread; the cloth is then as it was.
     ///
     /// **Panics** past the last yarn.
     pub fn set_yarn(&mut self, yarn: usize, what: &Yarn) -> Result<(), FabricError> {
@@ -146,7 +146,7 @@ impl Loom {
         Ok(())
     }
 
-    /// What yarn number `yarn` is beside its control points.
+    /// Yarn number `yarn`, without its control points.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -154,7 +154,7 @@ impl Loom {
         self.cloth.yarn(&self.passes[self.yarns[yarn].start]).unwrap_or_default()
     }
 
-    /// Lays yarn number `yarn`, one of [`Woven::yarns`]: `points` becomes its control points.
+    /// Places yarn number `yarn` of [`Woven::yarns`]: `points` becomes its control points.
     ///
     /// **Panics** past the last yarn.
     pub fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
@@ -162,8 +162,8 @@ impl Loom {
         self.each_point(yarn, &mut |point, _| points.push(point));
     }
 
-    /// Where the control points of yarn number `yarn` come from, as
-    /// [`Yarns::sources`](texere_core::Yarns::sources) of [`Woven::yarns`] has it.
+    /// Sources of the control points of yarn number `yarn`, equal to the
+    /// [`Yarns::sources`](texere_core::Yarns::sources) of [`Woven::yarns`].
     ///
     /// **Panics** past the last yarn.
     #[must_use]

@@ -1,6 +1,7 @@
 //! Woven cloth: warp and weft that cross at right angles.
 
 mod bend;
+mod by_set;
 mod cloth;
 mod crimp;
 mod crossing;
@@ -26,22 +27,22 @@ mod thread;
 mod weave;
 mod yarns;
 
-pub use cloth::{POINTS_MAX, Woven};
+pub use by_set::BySet;
+pub(crate) use cloth::POINTS_MAX;
+pub use cloth::Woven;
 pub use crimp::Crimp;
 pub use design::WovenDesign;
 pub use draft::{Draft, Shedding};
-pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
+pub use drawdown::{Drawdown, THREADS_MAX};
 pub use error::WovenError;
 pub use loom::Loom;
-pub use notation::REPEAT_MAX;
 pub(crate) use period::Sample;
 pub use pitch::Pitch;
 pub use relief::{JamReport, Relief, Tightness};
 pub use rest::{Stretch, WovenRest};
 pub use sett::Sett;
 pub use shape::Shape;
-pub use thread::{
-    FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread,
-};
+use thread::FLATNESS_MAX;
+pub use thread::{SPACING_MAX, SPACING_MIN, Thread};
 pub use weave::Weave;
 pub use yarns::NO_CROSSING;

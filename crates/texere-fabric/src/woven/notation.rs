@@ -1,25 +1,24 @@
-//! Reads the notation of weaves; [`super::Weave`] has its grammar.
+//! Reads the notation of weaves. [`super::Weave`] has its grammar.
 
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
 use crate::{WovenError, hyphen_look_alike, slash_look_alike};
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///
-/// Notation is for weaves that a weaver can name; what repeats over more threads than this is a
-/// picture.
-pub const REPEAT_MAX: usize = 4096;
+/// Notation is for weaves that a weaver can name. A weave with a larger repeat is a picture.
+pub(super) const REPEAT_MAX: usize = 4096;
 
 /// A weave as it is written.
 #[derive(Clone)]
 pub(super) enum Notation {
-    /// A row of ends, each pick moved `step` ends (0 to below its length) further to the right;
-    /// `picks` until it is back.
+    /// A row of ends. Each pick moves it `step` ends (0 to below its length) further to the right,
+    /// and `picks` bring it back.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
     /// A column of picks, upright for `left` ends and upside down for `right`.
     Matt { base: Vec<bool>, left: usize, right: usize },
     /// A twill of move 1 whose line goes one way for `way` ends and back again.
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
-    /// Each pick binds one end, from 0: that end alone is down, or up where the weave is not
+    /// Each pick binds one end, from 0. That end alone is down, or up where the weave is not
     /// `warp_faced`.
     Bound { order: Vec<usize>, warp_faced: bool },
     /// A drawing, the last pick on top.
@@ -69,7 +68,7 @@ const ENDS: &str = "the number of its ends: satin 8";
 const THREADS: &str = "how many threads lie together: matt 2, or matt 3/2";
 const FLOATS: &str = "its floats, up and down in turn: twill 2/2";
 
-/// The names of weaves, and how each may be called otherwise.
+/// The names of weaves, and their other names.
 const NAMES: [(&str, &[&str]); 11] = [
     ("plain", &["tabby"]),
     ("twill", &[]),
@@ -84,7 +83,7 @@ const NAMES: [(&str, &[&str]); 11] = [
     ("crepe", &["crape", "oatmeal"]),
 ];
 
-/// Cloths that no drawdown says, by name, and what is expected instead.
+/// Names of cloths that no drawdown describes, and what is expected instead.
 const NOT_DRAWN: [(&[&str], &str); 2] = [
     (
         &["velvet", "velveteen", "corduroy", "plush", "terry"],
@@ -209,7 +208,7 @@ fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, Wov
     Ok(Notation::Reversed { base, reversal, way })
 }
 
-/// A twill or a matt weave. Which hand a twill has may be said before its floats or behind them.
+/// A twill or a matt weave. The hand of a twill may stand before its floats or behind them.
 fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     let before = cursor.hand();
     cursor.word("twill");
@@ -282,8 +281,8 @@ fn twill(
     Ok(Notation::Shifted { base, step, picks: ends / apart })
 }
 
-/// The name of a weave nearest to a word that is none, if any is near: no further than a third of
-/// its letters and one.
+/// The name of a weave nearest to a word that is no name. None where even the nearest differs by
+/// more than a third of its letters and one.
 fn nearest(word: &str) -> Option<&'static str> {
     let word: String = word.chars().take(20).flat_map(char::to_lowercase).collect();
     let names = NAMES.iter().flat_map(|(name, others)| others.iter().chain([name]));
@@ -301,14 +300,14 @@ fn greatest_divisor(mut a: usize, mut b: usize) -> usize {
     b
 }
 
-/// What is left of a text. Every method skips spaces first.
+/// The rest of a text. Every method skips spaces first.
 struct Cursor<'a> {
     text: &'a str,
     rest: &'a str,
 }
 
 impl Cursor<'_> {
-    /// Takes `word`, in any case, where it is a word of its own.
+    /// Takes `word`, in any case, where it stands as a word of its own.
     fn word(&mut self, word: &str) -> bool {
         self.rest = self.rest.trim_start();
         let Some((head, rest)) = self.rest.split_at_checked(word.len()) else { return false };
@@ -319,8 +318,8 @@ impl Cursor<'_> {
         found
     }
 
-    /// Takes the name of a weave and gives the one that it is known by; `None` where none stands,
-    /// as before floats.
+    /// Takes the name of a weave and returns the name that it is known by. None where no name
+    /// stands, as before floats.
     fn name(&mut self) -> Result<Option<&'static str>, WovenError> {
         let before = self.rest;
         if self.hand().is_some() {
@@ -384,7 +383,7 @@ impl Cursor<'_> {
         Ok(if negative { -number } else { number })
     }
 
-    /// Which character comes next, from 1.
+    /// Number of the next character, from 1.
     fn position(&self) -> usize {
         self.text.chars().count() - self.rest.trim_start().chars().count() + 1
     }
@@ -402,7 +401,7 @@ impl Cursor<'_> {
         shown
     }
 
-    /// The next character; nothing at the end.
+    /// The next character; empty at the end.
     fn next(&self) -> &str {
         let next = self.rest.trim_start();
         &next[..next.chars().next().map_or(0, char::len_utf8)]

@@ -1,17 +1,17 @@
-//! The path of threads over and under those that they cross.
+//! Paths of threads over and under those that they cross.
 
 use std::sync::Arc;
 
 use super::bend::{Bend, ROUNDING, STRIDE};
 use super::shape::Shape;
 
-/// The path of all threads of one height across those that they cross. What does not depend on the
-/// sides on which they lie is worked out once.
+/// The path of all threads of one height across those that they cross. Everything that does not
+/// depend on the sides on which they lie is computed once.
 pub(super) struct ThreadPath<'a> {
     bend: Bend<'a>,
-    /// Where the threads come into the cloth and where they leave it, mm.
+    /// Where the threads enter the cloth and where they leave it, mm along the thread.
     edges: [f32; 2],
-    /// What they cross, in the order in which they run.
+    /// The crossings, in the order in which the threads run.
     stations: Arc<[Station]>,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Station {
     at: f32,
     /// Distance from the cloth's middle, mm.
     depth: f32,
-    /// How far away the shoulders are towards the crossings before and after, mm.
+    /// Distance of the shoulders towards the crossings before and after, mm.
     aside: [f32; 2],
     /// Height of the shoulders of a thread that changes sides before the crossing, after it, and
     /// both, mm.
@@ -33,7 +33,7 @@ pub(super) struct Station {
     change: [f32; 3],
 }
 
-/// Indices into what a [`Station`] has for its two sides.
+/// Indices into the values that a [`Station`] has for its two sides.
 const BEFORE: usize = 0;
 const AFTER: usize = 1;
 const BOTH: usize = 2;
@@ -45,27 +45,28 @@ pub(super) struct Stop {
     pub(super) along: f32,
     /// Height, mm.
     pub(super) z: f32,
-    /// The crossed thread at which, or next to which, it lies; none at a cut end.
+    /// The crossed thread at which, or next to which, the point lies; none at a cut end.
     pub(super) crossing: Option<usize>,
 }
 
 impl<'a> ThreadPath<'a> {
-    /// `back` says whether threads run against the order of those that they cross.
+    /// The path of `bend`'s threads. `back` says whether they run against the order of the threads
+    /// that they cross.
     pub(super) fn new(bend: Bend<'a>, stations: Arc<[Station]>, back: bool) -> Self {
         let edges = [0.0, bend.crossed.extent];
         Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations, bend }
     }
 
-    /// Control points of a thread, cut as in [`ThreadPath::walk`], where their number does not
-    /// depend on sides.
+    /// Number of control points of a thread, cut as in [`ThreadPath::walk`], where the number does
+    /// not depend on sides.
     pub(super) fn fixed_count(&self, cut: [bool; 2]) -> Option<usize> {
         let cuts = cut.into_iter().filter(|cut| *cut).count();
         (self.bend.shape == Shape::Crossing).then_some(self.stations.len() + cuts)
     }
 
-    /// Calls `stop` with each control point in order. `above` says on which side of each crossed
-    /// thread the thread lies, `cut` whether it is cut off at the cloth's edge at its beginning and
-    /// at its end.
+    /// Calls `stop` with each control point in order. `above` says whether the thread lies on top
+    /// of a crossed thread; `cut` says whether it is cut off at the cloth's edge at its beginning
+    /// and at its end.
     pub(super) fn walk(&self, above: impl Fn(usize) -> bool, cut: [bool; 2], mut stop: impl FnMut(Stop)) {
         let ([first, ..], [.., last]) = (&self.stations[..], &self.stations[..]) else { return };
         if self.bend.shape == Shape::Crossing {
@@ -123,8 +124,8 @@ impl<'a> ThreadPath<'a> {
     }
 }
 
-/// What threads of one height cross, in the order in which they run: against that of the crossed
-/// ones where they run `back`.
+/// Crossings of threads of one height, in the order in which they run: against that of the crossed
+/// threads where they run `back`.
 pub(super) fn stations(bend: &Bend<'_>, back: bool) -> Arc<[Station]> {
     let count = bend.crossed.at.len();
     let number = |step: usize| if back { count - 1 - step } else { step };
@@ -167,8 +168,8 @@ impl Station {
 }
 
 /// Places of the points between the neighbours `from` and `to` of a thread that lies on different
-/// sides of them: its shoulders, and where it passes the cloth's middle, nearer to the thinner of
-/// the two.
+/// sides of them: both shoulders, and the passage through the cloth's middle, which is nearer to
+/// the thinner of the two.
 fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
     let (start, end) = (bend.crossed.at[from], bend.crossed.at[to]);
     let pitch = bend.pitch(from, to);
@@ -188,9 +189,9 @@ struct Float {
 }
 
 impl Float {
-    /// The points within it, next to the crossings at its ends, on the sides where the thread lies
-    /// there: where the steps beside it are so short that a single step would be too long. Evenly
-    /// spaced threads need none.
+    /// The points within the float, next to the crossings at its ends and on the thread's sides
+    /// there. They stand where the steps beside the float are so short that a single step would be
+    /// too long. Evenly spaced threads need none.
     fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
         let forward = (self.to - self.from).signum();
         let mut left = (self.to - self.from).abs();
@@ -208,7 +209,7 @@ impl Float {
             at += forward * step;
             stop(Stop { along: at, z: first.0, crossing: first.1 });
         }
-        // From the other end the steps grow against the thread's direction: the last one found
+        // From the other end the steps grow against the thread's direction. The last one found
         // comes first.
         let step = self.beside[1].unwrap_or(left);
         let mut steps = 0;

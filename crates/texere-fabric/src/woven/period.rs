@@ -1,5 +1,5 @@
-//! What of woven cloth is measured: whole repeats, so that small samples of a cloth and large ones
-//! have the same numbers.
+//! The part of woven cloth that is measured: whole repeats, so that small and large samples of a
+//! cloth have the same numbers.
 
 use std::borrow::Cow;
 
@@ -9,9 +9,9 @@ use super::{Drawdown, Woven};
 use crate::FabricError;
 use crate::own::Own;
 
-/// A thread that crosses so many others in one repeat alone is measured as it is: the stretch from
-/// its last crossing to its first one in the next repeat changes its crimp by less than a share of
-/// this. The repeat of fewer is woven among others.
+/// Threads that cross at least this many others in one repeat are measured as they are. The stretch
+/// from a thread's last crossing to its first one in the next repeat then changes its crimp by less
+/// than a share of one in this many. Smaller repeats are woven among others to be measured.
 const FEW: usize = 256;
 
 /// Cloth to be measured, with its yarns.
@@ -23,19 +23,19 @@ pub(crate) struct Sample<'a> {
 }
 
 impl Woven {
-    /// As many threads of either set as whole repeats of how they lie and cross have, and what
-    /// these take, mm.
+    /// Number of threads of each set in whole repeats of how they lie and cross, and the width that
+    /// they take, mm.
     pub(crate) fn whole(&self) -> [(usize, f64); 2] {
         self.whole_of(self.repeat())
     }
 
-    /// Those of whole repeats of their yarns' weights as well.
+    /// [`Woven::whole`] for whole repeats of the yarns' weights as well.
     pub(crate) fn whole_by_weight(&self) -> [(usize, f64); 2] {
         self.whole_of(self.repeat_by_weight())
     }
 
     fn whole_of(&self, repeat: [usize; 2]) -> [(usize, f64); 2] {
-        let (middles, size) = (self.middles_mm(), self.size_mm());
+        let (middles, size) = (self.middles_mm().into_array(), self.size_mm());
         [0, 1].map(|set| {
             let count = middles[set].len();
             let whole = if count < repeat[set] { count } else { count / repeat[set] * repeat[set] };
@@ -46,11 +46,11 @@ impl Woven {
 }
 
 impl<'a> Sample<'a> {
-    /// The sample of a cloth and its yarns. Those of a small cloth as it is woven, whose threads
-    /// are cut off straight at its edges, are woven again among others: how a thread bends at the
-    /// edge depends on floats that are cut off there.
+    /// The sample of a cloth and its yarns. A small cloth as it is woven, whose threads are cut off
+    /// straight at its edges, is woven again among others: how a thread bends at the edge depends
+    /// on floats that are cut off there.
     ///
-    /// **Errors**: those of [`Woven::yarns`].
+    /// **Errors**: the errors of [`Woven::yarns`].
     pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
         let repeat = cloth.repeat();
         let counts = [cloth.warp().len(), cloth.weft().len()];
@@ -66,19 +66,21 @@ impl<'a> Sample<'a> {
             let warp = (0..more[0]).map(|end| warp[place(0, end)]).collect();
             let weft = (0..more[1]).map(|pick| weft[place(1, pick)]).collect();
             let cloth = cloth.like(drawdown, warp, weft)?;
-            let (yarns, middles) = (cloth.yarns()?.with_tension(yarns.tension())?, cloth.middles_mm());
+            let (yarns, middles) =
+                (cloth.yarns()?.with_tension(yarns.tension())?, cloth.middles_mm().into_array());
             return Ok(Self { cloth: Cow::Owned(cloth), yarns: Cow::Owned(yarns), repeat, middles });
         }
         Ok(Self {
-            middles: cloth.middles_mm(),
+            middles: cloth.middles_mm().into_array(),
             cloth: Cow::Borrowed(cloth),
             yarns: Cow::Borrowed(yarns),
             repeat,
         })
     }
 
-    /// Length of yarn over length of cloth of each end and each pick: in whole repeats without the
-    /// outermost ones, where there are as many. What turns at a selvedge counts with its picks.
+    /// Length of yarn over length of cloth of each end and each pick, in whole repeats. The
+    /// outermost repeats are left out where there are enough. Turns at a selvedge count with their
+    /// picks.
     pub(crate) fn ratios(&self) -> [Vec<f64>; 2] {
         let threads: Vec<_> = self.cloth.yarns_of_threads().collect();
         let mut passes = vec![0_usize; self.yarns.layout().yarns().len()];
@@ -98,8 +100,7 @@ impl<'a> Sample<'a> {
         ratios
     }
 
-    /// As many repeats of a thread as there are without the outermost ones, and their length in the
-    /// cloth, mm.
+    /// All repeats of a thread but the outermost ones, and their length in the cloth, mm.
     fn round(&self, set: usize, thread: usize, yarn: usize) -> Option<(Own, f64)> {
         let (across, repeat) = (&self.middles[1 - set], self.repeat[1 - set]);
         let repeats = (across.len().saturating_sub(1) / repeat).checked_sub(2)? * repeat;

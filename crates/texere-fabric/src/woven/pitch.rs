@@ -1,12 +1,12 @@
-//! The room that each thread has beside the one before it, and what it needs.
+//! The room that each thread has beside the one before it, and the room that it needs.
 
 use texere_core::Origin;
 
-use super::Woven;
 use super::jam::{Gap, ROUNDING};
 use super::thread::pitches;
+use super::{BySet, Woven};
 
-/// How far a thread lies from the one before it, and how far it should.
+/// Distance of a thread from the one before it, and the least distances that it needs.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -14,10 +14,11 @@ use super::thread::pitches;
 /// let plain = Weave::parse("plain")?.drawdown(3, 3)?;
 /// let (warp, weft) = (vec![Thread::new(0.3, 0.1); 3], vec![Thread::new(0.6, 0.1); 3]);
 /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-/// let [ends, picks] = cloth.pitches();
+/// let pitches = cloth.pitches();
 /// // Round threads alike need √3 diameters for those that cross to pass in between.
-/// assert!((ends[0].passing_mm - 3f64.sqrt() * 0.2).abs() < 1e-6);
-/// assert!(ends[0].is_jammed() && !ends[0].is_crowded() && !picks[0].is_jammed());
+/// assert!((pitches.warp[0].passing_mm - 3f64.sqrt() * 0.2).abs() < 1e-6);
+/// assert!(pitches.warp[0].is_jammed() && !pitches.warp[0].is_crowded());
+/// assert!(!pitches.weft[0].is_jammed());
 /// # Ok::<(), texere_fabric::FabricError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +30,8 @@ pub struct Pitch {
     /// The least distance at which the two lie side by side without piercing: half their widths
     /// together, mm.
     pub beside_mm: f64,
-    /// The least distance at which those that change sides between them can pass, mm; 0 where none
-    /// does.
+    /// The least distance at which crossing threads that change sides between the two can pass, mm;
+    /// 0 where none does.
     pub passing_mm: f64,
 }
 
@@ -49,16 +50,16 @@ impl Pitch {
 }
 
 impl Woven {
-    /// The pitches of the ends from the second one on, and those of the picks, in the cloth's
-    /// present shape.
+    /// The pitches of the ends from the second one on, and of the picks, in the cloth's present
+    /// shape.
     ///
     /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
     /// 1937, for [`Shape::Round`](crate::Shape::Round); measured, for
     /// [`Shape::Crossing`](crate::Shape::Crossing).
     #[must_use]
-    pub fn pitches(&self) -> [Vec<Pitch>; 2] {
+    pub fn pitches(&self) -> BySet<Vec<Pitch>> {
         let [warp, weft] = self.gaps();
-        // What passes between ends is the weft, with its own share of the crimp.
+        // The weft passes between ends, with its own share of the crimp.
         let share = self.warp_share();
         let all = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
             let pitch = |gap: &Gap| Pitch {
@@ -69,10 +70,11 @@ impl Woven {
             };
             gaps.iter().map(pitch).collect()
         };
-        [all(&warp, 1.0 - share, Origin::End), all(&weft, share, Origin::Pick)]
+        BySet { warp: all(&warp, 1.0 - share, Origin::End), weft: all(&weft, share, Origin::Pick) }
     }
 
-    /// The distance of an end or a pick to the thread before, mm; of the first one to the next.
+    /// Distance of an end or a pick to the thread before, mm. The first thread has its distance to
+    /// the next.
     pub(crate) fn pitch_mm(&self, thread: Origin) -> Option<f64> {
         let (set, number) = match thread {
             Origin::End(number) => (self.warp(), number),

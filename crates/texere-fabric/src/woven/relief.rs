@@ -1,63 +1,62 @@
-//! What can be done for threads that are jammed: share the crimp otherwise, flatten them, or thin
-//! them.
+//! Relief of jammed threads: another share of the crimp, flatter threads, or thinner ones.
 
 use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN};
 
 use super::crimp::{Crimp, SHARE_MIN};
 use super::jam::{Gap, ROUNDING, reach};
-use super::{FLATNESS_MAX, Shape, Thread, Woven};
+use super::{BySet, FLATNESS_MAX, Shape, Thread, Woven};
 use crate::{FabricError, ThreadError, WovenError};
 
-/// What to do where threads lie closer together than those that cross them can pass between.
+/// What is done where threads lie closer together than crossing threads can pass between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Relief {
-    /// Nothing: the numbers alone.
+    /// Nothing: only numbers are reported.
     #[default]
     Report,
-    /// Share the crimp otherwise, then flatten: a thread keeps its area and grows wider
+    /// Another share of the crimp, then flatter threads. A thread keeps its area and grows wider
     /// ([`Thread::flatness`]), as far as the threads beside it allow, so that those that cross it
     /// have less to climb.
     Flatten,
-    /// Share the crimp otherwise, then scale all diameters down until everything fits. Materials
-    /// keep their tex.
+    /// Another share of the crimp, then smaller diameters for all threads until everything fits.
+    /// Materials keep their tex.
     Shrink,
 }
 
-/// How close the threads of one set lie, against the least pitch at which those that cross them are
-/// not jammed.
+/// Closeness of the threads of one set, against the least pitch at which crossing threads are not
+/// jammed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tightness {
-    /// How many lie closer than that to the one before.
+    /// Number of threads that lie closer than that to the thread before.
     pub jammed: usize,
-    /// The one that has the least share of its pitch; none where nothing changes sides between two
+    /// The thread with the least share of its pitch. None where nothing changes sides between two
     /// threads.
     pub tightest: Option<Origin>,
-    /// The least pitch there, mm.
+    /// The least pitch at that thread, mm.
     pub pitch_min_mm: f64,
-    /// The pitch there, mm.
+    /// The pitch at that thread, mm.
     pub pitch_mm: f64,
 }
 
 /// What [`Woven::relieve`] found and did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JamReport {
-    /// Ends and picks as they were.
-    pub before: [Tightness; 2],
-    /// Ends and picks as they are now.
-    pub after: [Tightness; 2],
-    /// The warp's share of the crimp, before and now.
+    /// Threads before relief.
+    pub before: BySet<Tightness>,
+    /// Threads after relief.
+    pub after: BySet<Tightness>,
+    /// The warp's share of the crimp, before relief and after.
     pub warp_share: [f32; 2],
-    /// By how much ends and picks grew wider, 1 for not at all; their height fell in the same
-    /// ratio.
-    pub widened: [f32; 2],
-    /// By how much all diameters were scaled.
+    /// Factor by which threads grew wider, 1 for not at all. Their height fell in the same ratio.
+    pub widened: BySet<f32>,
+    /// Factor of all diameters.
     pub scaled: f32,
 }
 
-/// Room, in pitches that just are not jammed, from which threads stay at 0.99 of touching, and a
-/// little over. Tested: round threads from 1.0 at a share of 0.5, 1.04 at 0.35 and 1.15 at 0.2,
-/// ellipses twice as wide as high (by their surfaces) from 1.02 at 0.5 and 1.1 at 0.35.
+/// The least room that counts as enough, in pitches that are just not jammed: threads then stay at
+/// 0.99 of touching, and a little over. Tested with round threads from 1.0 at a share of 0.5, 1.04
+/// at 0.35 and 1.15 at 0.2, and with ellipses twice as wide as high (by their surfaces) from 1.02
+/// at 0.5 and 1.1 at 0.35.
 fn slack(share: f32) -> f32 {
     1.03 + 0.5 * (share - 0.5).abs()
 }
@@ -66,10 +65,10 @@ fn slack(share: f32) -> f32 {
 const WIDTH_STEP: f32 = 0.05;
 const SHARE_STEP: f32 = 0.025;
 
-/// The most by which a thread is widened: four times as wide over high as before.
+/// The greatest factor of a thread's width: four times as wide over high as before.
 const WIDENED_MAX: f32 = 2.0;
 
-/// What may be changed about a cloth without thinning its threads.
+/// A change of a cloth that thins none of its threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Change {
     share: f32,
@@ -77,8 +76,8 @@ struct Change {
     widened: [f32; 2],
 }
 
-/// The gaps of a set that can be the tightest: each as (half the widths together, thickest between)
-/// over its pitch.
+/// The gaps of a set that can be the tightest: half the widths together and the thickest thread
+/// between, each over the pitch.
 struct Needs(Vec<[f32; 2]>);
 
 impl Needs {
@@ -87,7 +86,7 @@ impl Needs {
             .iter()
             .map(|gap| [gap.widths, gap.between.unwrap_or(0.0)].map(|size| size / gap.pitch as f32))
             .collect();
-        // Widest first; after it only those with thicker threads between can matter.
+        // Widest first. After a gap only gaps with thicker threads between can matter.
         needs.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
         let mut thickest = f32::NEG_INFINITY;
         needs.retain(|[_, between]| {
@@ -98,7 +97,7 @@ impl Needs {
         Self(needs)
     }
 
-    /// The largest pitch that is needed, in those that there are. `share` is that of the threads
+    /// The largest pitch that is needed, over the pitch there is. `share` is that of the threads
     /// between.
     fn worst(&self, share: f32, own: f32, crossing: f32) -> f32 {
         let needed = |[widths, between]: &[f32; 2]| {
@@ -111,20 +110,22 @@ impl Needs {
 }
 
 impl Woven {
-    /// Makes room where threads are jammed, as `relief` says, and reports what there was and what
-    /// there is.
+    /// Makes room where threads are jammed, as `relief` says, and reports the threads before and
+    /// after.
     ///
-    /// In this order: first the warp's share of the crimp moves, within 20 and 80 %, as little as
-    /// it must (a share that was given as [`Crimp::WarpShare`] stays); it costs nothing, and where
-    /// one set is dense its threads do the bending in real cloth too. Only what is still jammed is
-    /// then flattened or thinned. Flattening goes for the set that passes between the jammed
-    /// threads: a wider thread needs more room beside, so what relieves one set may jam the other.
-    /// What can't be relieved stays and is reported. All threads of a set are flattened alike:
-    /// finishing can't single out threads. Their sections, and what turns with the twist, stay
-    /// inside the flattened outline.
+    /// First the warp's share of the crimp moves, within 20 and 80 %, as little as it must. A share
+    /// that was given as [`Crimp::WarpShare`] stays. This costs nothing, and in real cloth, too, a
+    /// dense set makes the threads that cross it bend. Threads that are still jammed are then
+    /// flattened or thinned.
     ///
-    /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least
-    /// one: only there the spline keeps the threads clear. The least pitch is that of
+    /// Flattening changes the set that passes between the jammed threads. A wider thread needs more
+    /// room beside it, so that relief of one set may jam the other. Threads that can't be relieved
+    /// stay and are reported. All threads of a set are flattened alike, since finishing can't
+    /// single out threads. Their sections, and what turns with the twist, stay inside the flattened
+    /// outline.
+    ///
+    /// A pitch counts as enough from 1.03 times (half the crimp each) to 1.18 times (a fifth) the
+    /// least pitch: only there the spline keeps the threads clear. The least pitch is that of
     /// [`Shape::Round`], whatever the cloth's own shape.
     ///
     /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] where a thread would have to be
@@ -132,14 +133,14 @@ impl Woven {
     ///
     /// ```
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{Relief, Thread, Weave, Woven};
+    /// use texere_fabric::{BySet, Relief, Thread, Weave, Woven};
     /// // Denim: ends 1.3 diameters apart.
     /// let twill = Weave::parse("3/1")?.drawdown(20, 20)?;
     /// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
     /// let mut cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let report = cloth.relieve(Relief::Flatten)?;
-    /// assert_eq!(report.before.map(|set| set.jammed), [19, 0]);
-    /// assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
+    /// assert_eq!(report.before.map(|set| set.jammed), BySet { warp: 19, weft: 0 });
+    /// assert_eq!(report.after.map(|set| set.jammed), BySet { warp: 0, weft: 0 });
     /// assert!(report.warp_share[1] > report.warp_share[0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
@@ -171,7 +172,13 @@ impl Woven {
 
         let [warp, weft] = self.gaps();
         let after = tightness(&warp, &weft, self.warp_share());
-        Ok(JamReport { before, after, warp_share: [share, change.share], widened: change.widened, scaled })
+        Ok(JamReport {
+            before,
+            after,
+            warp_share: [share, change.share],
+            widened: BySet::of(change.widened),
+            scaled,
+        })
     }
 
     /// The shares that may be tried beside `share`.
@@ -223,8 +230,8 @@ impl Woven {
     }
 }
 
-/// The change that asks least of the cloth among those with which everything fits, or else the one
-/// with which it fits best: widths before shares, as a share costs nothing.
+/// The smallest change with which everything fits, or else the change with which the cloth fits
+/// best. Widths count before shares, since a share costs nothing.
 fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn(&Change) -> f32) -> Change {
     let cost = |change: &Change| {
         let excess = (worst(change) - 1.0).max(0.0);
@@ -246,8 +253,8 @@ fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn
     found.1
 }
 
-/// How close ends and picks lie; `share` is the warp's.
-fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> [Tightness; 2] {
+/// Tightness of ends and picks; `share` is the warp's.
+fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> BySet<Tightness> {
     let set = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
         let mut found = Tightness { jammed: 0, tightest: None, pitch_min_mm: 0.0, pitch_mm: 0.0 };
         for gap in gaps.iter().filter(|gap| gap.between.is_some()) {
@@ -260,5 +267,5 @@ fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> [Tightness; 2] {
         }
         found
     };
-    [set(warp, 1.0 - share, Origin::End), set(weft, share, Origin::Pick)]
+    BySet { warp: set(warp, 1.0 - share, Origin::End), weft: set(weft, share, Origin::Pick) }
 }

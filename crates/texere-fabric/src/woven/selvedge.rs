@@ -1,4 +1,4 @@
-//! The weft's way round the edge ends, from one pick to the next.
+//! The weft's turns round the edge ends, from one pick to the next.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::thread::Thread;
 /// Control points of a turn, on a half circle.
 pub(super) const TURN_POINTS: usize = 5;
 
-/// Picks that one yarn makes: all by themselves, or with `selvedge` runs of picks alike in
+/// The picks of each yarn: each pick by itself, or with `selvedge` each run of picks alike in
 /// material, section and twist.
 pub(super) fn runs(weft: &[Thread], selvedge: bool) -> Vec<Range<usize>> {
     let goes_on = |a: &Thread, b: &Thread| {
@@ -24,17 +24,18 @@ pub(super) fn runs(weft: &[Thread], selvedge: bool) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether a pick runs to the left: with a selvedge every other one, whatever yarn it belongs to.
+/// Whether a pick runs to the left. With a selvedge every other pick does, whatever yarn it belongs
+/// to.
 pub(super) const fn runs_left(pick: usize, selvedge: bool) -> bool {
     selvedge && pick % 2 == 1
 }
 
-/// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`; `outwards`
-/// is +1 at the right edge, -1 at the left. On its way it passes evenly from one pick's height and
-/// sizes to the other's.
+/// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`. `outwards`
+/// is +1 at the right edge, -1 at the left. Height and sizes pass evenly from one pick's to the
+/// other's.
 ///
 /// Where the two picks lie on different sides of the edge end, the turn is level with that end half
-/// way round, as far from it as anywhere.
+/// way round, at its greatest distance from it.
 pub(super) fn turn(
     x: f32,
     outwards: f32,

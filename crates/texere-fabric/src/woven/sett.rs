@@ -1,6 +1,6 @@
 //! The greatest sett of a weave and its yarns.
 
-use super::{Thread, Woven};
+use super::{BySet, Thread, Woven};
 
 /// How close the threads of a set lie, and how close they may lie in their weave, threads to the
 /// cm.
@@ -12,7 +12,7 @@ use super::{Thread, Woven};
 /// let threads = vec![Thread::new(25.4 / 30.0, 0.5 * 25.4 / 52.0); 16];
 /// let twill = Weave::parse("2/2")?.drawdown(16, 16)?;
 /// let cloth = Woven::new(twill, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
-/// let [ends, _] = cloth.setts();
+/// let ends = cloth.setts().warp;
 /// assert!((2.54 * ends.per_cm - 30.0).abs() < 1e-6);
 /// // Ashenhurst has 34 ends to the inch for it.
 /// assert_eq!((2.54 * ends.greatest_per_cm) as u32, 34);
@@ -55,9 +55,9 @@ impl Sett {
 }
 
 impl Woven {
-    /// The setts of warp and weft. Diameters are those of the round yarns.
+    /// The setts of warp and weft, with the diameters of the round yarns.
     #[must_use]
-    pub fn setts(&self) -> [Sett; 2] {
+    pub fn setts(&self) -> BySet<Sett> {
         let whole = self.whole();
         let sets = [self.warp(), self.weft()];
         let diameters = sets.map(|threads| {
@@ -67,7 +67,7 @@ impl Woven {
         let levels = self.interlacings();
         let is_plain = levels.iter().all(|levels| matches!(levels[..], [Level { interlacings: 1.0, .. }]));
         let pitches = [0, 1].map(|set| whole[set].1 / whole[set].0 as f64);
-        [0, 1].map(|set| {
+        BySet { warp: 0, weft: 1 }.map(|set: usize| {
             // Each level has its share of the threads.
             let greatest = levels[set]
                 .iter()
@@ -81,8 +81,8 @@ impl Woven {
         })
     }
 
-    /// How often picks change sides between one end and the next of its level, and ends between
-    /// picks, for each level. Where a level of both sets is a layer, within it.
+    /// The interlacings of each level of each set: how often threads of the other set change sides
+    /// between neighbours. Where a level of both sets is a layer, only threads within it count.
     fn interlacings(&self) -> [Vec<Level>; 2] {
         let repeat = self.repeat();
         let levels = self.levels(repeat);
@@ -116,16 +116,16 @@ impl Woven {
     }
 }
 
-/// A level of a set: its share of the threads, and how often those of the other set change sides
-/// between them.
+/// A level of a set: its share of the threads, and how often threads of the other set change sides
+/// between its neighbours.
 struct Level {
     share: f64,
     interlacings: f64,
 }
 
-/// The pitch at which threads of plain weave jam between those of the other set, mm: cos θ₁ + cos
-/// θ₂ = 1, where each set's pitch is the sum of both heights times sin θ, and what it is wider than
-/// high.
+/// The pitch at which threads of plain weave jam between those of the other set, mm. It solves cos
+/// θ₁ + cos θ₂ = 1, where each set's pitch is the sum of both heights times sin θ, and the excess
+/// of its width over its height.
 fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
     let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
         let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));

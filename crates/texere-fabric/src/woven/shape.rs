@@ -1,12 +1,11 @@
-//! What shapes of cloth there are, and the threads of one direction as those that cross them see
-//! them.
+//! Shapes of cloth, and the threads of one direction as crossing threads see them.
 
 use texere_core::Section;
 
 use super::thread::{Thread, middles, pitches};
 use crate::reach::Reach;
 
-/// How many control points a thread gets, and where.
+/// Number and places of a thread's control points.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -26,12 +25,12 @@ use crate::reach::Reach;
 #[non_exhaustive]
 pub enum Shape {
     /// One control point a crossing, and one before and after: the paper's count. Threads swing out
-    /// further than they are thick, so that the corners that the spline cuts stay clear; floats
+    /// further than they are thick, so that the corners that the spline cuts stay clear. Floats
     /// bulge.
     Crossing,
-    /// Threads bend round one another as round threads do, and floats lie flat: three more control
-    /// points wherever a thread changes sides (and a few within floats that are long beside a close
-    /// pitch).
+    /// Threads bend round one another as round threads do, and floats lie flat. It takes three more
+    /// control points wherever a thread changes sides, and a few within floats that are long beside
+    /// a close pitch.
     #[default]
     Round,
 }
@@ -41,10 +40,10 @@ pub enum Shape {
 pub(super) struct Set {
     /// Where each thread lies, mm.
     pub(super) at: Vec<f32>,
-    /// Half the width of the room that each thread takes, mm: an ellipse that holds its section
+    /// Half the width of each thread's room, mm. The room is an ellipse that holds the section
     /// however twist turns it.
     pub(super) half_width: Vec<f32>,
-    /// Half its height, mm.
+    /// Half the height of each thread's room, mm.
     pub(super) half_height: Vec<f32>,
     /// Mean distance of each thread to its neighbours, mm.
     pub(super) pitch: Vec<f32>,

@@ -1,4 +1,4 @@
-//! Threads of a cloth, as they are given, and where their spacings put them.
+//! Threads of a cloth, and where their spacings put them.
 
 use texere_core::Halves;
 
@@ -9,18 +9,18 @@ pub const SPACING_MIN: f64 = 1e-6;
 pub const SPACING_MAX: f64 = 1e6;
 
 /// The least flatness of a thread: ten times as high as wide.
-pub const FLATNESS_MIN: f32 = 0.1;
+pub(super) const FLATNESS_MIN: f32 = 0.1;
 
 /// The most flatness of a thread: ten times as wide as high.
-pub const FLATNESS_MAX: f32 = 10.0;
+pub(super) const FLATNESS_MAX: f32 = 10.0;
 
 /// The least stiffness of a thread, in that of cotton.
-pub const STIFFNESS_MIN: f32 = 0.01;
+pub(super) const STIFFNESS_MIN: f32 = 0.01;
 
-/// The most stiffness of a thread, likewise.
-pub const STIFFNESS_MAX: f32 = 100.0;
+/// The most stiffness of a thread, in that of cotton.
+pub(super) const STIFFNESS_MAX: f32 = 100.0;
 
-/// One end or one pick: what it is like, and how wide a column of the cloth it has.
+/// One end or one pick: its yarn, and the width of its column of the cloth.
 ///
 /// ```
 /// use texere_fabric::Thread;
@@ -29,16 +29,16 @@ pub const STIFFNESS_MAX: f32 = 100.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thread {
-    /// Width of its column of the cloth, mm; the thread lies in the middle. So two neighbours are
-    /// half of each spacing apart.
+    /// Width of its column of the cloth, mm. The thread lies in the middle, so that two neighbours
+    /// are half of each spacing apart.
     pub spacing_mm: f64,
     /// Radius of the yarn where it is round, mm.
     pub radius_mm: f32,
-    /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one. The
-    /// section, and what turns with the twist, is inside that outline.
+    /// Width over height in the cloth, from 0.1 to 10, 1 for a round thread. The area stays that of
+    /// the round yarn. The section, and what turns with the twist, is inside that outline.
     pub flatness: f32,
-    /// How stiff it is against bending where the cloth comes to rest: 1 for a cotton yarn of its
-    /// diameter.
+    /// Stiffness against bending where the cloth comes to rest, from 0.01 to 100: 1 for a cotton
+    /// yarn of its diameter.
     pub stiffness: f32,
     /// Index into the materials.
     pub material: u32,
@@ -63,15 +63,15 @@ impl Thread {
         [self.radius_mm * flatter, self.radius_mm / flatter]
     }
 
-    /// The same as control points have it.
+    /// Half its width and half its height as control points hold them.
     pub(super) fn halves(&self) -> Halves {
         let [width, height] = self.halves_mm();
         Halves::new(width, height)
     }
 }
 
-/// Where the threads of a set lie, mm from the cloth's edge: each in the middle of a column as wide
-/// as its own spacing.
+/// Middles of a set's threads, mm from the cloth's edge. Each lies in the middle of a column as
+/// wide as its own spacing.
 ///
 /// **Source**: WIF 1.1 (Nielsen 1997) calls a thread's spacing the room that it takes in the cloth.
 pub(super) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {
@@ -83,7 +83,7 @@ pub(super) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {
     })
 }
 
-/// From each thread of a set to the next one, mm.
+/// Distance from each thread of a set to the next one, mm.
 pub(crate) fn pitches(threads: &[Thread]) -> impl Iterator<Item = f64> {
     threads.iter().zip(threads.iter().skip(1)).map(|(one, next)| (one.spacing_mm + next.spacing_mm) / 2.0)
 }

@@ -62,8 +62,8 @@ pub struct Weave {
     repeat: Repeat,
 }
 
-/// What is repeated. A notation stays one: a satin of 4,095 ends would fill two megabytes, of which
-/// a small cloth sees nothing.
+/// The repeat. A notation is kept as one: the drawdown of a satin of 4,095 ends would fill two
+/// megabytes, of which a small cloth needs little.
 #[derive(Clone)]
 enum Repeat {
     Written(Notation),
@@ -71,13 +71,13 @@ enum Repeat {
 }
 
 impl fmt::Debug for Weave {
-    /// The size alone, as of a [`Drawdown`].
+    /// Shows the size alone, as [`Drawdown`] does.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Weave").field("repeat", &self.repeat()).finish_non_exhaustive()
     }
 }
 
-/// Weaves are equal where all crossings of their repeats are, however they are written.
+/// Weaves are equal where all crossings of their repeats are, whatever their notation.
 impl PartialEq for Weave {
     fn eq(&self, other: &Self) -> bool {
         let (ends, picks) = self.repeat();
@@ -91,7 +91,7 @@ impl Eq for Weave {}
 impl Weave {
     /// The weave that repeats `repeat`.
     ///
-    /// **Errors**: [`WovenError::Repeat`] for more than [`REPEAT_MAX`] ends or picks.
+    /// **Errors**: [`WovenError::Repeat`] for more than 4096 ends or picks.
     pub fn new(repeat: Drawdown) -> Result<Self, WovenError> {
         Self { repeat: Repeat::Woven(repeat) }.checked()
     }
@@ -137,7 +137,7 @@ impl Weave {
 
     /// A cloth of `ends` and `picks` in this weave.
     ///
-    /// **Errors**: those of [`Drawdown::new`].
+    /// **Errors**: the errors of [`Drawdown::new`].
     pub fn drawdown(&self, ends: usize, picks: usize) -> Result<Drawdown, FabricError> {
         Drawdown::repeating(ends, picks, self.repeat(), |end, pick| self.up(end, pick))
     }

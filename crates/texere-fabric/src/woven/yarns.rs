@@ -13,14 +13,15 @@ use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven};
 use crate::{FabricError, WovenError};
 
-/// The source of a control point that is next to no crossing: a yarn's first and last, and its
-/// turns at a selvedge.
+/// The source of a control point next to no crossing: a yarn's first and last point, and its turns
+/// at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;
 
-/// Every crossing has two control points, so that none is numbered as high as [`NO_CROSSING`].
+/// A cloth has at least two control points a crossing, so no crossing's number reaches
+/// [`NO_CROSSING`].
 const _: () = assert!(POINTS_MAX / 2 < NO_CROSSING as u64);
 
-/// What is woven in one go: an end, or a pick after the turn that leads to it.
+/// One passage of a thread through the cloth: an end, or a pick after the turn that leads to it.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Pass {
     End(usize),
@@ -28,7 +29,7 @@ pub(super) enum Pass {
     Pick(usize, [bool; 2]),
 }
 
-/// What the paths of a cloth's threads depend on beside the drawdown.
+/// Everything but the drawdown that the paths of a cloth's threads depend on.
 #[derive(Debug, Clone)]
 pub(super) struct Measured {
     warp: Set,
@@ -43,7 +44,7 @@ pub(super) struct Laying<'a> {
     measured: &'a Measured,
 }
 
-/// Threads that take one path: ends or picks, those that run left, and the half height.
+/// Threads that share a path: ends or picks, running left or right, of one half height.
 pub(super) type Kind = (bool, bool, u32);
 
 impl Woven {
@@ -62,7 +63,7 @@ impl Woven {
     /// section and twist are one yarn, whose origin is its first pick. Odd picks run along +x, even
     /// ones back.
     ///
-    /// **Errors**: [`WovenError::Points`] for more than [`POINTS_MAX`] control points,
+    /// **Errors**: [`WovenError::Points`] for more than 2³² control points,
     /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for what only the whole shows.
     ///
     /// **Source**: one control point a crossing is the paper's count; the height of a crossing and
@@ -129,7 +130,7 @@ impl Woven {
         ends.chain(picks).collect()
     }
 
-    /// The set, 0 for ends and 1 for picks, and the yarn of each end and each pick.
+    /// The set (0 for ends and 1 for picks) and the yarn of each end and each pick.
     pub(crate) fn yarns_of_threads(&self) -> impl Iterator<Item = (usize, usize)> {
         let mut yarns = 0;
         self.passes().into_iter().map(move |pass| {
@@ -152,8 +153,7 @@ impl Woven {
         Ok(())
     }
 
-    /// What belongs to the yarn that begins with a pass beside its control points; none where none
-    /// begins.
+    /// The yarn that begins with a pass, without its control points. None where no yarn begins.
     pub(super) fn yarn(&self, pass: &Pass) -> Option<Yarn> {
         let (thread, origin): (Thread, _) = match *pass {
             Pass::End(end) => (self.warp()[end], Origin::End(end as u32 + 1)),
@@ -266,10 +266,10 @@ impl<'a> Laying<'a> {
         selvedge::runs_left(pick, self.cloth.selvedge())
     }
 
-    /// The turn from the pick before to `pick`. It begins as far beyond the edge end as both
-    /// threads are wide by half, so that the two can't touch whatever the end's height, or a
-    /// quarter of the picks' distance, so that the turn's steps are not much longer than the one
-    /// that leads to it.
+    /// The turn from the pick before to `pick`. It begins beyond the edge end by half the widths of
+    /// both threads, so that the two can't touch whatever the end's height. Where a quarter of the
+    /// picks' distance is more it begins that far out, so that the turn's steps are not much longer
+    /// than the step that leads to it.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let Measured { warp, weft, .. } = self.measured;
         let right = self.runs_left(pick);
@@ -288,7 +288,7 @@ impl<'a> Laying<'a> {
 }
 
 impl Pass {
-    /// Whether it is cut off at its beginning and at its end.
+    /// Whether it is cut off at its beginning, and at its end.
     pub(super) const fn cut(self) -> [bool; 2] {
         match self {
             Self::End(_) => [true; 2],
@@ -309,7 +309,7 @@ pub(super) struct Pen<'a> {
 }
 
 impl<'a> Pen<'a> {
-    /// A pen for each pass, that writes so many.
+    /// A pen for each pass, with room for the pass's number of points.
     pub(super) fn all(
         mut points: &'a mut [ControlPoint],
         mut sources: &'a mut [u32],

@@ -1,12 +1,13 @@
 //! Cloths of several layers at rest.
 
+use texere_core::crossings::Set;
 use texere_core::{Material, Origin, Section};
 use texere_fabric::{Drawdown, Thread, Woven, WovenRest};
 
 use crate::surfaces::Surfaces;
 use crate::{at_rest, plain, tightest};
 
-/// Ends, and picks, of a cloth.
+/// Number of ends, and of picks.
 const THREADS: usize = 24;
 
 /// Diameter of all threads, mm.
@@ -16,19 +17,20 @@ fn twill(end: usize, pick: usize) -> bool {
     (end + 64 - pick) % 4 < 2
 }
 
-/// Two cloths of a weave, face ends and picks first by turns. Where `stitched`, some ends of the
-/// back are lifted over a pick of the face.
+/// Two layers of one weave. Ends and picks belong to the face and to the back by turns, the face
+/// first. Where `stitched`, some back ends are lifted over a face pick.
 fn double(weave: fn(usize, usize) -> bool, stitched: bool) -> Drawdown {
     let up = move |end: usize, pick: usize| match [end % 2, pick % 2] {
         [0, 0] | [1, 1] => weave(end / 2, pick / 2),
         [0, _] => true,
-        // Where the ends beside it float over that pick, and it lies over the picks beside it.
+        // A stitch: the ends beside it float over that pick, and the back end lies over the picks
+        // beside it.
         _ => stitched && (end / 2).is_multiple_of(4) && (end / 2 + 64 - pick / 2).is_multiple_of(8),
     };
     Drawdown::from_fn(THREADS, THREADS, up).unwrap()
 }
 
-/// Picks by turns of the face, in a weft-faced twill, and of the back, in a warp-faced one.
+/// Picks by turns of the face, which is a weft-faced twill, and of the back, a warp-faced one.
 fn weft_backed(end: usize, pick: usize) -> bool {
     let step = (end + 64 - pick / 2) % 4;
     if pick.is_multiple_of(2) { step == 0 } else { step != 2 }
@@ -37,11 +39,18 @@ fn weft_backed(end: usize, pick: usize) -> bool {
 /// A cloth whose layers have threads every `pitch` diameters.
 fn cloth(drawdown: Drawdown, pitch: f64) -> Woven {
     let levels = drawdown.levels().map(|levels| levels.into_iter().max().unwrap_or(0) + 1);
-    let threads = |set: usize| {
+    let threads = |set: Set| {
         let spacing = pitch * DIAMETER / f64::from(levels[set]);
         vec![Thread::new(spacing, (DIAMETER / 2.0) as f32); THREADS]
     };
-    Woven::new(drawdown, threads(0), threads(1), vec![Material::default()], vec![Section::Circle]).unwrap()
+    Woven::new(
+        drawdown,
+        threads(Set::Warp),
+        threads(Set::Weft),
+        vec![Material::default()],
+        vec![Section::Circle],
+    )
+    .unwrap()
 }
 
 #[test]
@@ -64,22 +73,23 @@ fn layers_lie_on_one_another() {
             rest.crossings.passes,
             rest.clearance[0],
             rest.clearance[1],
-            rest.area[0][0],
-            rest.area[1][0],
-            rest.area[0][1],
-            rest.area[1][1],
+            rest.area.warp,
+            rest.area.weft,
+            rest.area_least.warp,
+            rest.area_least.weft,
             surfaces.thickness(),
         );
         assert!(clearance >= 0.98, "{name}: {clearance}");
         assert!(folds >= 1.0, "{name} folds: {folds}");
-        for set in 0..2 {
-            assert!(rest.area[set][0] >= area, "{name}: area {:?}", rest.area);
+        for set in Set::BOTH {
+            assert!(rest.area[set] >= area, "{name}: area {:?}", rest.area);
         }
         threads_cross_as_they_are_woven(&woven, &rest);
     }
 }
 
-/// At every crossing the thread that the drawdown has on top lies higher, whatever its layer.
+/// At every crossing the thread that the drawdown puts on top lies higher, in whichever layer it
+/// is.
 fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
     let path = |yarn: usize| -> Vec<[f64; 3]> {
         let points = rest.yarns.yarn_points(yarn).unwrap();
@@ -91,7 +101,7 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
         let [one, two] = [path[after - 1], path[after]];
         one[2] + (at - one[axis]) / (two[axis] - one[axis]) * (two[2] - one[2])
     };
-    // Threads shift sideways: an end's place is that of its nearest point.
+    // Threads shift sideways: the point of an end that lies nearest to the pick counts.
     let place = |path: &[[f64; 3]], axis: usize, along: usize, at: f64| {
         let near = path.iter().min_by(|one, two| (one[along] - at).abs().total_cmp(&(two[along] - at).abs()));
         near.unwrap()[axis]
@@ -101,8 +111,8 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
         assert!(matches!(rest.yarns.layout().yarns()[end].origin, Origin::End(_)));
         for pick in 0..THREADS {
             let (warp, weft) = (&paths[end], &paths[THREADS + pick]);
-            let x = place(warp, 0, 1, middles[1][pick]);
-            let y = place(weft, 1, 0, middles[0][end]);
+            let x = place(warp, 0, 1, middles.weft[pick]);
+            let y = place(weft, 1, 0, middles.warp[end]);
             let over = height(warp, 1, y) - height(weft, 0, x);
             let up = woven.drawdown().up(end, pick);
             assert!((over > 0.0) == up, "end {end}, pick {pick}: {over}, {up}");
@@ -110,7 +120,7 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
     }
 }
 
-/// Two layers side by side in one would be far from clear.
+/// Layers that are laid into one plane are far from clear: the test is able to fail.
 #[test]
 fn layers_in_one_place_pierce() {
     let clearance = Surfaces::new(&cloth(double(plain, false), 2.0).yarns().unwrap()).clearance();

@@ -1,4 +1,4 @@
-//! Cloths of the mills at rest, drawn, and measured by sections that the test samples itself.
+//! Commercial cloths at rest, as drawn, measured by sections that the test samples itself.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -10,27 +10,29 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 use texere_contact::clearance;
+use texere_core::crossings::Set;
 use texere_core::settling::Length;
 use texere_core::{Material, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{
-    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
+    BySet, Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
 };
 
 use surfaces::Surfaces;
 
-/// A cloth, its yarns in tex, and what it is held to.
+/// A cloth, its yarns in tex, and its bounds.
 struct Cloth {
     name: &'static str,
     woven: Woven,
     tex: [f64; 2],
-    /// The least that is left of the area of warp and weft.
+    /// The least share that is left of the sections' area in warp and in weft.
     area: [f64; 2],
-    /// Published crimp of warp and weft, per cent, which has to be met within four points.
+    /// Published crimp of warp and weft, per cent. Measured crimp has to lie within four points of
+    /// it.
     crimp: [Option<f64>; 2],
 }
 
-/// Peirce's cotton.
+/// A cotton yarn, with Peirce's diameter.
 fn diameter(tex: f64) -> f64 {
     0.0373 * tex.sqrt()
 }
@@ -63,11 +65,11 @@ fn satin(end: usize, pick: usize) -> bool {
     !(end + 64 - 3 * (pick % 8)).is_multiple_of(8)
 }
 
-/// Counts and threads to the inch as mills sell them.
+/// Counts and threads per inch of cloths on sale.
 ///
-/// Crimp of denim: 10 to 14 % of the warp in mills. Of poplin: "the warp crimp could be 14 % and
-/// the weft crimp only 2 %"
-/// (<https://www.textilecalculations.com/calculate-crimp-percentage-of-woven-fabric/>). Of sheeting
+/// Sources of crimp. Denim: 10 to 14 % in the warp, from mills. Poplin: "the warp crimp could be 14
+/// % and the weft crimp only 2 %"
+/// (<https://www.textilecalculations.com/calculate-crimp-percentage-of-woven-fabric/>). Sheeting
 /// and sateen: J. T. Taylor, "Cotton weaving and designing", 6th edition: intersections to the inch
 /// × 4, in medium cloths × 3, over the weft's count.
 fn cloths() -> Vec<Cloth> {
@@ -128,7 +130,7 @@ fn finished(woven: &Woven, finish: &Finish) -> WovenRest {
     woven.at_rest(finish, 0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(())).unwrap()
 }
 
-/// The radius of the tightest bend over how far the thread reaches into it.
+/// The radius of the tightest bend, over the distance by which the thread reaches into it.
 fn tightest(yarns: &Yarns) -> f64 {
     clearance(yarns, &Settings::default()).unwrap().curvature_min
 }
@@ -153,7 +155,7 @@ fn cloths_of_the_mills_come_to_rest() {
         let spacing = [0, 1].map(|set| sets[set][0].spacing_mm);
         // One repeat in the middle, seen from above.
         let middle = DVec2::from(woven.size_mm()) / 2.0;
-        let repeat = DVec2::new(spacing[0] * rest.repeat[0] as f64, spacing[1] * rest.repeat[1] as f64);
+        let repeat = DVec2::new(spacing[0] * rest.repeat.warp as f64, spacing[1] * rest.repeat.weft as f64);
         let [ground, weft] = surfaces.seen([middle - repeat / 2.0, middle + repeat / 2.0], 200);
         let widths = surfaces.widths();
         let bare = [0, 1].map(|set| (1.0 - widths[set] / spacing[set]).max(0.0));
@@ -166,12 +168,12 @@ fn cloths_of_the_mills_come_to_rest() {
             rest.clearance[0],
             rest.clearance[1],
             rest.rounds,
-            rest.area[0][0],
-            rest.area[1][0],
-            rest.area[0][1],
-            rest.area[1][1],
-            rest.area_lost[0],
-            rest.area_lost[1],
+            rest.area.warp,
+            rest.area.weft,
+            rest.area_least.warp,
+            rest.area_least.weft,
+            rest.area_lost.warp,
+            rest.area_lost.weft,
             crimp[0] * 100.0,
             crimp[1] * 100.0,
             (1.0 - ground) * 100.0,
@@ -187,13 +189,14 @@ fn cloths_of_the_mills_come_to_rest() {
             "{name}: {} and {clearance}",
             rest.clearance[1]
         );
+        let areas = rest.area.into_array();
         for set in 0..2 {
-            assert!(rest.area[set][0] >= cloth.area[set], "{name}: area {:?}", rest.area);
+            assert!(areas[set] >= cloth.area[set], "{name}: area {:?}", rest.area);
             let off = cloth.crimp[set].map_or(0.0, |published| 100.0 * crimp[set] - published);
             assert!(off.abs() < 4.0, "{name}: crimp {crimp:?}");
         }
         assert!((weight / usual_weight(&cloth) - 1.0).abs() < 0.1, "{name}: {weight} g/m2");
-        // The Jacquard's widths change from one weave to the other.
+        // Widths of the Jacquard's threads change where its weaves meet.
         let even = *name != "Jacquard";
         assert!(!even || (1.0 - ground - cover).abs() < 0.02, "{name}: cover {} and {cover}", 1.0 - ground);
         assert!(
@@ -203,8 +206,8 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// Where there is no room at all, threads are not thinned away, and what comes back is no worse
-/// than what came to rest.
+/// Without any room, settling does not thin threads away, and its result is no worse than what it
+/// was given.
 #[test]
 fn cloth_without_room_is_no_worse() {
     let thread = |pitch: f64| vec![Thread::new(pitch, 0.0837); 8];
@@ -220,14 +223,14 @@ fn cloth_without_room_is_no_worse() {
         let rest = at_rest(&woven.unwrap());
         let [before, after] = rest.clearance;
         assert!(before < 0.98 && after >= before, "{:?}", rest.clearance);
-        for set in 0..2 {
-            let [kept, lost] = [rest.area[set][0], rest.area_lost[set]];
+        for set in Set::BOTH {
+            let [kept, lost] = [rest.area[set], rest.area_lost[set]];
             assert!(kept >= 0.35 * (kept + lost), "{:?} {:?}", rest.area, rest.area_lost);
         }
     }
 }
 
-/// What the test measures is able to fail: round yarns at a mill's sett pierce one another.
+/// The measure is able to fail: round yarns at a commercial sett pierce one another.
 #[test]
 fn round_yarns_at_a_mills_sett_pierce() {
     let denim = cloths().swap_remove(0);
@@ -240,8 +243,7 @@ fn chance(seed: &mut u64) -> f64 {
     (*seed >> 40) as f64 / (1_u64 << 24) as f64
 }
 
-/// Threads and crossings without any order: nothing repeats, and every thread begins and ends at an
-/// edge.
+/// Threads and crossings at random: nothing repeats, and every thread begins and ends at an edge.
 #[test]
 fn uneven_cloth_comes_to_rest_whole() {
     let mut seed = 11;
@@ -258,7 +260,7 @@ fn uneven_cloth_comes_to_rest_whole() {
     let drawdown = Drawdown::from_fn(14, 12, |_, _| chance(&mut seed) > 0.5).unwrap();
     let woven = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
     let rest = at_rest(&woven);
-    assert_eq!(rest.repeat, [14, 12]);
+    assert_eq!(rest.repeat, BySet { warp: 14, weft: 12 });
     let clearance = Surfaces::new(&rest.yarns).clearance();
     assert!(tightest(&rest.yarns) >= 1.0);
     println!("uneven: {:?} (by sections {clearance:.3}), area {:?}", rest.clearance, rest.area);
@@ -277,8 +279,8 @@ fn uneven_cloth_comes_to_rest_whole() {
     }
 }
 
-/// A woven structure comes to rest by its crossings, which its measures follow; what only knits
-/// have is refused.
+/// A woven structure comes to rest by its crossings, and its measures follow. Settings that only
+/// knits have are refused.
 #[test]
 fn a_woven_structure_comes_to_rest() {
     let cotton = Material { tex: Some(tex_from_cotton_count(20.0) as f32), ..Material::default() };
@@ -308,12 +310,14 @@ fn a_woven_structure_comes_to_rest() {
     let measures = structure.measures(finished.yarns()).unwrap();
     let surfaces = Surfaces::new(finished.yarns());
     let (widths, crimp) = (surfaces.widths(), surfaces.crimp());
+    let (fractions, own) =
+        (measures.cover.unwrap().fraction.into_array(), measures.crimp.unwrap().into_array());
     for set in 0..2 {
-        let [fraction, waves] = [measures.cover.unwrap().fraction[set], measures.crimp.unwrap()[set]];
+        let [fraction, waves] = [fractions[set], own[set]];
         assert!((fraction * 25.4 / 60.0 / widths[set] - 1.0).abs() < 0.02, "{fraction} {widths:?}");
         assert!((waves - crimp[set]).abs() < 0.005, "{waves} {crimp:?}");
     }
-    // Round threads are narrower, and wave otherwise.
+    // Round threads are narrower, and wave differently.
     let woven = structure.measures(&structure.yarns().unwrap()).unwrap();
     assert!(measures.cover.unwrap().cloth > woven.cover.unwrap().cloth + 0.05);
     for (finish, asked) in [
@@ -326,8 +330,8 @@ fn a_woven_structure_comes_to_rest() {
     }
 }
 
-/// Stiff threads stay straight, and those that cross them crimp; as stiff both ways, the cloth is
-/// as balanced as before.
+/// Stiff threads stay straight, and threads that cross them crimp. With equal stiffness both ways
+/// the cloth is as balanced as before.
 #[test]
 fn stiff_threads_stay_straight() {
     let sheeting = cloths().swap_remove(2).woven;
@@ -348,7 +352,7 @@ fn stiff_threads_stay_straight() {
     assert!((stiff[0] - stiff[1]).abs() < 1e-4, "{stiff:?}");
 }
 
-/// A taut set straightens, and the other one takes its crimp; a calender makes the cloth thinner.
+/// A taut set straightens, and the other set takes its crimp. A calender makes the cloth thinner.
 #[test]
 fn a_finish_is_felt() {
     let sheeting = cloths().swap_remove(2).woven;
@@ -359,8 +363,8 @@ fn a_finish_is_felt() {
         (surfaces.crimp(), surfaces.thickness())
     };
     let (relaxed, thick) = of(Finish::default());
-    let (taut, _) = of(Finish { taut: [8.0, 1.0], ..Finish::default() });
-    let (slack, _) = of(Finish { taut: [1.0, 8.0], ..Finish::default() });
+    let (taut, _) = of(Finish { taut: BySet { warp: 8.0, weft: 1.0 }, ..Finish::default() });
+    let (slack, _) = of(Finish { taut: BySet { warp: 1.0, weft: 8.0 }, ..Finish::default() });
     assert!((relaxed[0] / relaxed[1] - 1.0).abs() < 0.05, "{relaxed:?}");
     assert!(taut[0] < 0.7 * relaxed[0] && taut[1] > 1.2 * relaxed[1], "{taut:?} {relaxed:?}");
     assert!((taut[0] / slack[1] - 1.0).abs() < 0.05, "{taut:?} {slack:?}");

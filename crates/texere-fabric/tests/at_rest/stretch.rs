@@ -1,4 +1,4 @@
-//! Cloth that is stretched one way.
+//! Cloth that is stretched in one direction.
 
 use std::ops::ControlFlow;
 
@@ -14,8 +14,8 @@ fn stretched(cloth: &Woven, along: Set, by: f64) -> Result<(Woven, Finish), Fini
     cloth.stretched(&Finish::default(), Stretch { along, by }, 0.0, &device, |_| ControlFlow::Continue(()))
 }
 
-/// Threads keep their length, measured by the test along yarns at rest: what is pulled straightens,
-/// and the cloth narrows by what those across need more.
+/// Threads keep their length, which the test measures along yarns at rest. Pulled threads
+/// straighten. The cloth narrows, because threads across need more length for their crimp.
 #[test]
 fn threads_keep_their_length() {
     for (name, along, by) in [
@@ -49,7 +49,7 @@ fn threads_keep_their_length() {
     }
 }
 
-/// No further than threads are straight.
+/// Cloth stretches until its threads are straight, and no further.
 #[test]
 fn straight_threads_stretch_no_further() {
     let sheeting = cloths().swap_remove(2).woven;
@@ -59,7 +59,7 @@ fn straight_threads_stretch_no_further() {
     }
 }
 
-/// Long before the cloth has come to rest for the first time of many, and never backwards.
+/// Progress begins long before the cloth is first at rest, and never goes back.
 #[test]
 fn stretching_tells_its_progress_and_ends_within_a_pass() {
     let sheeting = cloths().swap_remove(2).woven;

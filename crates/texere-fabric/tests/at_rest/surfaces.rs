@@ -1,16 +1,16 @@
-//! Surfaces as they are drawn, sampled by themselves: how near they come, and what is seen from
-//! above.
+//! The surfaces of yarns as they are drawn, sampled by code of the test's own: how near they come
+//! to one another, and what is seen from above.
 
 use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 use texere_core::{Origin, Yarns};
 
-/// Rings to an interval, and points of a section.
+/// Rings per interval, and points of a section.
 const RINGS: usize = 12;
 const SIDES: usize = 40;
 
-/// A ring: its middle, tangent, and axes as long as half width and half height.
+/// A ring: its middle, its tangent, and its axes with the lengths of half width and half height.
 #[derive(Clone, Copy)]
 struct Ring {
     middle: DVec3,
@@ -25,7 +25,7 @@ pub(crate) struct Surfaces {
     pub(crate) warp: Vec<bool>,
 }
 
-/// The cardinal spline of tension 0 and its slope.
+/// Point and slope of the cardinal spline of tension 0.
 fn spline(four: [f64; 4], t: f64) -> [f64; 2] {
     let [a, b, c, d] = four;
     let (m, n) = ((c - a) / 2.0, (d - b) / 2.0);
@@ -99,8 +99,8 @@ impl Surfaces {
         for (yarn, rings) in self.yarns.iter().enumerate() {
             for ring in rings {
                 let [x, y] = key(ring.middle);
-                // Of every other yarn the ring next to this one's middle, which is where its own
-                // surface is searched from.
+                // For every other yarn, the ring nearest to the middle of this one. The search of
+                // that yarn's surface begins there.
                 let mut near: HashMap<usize, Vec<usize>> = HashMap::new();
                 for (dx, dy) in (-2..=2).flat_map(|dx| (-2..=2).map(move |dy| (dx, dy))) {
                     for &(other, number) in cells.get(&[x + dx, y + dy]).into_iter().flatten() {
@@ -116,8 +116,8 @@ impl Surfaces {
                     for side in 0..SIDES {
                         let (sin, cos) = (side as f64 / SIDES as f64 * std::f64::consts::TAU).sin_cos();
                         let out = ring.side * cos + ring.up * sin;
-                        // How far out the point lies in the other's section, less how far both have
-                        // grown.
+                        // The growth at which the other's section reaches the point, less the
+                        // growth of both.
                         let left =
                             |growth: f64| inside(rings, ring.middle + out * growth).map(|far| far - growth);
                         if left(least).is_some_and(|left| left < 0.0) {
@@ -139,7 +139,7 @@ impl Surfaces {
         least
     }
 
-    /// Length of yarn and length of cloth that it spans, summed over each set.
+    /// For each set, the length of its yarns and the length of cloth that they span.
     pub(crate) fn crimp(&self) -> [f64; 2] {
         [true, false].map(|warp| {
             let yarns = self.yarns.iter().zip(&self.warp).filter(|(_, is)| **is == warp);
@@ -153,7 +153,7 @@ impl Surfaces {
         })
     }
 
-    /// The mean width of each set's threads.
+    /// For each set, the mean width of its threads.
     pub(crate) fn widths(&self) -> [f64; 2] {
         [true, false].map(|warp| {
             let yarns = self.yarns.iter().zip(&self.warp).filter(|(_, is)| **is == warp);
@@ -163,7 +163,7 @@ impl Surfaces {
         })
     }
 
-    /// From the lowest surface to the highest.
+    /// Distance from the lowest surface to the highest.
     pub(crate) fn thickness(&self) -> f64 {
         let reach = |ring: &Ring| ring.up.z.hypot(ring.side.z);
         let high =
@@ -173,8 +173,8 @@ impl Surfaces {
         high - low
     }
 
-    /// Straight from above, within the window between two corners: the share of ground, and the
-    /// share of weft.
+    /// Share of ground and share of weft, seen straight from above in the window between two
+    /// corners.
     pub(crate) fn seen(&self, corners: [DVec2; 2], pixels: usize) -> [f64; 2] {
         let mut screen = vec![(f64::NEG_INFINITY, false); pixels * pixels];
         let scale = (corners[1] - corners[0]) / pixels as f64;
@@ -212,8 +212,8 @@ impl Surfaces {
     }
 }
 
-/// How far out a place lies in the sections of some rings, 1 on their outline, where it lies
-/// between two of them.
+/// The factor by which sections of rings have to grow to reach a place between two of them: 1 on
+/// their outline.
 fn inside(rings: &[Ring], place: DVec3) -> Option<f64> {
     let mut least: Option<f64> = None;
     let before = |ring: &Ring| (place - ring.middle).dot(ring.tangent);

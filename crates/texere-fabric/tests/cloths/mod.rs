@@ -1,4 +1,4 @@
-//! The weaves that every shape must keep clear, and cloths of them.
+//! Weaves that every shape has to keep clear, and cloths of them.
 
 #![allow(dead_code, reason = "no test needs all of it")]
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
@@ -6,8 +6,8 @@
 use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, Shape, Thread, Weave, Woven};
 
-/// Random weave: Knuth's multiplicative congruential generator, whose high bits are random enough
-/// for one.
+/// A random weave, by Knuth's multiplicative congruential generator. Its high bits are random
+/// enough for a weave.
 pub(crate) fn random_bits(seed: u64) -> impl FnMut() -> bool {
     let mut state = seed;
     move || {
@@ -25,8 +25,8 @@ pub(crate) fn random_weave(seed: u64) -> Drawdown {
     Drawdown::from_fn(10, 10, |_, _| bits()).unwrap()
 }
 
-/// Warp satin beside weft satin, the boundary running across both: what a damask's figure has all
-/// round it.
+/// Warp satin beside weft satin, with boundaries along ends and along picks, as all around a
+/// damask's figure.
 fn damask() -> Drawdown {
     let (satin, sateen) = (weave("satin 5"), weave("sateen 5"));
     Drawdown::from_fn(10, 10, |end, pick| if end + pick / 3 < 6 { &satin } else { &sateen }.up(end, pick))
@@ -40,7 +40,7 @@ pub(crate) fn weaves() -> Vec<(String, Drawdown)> {
     named.chain([("damask".to_owned(), damask())]).chain(random).collect()
 }
 
-/// A cloth of ends alike and picks alike.
+/// A cloth whose ends are all alike, and whose picks are.
 pub(crate) fn cloth(shape: Shape, drawdown: Drawdown, [end, pick]: [Thread; 2], section: Section) -> Woven {
     let (warp, weft) = (vec![end; drawdown.ends()], vec![pick; drawdown.picks()]);
     let mut cloth = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![section]).unwrap();
@@ -48,8 +48,8 @@ pub(crate) fn cloth(shape: Shape, drawdown: Drawdown, [end, pick]: [Thread; 2], 
     cloth
 }
 
-/// Least pitch over (widths + heights) / 2 at which a thread with this share of the crimp has
-/// something straight between two bends.
+/// The least pitch, over (widths + heights) / 2, at which a thread with this share of the crimp has
+/// a straight piece between two bends.
 pub(crate) fn jam(share: f32) -> f64 {
     f64::from((share * (2.0 - share)).sqrt())
 }

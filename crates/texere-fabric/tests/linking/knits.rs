@@ -1,25 +1,25 @@
-//! Small knits, by the control points of one loop.
+//! Small knits, made from the control points of one loop.
 
 use texere_core::{ControlPoint, Origin, Yarn, Yarns};
 
 /// The diameter of all yarns, mm.
 pub(crate) const D: f32 = 0.2;
 
-/// A knit of loops alike: each yarn runs along x from loop to loop, and lies one course above the
-/// one before.
+/// A knit of equal loops. Each yarn runs along x from loop to loop, one course above the yarn
+/// before.
 #[derive(Debug, Clone)]
 pub(crate) struct Knit {
-    /// One loop's control points, from the middle between it and the loop before, mm.
+    /// Control points of one loop, mm. The first lies half way between it and the loop before.
     loop_points: Vec<[f32; 3]>,
-    /// From one loop to the next, mm.
+    /// Distance from one loop to the next, mm.
     pub(crate) wale: f32,
-    /// From one course to the next, mm.
+    /// Distance from one course to the next, mm.
     pub(crate) course: f32,
     pub(crate) wales: usize,
     pub(crate) courses: usize,
 }
 
-/// The first half of a loop, its head the last point, and the second half mirrored.
+/// A whole loop from its first half, whose last point is the head. The second half is mirrored.
 fn whole(half: &[[f32; 3]], wale: f32) -> Vec<[f32; 3]> {
     let mirrored = half[1..half.len() - 1].iter().rev().map(|[x, y, z]| [wale - x, *y, *z]);
     half.iter().copied().chain(mirrored).collect()
@@ -62,9 +62,9 @@ impl Knit {
         self.loop_points.len()
     }
 
-    /// All courses, `to` having moved their points: it takes the course, the wale, the point in the
-    /// loop, and where it is from the loop's start. A yarn ends with the first point of the loop
-    /// after its last, unless it `repeats`.
+    /// Points of all courses, moved by `to`. It gets the course, the wale, the number of the point
+    /// in its loop, and its position relative to the loop's start. A yarn ends with the first point
+    /// of the loop after its last one, unless it `repeats`.
     fn lines(
         &self,
         repeats: bool,
@@ -82,18 +82,17 @@ impl Knit {
         (0..self.courses).map(line).collect()
     }
 
-    /// The yarns with `to`'s moves, with `finer` times as many control points along the same
-    /// curves.
+    /// The yarns, moved by `to`, with `finer` times as many control points on the same curves.
     pub(crate) fn yarns(&self, finer: usize, to: impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3]) -> Yarns {
         courses(self.lines(false, to).iter().map(|line| refined(line, finer)))
     }
 
-    /// The yarns of a repeat with `to`'s moves: each goes on one repeat further along x.
+    /// The yarns of a repeat, moved by `to`. Each goes on one repeat further along x.
     pub(crate) fn repeat(&self, to: impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3]) -> Yarns {
         courses(self.lines(true, to))
     }
 
-    /// One loop's head put in front of the loop that it holds: it drops off it.
+    /// Moves the head of one loop in front of the loop that holds it, so that it drops off.
     pub(crate) fn dropped(&self, at: [usize; 2]) -> impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3] {
         let head = self.points() / 2;
         move |place, point, [x, y, z]| {
@@ -102,8 +101,8 @@ impl Knit {
         }
     }
 
-    /// One loop pulled straight, out of the one that it was drawn through and of the one drawn
-    /// through it.
+    /// Pulls one loop straight: out of the loop that it was drawn through, and out of the one that
+    /// was drawn through it.
     pub(crate) fn pulled(&self, at: [usize; 2]) -> impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3] {
         let foot = self.loop_points[0][2];
         move |place, point, [x, y, z]| if place == at && point > 0 { [x, 0.1 * y, foot] } else { [x, y, z] }
@@ -119,7 +118,7 @@ fn courses(lines: impl IntoIterator<Item = Vec<[f32; 3]>>) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A line with points between its own, along the spline through them.
+/// A line with further points on the spline through its points.
 fn refined(line: &[[f32; 3]], finer: usize) -> Vec<[f32; 3]> {
     let at = |index: isize| line[index.clamp(0, line.len() as isize - 1) as usize];
     let mut points: Vec<_> = (0..(line.len() - 1) * finer)
@@ -139,8 +138,8 @@ fn refined(line: &[[f32; 3]], finer: usize) -> Vec<[f32; 3]> {
     points
 }
 
-/// Closed tricot of 9 points a course: guide `guide` laps one needle to the left, then one to the
-/// right. `to` moves points as [`Knit::yarns`] has it, with the guide and the course as the place.
+/// Closed tricot of 9 points a course. Each guide laps one needle to the left, then one to the
+/// right. `to` moves points as in [`Knit::yarns`], by guide and course.
 pub(crate) fn tricot(
     guides: usize,
     courses: usize,

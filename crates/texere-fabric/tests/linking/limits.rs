@@ -1,5 +1,5 @@
-//! What is refused, how much work there is at most, and that neither threads nor size change what
-//! is found.
+//! Refusals, the most work that linking takes, and results that depend neither on the number of
+//! threads nor on the size of the cloth.
 
 use std::ops::ControlFlow;
 
@@ -26,7 +26,7 @@ fn the_same_is_found_whatever_the_threads() {
 
 #[test]
 fn work_is_bounded_and_told_and_can_be_stopped() {
-    // Fifteen hundred intervals in one place, which all change places.
+    // Fifteen hundred intervals in one place, all of which move.
     let line = |sign: f32| {
         let point =
             |k: u32| [sign * (k % 7) as f32, sign * (k % 5) as f32, (k % 3) as f32].map(|each| each * 1e-3);
@@ -67,7 +67,7 @@ fn other_yarns_and_other_boundaries_are_refused() {
     let taut = before.clone().with_tension(0.3).unwrap();
     let other = YarnError::OtherTension { given: 0.3, tension: 0.0 };
     assert_eq!(refused(&taut, &boundary), ContactError::Yarns(other));
-    // In a repeat of a millionth of a millimetre all its copies would lie in one place.
+    // All copies of a repeat of a millionth of a millimetre would lie in one place.
     let tiny = Boundary::new(before.layout(), [1e-6; 2], vec![Ends::Repeats([1, 0]); 3]).unwrap();
     let after = moved(&before, |yarn, _, [x, y, z]| [x, y, z + yarn as f32]);
     assert!(matches!(refused(&after, &tiny), ContactError::LinkingSize { .. }));

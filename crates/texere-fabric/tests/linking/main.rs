@@ -1,5 +1,5 @@
-//! Whether yarns that pass through one another are told, and only these: rings, weaves, layers; the
-//! modules have knits, repeats, and what is refused.
+//! Yarns that pass through one another are found, and no others. This file has rings, weaves and
+//! layers; the modules have knits, repeats and refusals.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -20,12 +20,10 @@ use texere_fabric::{Shape, Thread, Woven};
 use cloths::{cloth, random_bits, weaves};
 use knits::D;
 
-/// The most by which cloth changes the linking of a pair of windows that was only bent, stretched
-/// or sheared.
+/// The largest change of a window pair's linking in cloth that was only bent, stretched or sheared.
 const HARMLESS: f64 = 0.15;
 
-/// The least by which a passage does. (Not of every pair of windows that sees it, but of the
-/// worst.)
+/// The least change by a passage, in the pair of windows that changes most.
 const SEEN: f64 = 0.8;
 
 fn yarns_of(lines: &[(bool, Vec<[f32; 3]>)], radius: f32) -> Yarns {
@@ -37,8 +35,8 @@ fn yarns_of(lines: &[(bool, Vec<[f32; 3]>)], radius: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The same yarns with every control point moved: `to` takes its yarn, its number in the yarn, and
-/// where it is.
+/// Moves every control point by `to`, which gets the yarn, the number of the point in it, and its
+/// position.
 fn moved(yarns: &Yarns, mut to: impl FnMut(usize, usize, [f32; 3]) -> [f32; 3]) -> Yarns {
     let mut after = yarns.clone();
     for yarn in 0..yarns.layout().yarns().len() {
@@ -55,11 +53,11 @@ fn compared(before: &Yarns, after: &Yarns) -> Linking {
     linking(before, after, &Boundary::without_repeat(before.layout())).unwrap()
 }
 
-/// The pairs of yarns that have passed through one another.
+/// Pairs of yarns that have passed through one another, by the report.
 fn pairs(found: &Linking) -> Vec<[usize; 2]> {
     let pairs: BTreeSet<_> = found.worst.iter().map(|each| each.places.map(|place| place.yarn)).collect();
     assert_eq!(found.passages == 0, pairs.is_empty());
-    // None is listed twice, and they come in order.
+    // Pairs are in order, and none is listed twice.
     for (place, passage) in found.worst.iter().enumerate() {
         assert!(!found.worst[..place].contains(passage), "{found:?}");
     }
@@ -74,10 +72,10 @@ fn noise(seed: u64) -> impl FnMut() -> f32 {
     move || (0..16).fold(0.0, |sum, place| sum + if bits() { 0.5_f32.powi(place) } else { 0.0 }) - 1.0
 }
 
-/// Where a control point at some place goes to.
+/// A movement: from the position of a control point to its new one.
 type Move = Box<dyn FnMut([f32; 3]) -> [f32; 3]>;
 
-/// What cloth goes through without harm; `d` is its yarns' diameter and `size` how far it goes, mm.
+/// Movements that do not harm a cloth. `d` is the diameter of its yarns and `size` its extent, mm.
 fn harmless(d: f32, size: f32) -> Vec<(&'static str, Move)> {
     let mut noise = noise(7);
     let radius = size / 2.0;
@@ -104,7 +102,7 @@ fn harmless(d: f32, size: f32) -> Vec<(&'static str, Move)> {
     ]
 }
 
-/// Whatever is done to the cloth without harm is no passage.
+/// Checks that movements without harm are no passages.
 fn stays_linked(name: &str, yarns: &Yarns, d: f32, size: f32) {
     for (change, mut to) in harmless(d, size) {
         let found = compared(yarns, &moved(yarns, |_, _, at| to(at)));
@@ -192,8 +190,8 @@ fn a_flipped_end_is_told() {
     }
 }
 
-/// Two layers of plain weave of eight ends and picks each; at some crossings the lower layer's ends
-/// rise over the upper's picks where `stitched`.
+/// Two layers of plain weave, each of eight ends and eight picks. Where `stitched`, some ends of
+/// the lower layer rise over picks of the upper one.
 fn layers(stitched: bool) -> Yarns {
     let pitch = 2.5 * D;
     let place = |thread: usize| (thread as f32 + 0.5) * pitch;
@@ -218,7 +216,7 @@ fn layers(stitched: bool) -> Yarns {
     yarns_of(&lines, D / 2.0)
 }
 
-/// Where end of the lower layer binds a pick of the upper one.
+/// Whether an end of the lower layer binds a pick of the upper one.
 fn stitches(end: usize, pick: usize) -> bool {
     [(1, 3), (4, 6), (6, 2)].contains(&(end, pick))
 }
@@ -227,7 +225,7 @@ fn stitches(end: usize, pick: usize) -> bool {
 fn layers_that_lose_their_stitches_are_told() {
     let (before, after) = (layers(true), layers(false));
     let found = compared(&before, &after);
-    // Lower ends are yarns 0 to 7, upper picks 24 to 31.
+    // Ends of the lower layer are yarns 0 to 7, picks of the upper layer yarns 24 to 31.
     assert_eq!(pairs(&found), [[1, 27], [4, 30], [6, 26]], "{found:?}");
     assert!(found.largest > SEEN, "{found:?}");
     stays_linked("layers", &before, D, 8.0 * 2.5 * D);

@@ -1,4 +1,4 @@
-//! Repeats: yarns that meet their neighbours' copies, and go on over the edge.
+//! Linking in repeats: yarns that meet copies of their neighbours, and go on beyond the edge.
 
 use texere_contact::{LINKING_CHANGE, Linking, linking};
 use texere_core::{Boundary, Ends, Yarns};
@@ -6,8 +6,8 @@ use texere_core::{Boundary, Ends, Yarns};
 use crate::knits::{D, Knit, as_it_is};
 use crate::{HARMLESS, SEEN, moved, noise, pairs, yarns_of};
 
-/// What `pairs` tells of a jersey's repeat of 4 wales and `courses` courses when `to` has moved its
-/// points, with a period along y too where `above` is set.
+/// The `pairs` of a jersey's repeat of 4 wales and `courses` courses after a movement by `to`.
+/// Where `above` is set, it repeats along y, too.
 fn repeated(courses: usize, above: bool, to: impl FnOnce(&Knit) -> Yarns) -> Linking {
     let knit = Knit::jersey(5.0, 4, courses);
     let before = knit.repeat(as_it_is);
@@ -19,21 +19,21 @@ fn repeated(courses: usize, above: bool, to: impl FnOnce(&Knit) -> Yarns) -> Lin
 
 #[test]
 fn yarns_meet_over_the_edge_of_a_repeat() {
-    // The last course's loops are held by those of the first one's copy above.
+    // Loops of the last course are held by loops of the first course's copy above.
     let dropped = |knit: &Knit| knit.repeat(knit.dropped([2, 1]));
     let found = repeated(3, true, dropped);
     assert_eq!(pairs(&found), [[0, 2]], "{found:?}");
     assert!(found.largest > SEEN, "{found:?}");
-    // Both places lie beside one another, the second where its yarn is.
+    // Both places lie beside one another. The second one is in the copy in which its yarn lies.
     let [one, other] = found.worst[0].places.map(|place| place.position);
     assert!((0..3).all(|axis| (one[axis] - other[axis]).abs() < 0.5), "{found:?}");
     assert_eq!(pairs(&repeated(3, false, dropped)), [] as [[usize; 2]; 0]);
 
-    // One course alone holds itself.
+    // A repeat of one course holds itself.
     assert_eq!(pairs(&repeated(1, true, |knit| knit.repeat(knit.dropped([0, 2])))), [[0, 0]]);
     assert_eq!(pairs(&repeated(1, true, |knit| knit.repeat(knit.pulled([0, 2])))), [[0, 0]]);
 
-    // Loops beside the edge along x, whose windows go on in the next round.
+    // Loops beside an edge along x. Their windows go on in the next round of the yarn.
     for wale in [0, 3] {
         let found = repeated(3, true, |knit| knit.repeat(knit.dropped([0, wale])));
         assert_eq!(pairs(&found), [[0, 1]], "{found:?}");
@@ -80,8 +80,8 @@ fn each_passage_counts_once_wherever_the_edge_lies() {
     assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
 }
 
-/// Plain weave of two ends and two picks, one control point a crossing, that goes on on all sides;
-/// `flips` moves end 1 to the other side of pick 2.
+/// Plain weave of two ends and two picks that repeats on all sides, with one control point a
+/// crossing. `flips` moves end 1 to the other side of pick 2.
 fn weave_repeat(flips: bool) -> Yarns {
     let pitch = 2.5 * D;
     let height = |end: usize, pick: usize| {
@@ -111,7 +111,7 @@ fn the_smallest_repeat_of_a_weave_is_compared() {
     let boundary = Boundary::new(before.layout(), [5.0 * D; 2], ends).unwrap();
     let found = linking(&before, &after, &boundary).unwrap();
     assert_eq!(pairs(&found), [[0, 3]], "{found:?}");
-    // The same end flips in each of its windows' rounds.
+    // The end flips in every round of its windows.
     assert!(found.largest > LINKING_CHANGE, "{found:?}");
     let same = linking(&before, &before, &boundary).unwrap();
     assert_eq!((same.passages, same.largest), (0, 0.0));

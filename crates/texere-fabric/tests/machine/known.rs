@@ -37,14 +37,14 @@ fn jersey_is_drawn_through_its_own_repeat_below() {
 
 #[test]
 fn a_loop_that_leaves_its_repeat_is_held_in_the_next() {
-    // A decrease over the seam: the loop of needle 1 goes to needle 0 of the repeat beside.
+    // A decrease over the seam: the loop of needle 1 goes to needle 0 of the next repeat.
     let text = "knit + f0 1\nknit + f1 1\nxfer f1 b1\nrack 1\nxfer b1 f2\nrack 0\nknit + f0 1\nknit + f1 1";
     let Knit { stitches, faults, .. } = repeat(2, text);
     assert_eq!(faults, []);
     assert_eq!(stitches.parents_of(2), [flat(0), to(1, [-1, 0])]);
     assert_eq!(stitches.loops[1].fate, Fate::Held(to(2, [1, 0])));
     assert_eq!(stitches.loops[1].head, Head { at: 2.0, bed: Bed::Front, layer: 1, moved: 2 });
-    // Its own needle is empty then: the loop above is a cast-on.
+    // The needle of the moved loop is empty then, and the next loop on it is a cast-on.
     assert_eq!(stitches.parents_of(3), []);
 }
 
@@ -56,7 +56,7 @@ fn tubes_whose_sides_grow_at_different_rates_are_as_high_as_the_faster_one() {
     assert_eq!(stitches.parents_of(1), [to(1, [0, -1])]);
 }
 
-/// Issue 11 of knitout-live-visualizer: the tuck was shown in front.
+/// A case of knitout-live-visualizer's issue 11, where the tuck was shown in front.
 #[test]
 fn a_tuck_lies_behind_the_loops_of_its_needle() {
     for bed in ["f", "b"] {
@@ -74,7 +74,7 @@ fn a_tuck_lies_behind_the_loops_of_its_needle() {
             "the knit loop, nearest to the side that loops are drawn to, then the tuck"
         );
         assert_eq!(stitches.loops[3].fate, Fate::Held(flat(5)));
-        // It hangs on top of a loop of course 0, and the next loop is drawn through both.
+        // The tuck hangs on top of a loop of course 0, and the next loop is drawn through both.
         let courses = [1, 3, 5].map(|number| stitches.loops[number].course);
         assert_eq!(courses, [0, 1, 2]);
     }
@@ -85,7 +85,7 @@ fn a_carrier_follows_its_transferred_loop() {
     let text = "in 1\nknit + f1 1\nknit + f2 1\nknit + f3 1\nxfer f2 b2\nrack 1\nxfer b2 f3\nrack 0\nknit - f3 1\nknit - f2 1\n\
                 knit - f1 1\nout 1";
     let Knit { stitches, .. } = knit(&program(text));
-    // The yarn goes on from the loop where it was made to the next, and the loop's head hangs on
+    // The yarn goes on to the next loop from where the loop was made. The loop's head hangs on
     // needle 3.
     assert_eq!(stitches.strands.len(), 1);
     let steps: Vec<_> = stitches.strands[0]
@@ -117,7 +117,7 @@ fn a_split_draws_a_loop_through_and_moves_the_old_ones() {
     assert_eq!(stitches.parents_of(2), [flat(0)]);
     assert_eq!(stitches.loops[0].fate, Fate::Held(flat(2)));
     assert_eq!(stitches.loops[0].head.bed, Bed::Back);
-    // Were it dropped, the split loop would hold it.
+    // If the loop were dropped, the split loop would hold it.
     let Knit { stitches, faults, .. } =
         knit(&program("in 1\nknit + f1 1\nsplit + f1 b1 1\ndrop b1\ndrop f1\nout 1"));
     assert_eq!(stitches.loops[0].fate, Fate::Held(flat(1)));
@@ -161,7 +161,7 @@ fn a_carrier_that_comes_back_is_another_yarn() {
     assert_eq!(stitches.strands.len(), 2);
 }
 
-/// Each fault by its name, with its line.
+/// Every kind of fault is found, with its line.
 #[test]
 fn faults_are_named() {
     let none = "in 1\nin 2\nin 3\n";
@@ -198,7 +198,7 @@ fn faults_are_named() {
         let Knit { faults, .. } = knit(&program(&(none.to_owned() + text)));
         let found = faults.iter().find(|fault| fault.kind == kind);
         assert_eq!(found.map(|fault| fault.source), Some(line), "{text}: {faults:?}");
-        // Nothing else of that severity, but for what cases leave undone in the end.
+        // No other fault of that severity occurs, except what a case leaves undone at its end.
         let others = faults.iter().filter(|fault| fault.kind != kind);
         assert!(
             others.clone().all(|fault| !fault.kind.is_error() || kind == FaultKind::OnSlider),
@@ -217,7 +217,8 @@ fn needles_that_never_knit_are_faults_of_a_repeat() {
     assert_eq!(stitches.loops[0].fate, Fate::Held(to(0, [0, 1])));
 }
 
-/// What may come undone is told once, with how often it happens; usual cast-ons are not.
+/// Stitches that may come undone are reported once, with their number. Usual cast-ons are not
+/// reported.
 #[test]
 fn risky_cast_ons_are_told() {
     let told = |text: &str| -> Vec<(u32, FaultKind)> {

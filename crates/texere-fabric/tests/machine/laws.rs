@@ -1,4 +1,4 @@
-//! What holds of every program, however odd: no loop is lost, none is made of nothing.
+//! Laws of every program, however odd: no loop is lost, and none comes from nothing.
 
 use std::collections::HashMap;
 
@@ -69,7 +69,7 @@ pub(crate) fn programs() -> impl Strategy<Value = Program> {
     prop::collection::vec((instructions(-3..6), 0..sets), 0..60).prop_map(|list| program(list, None))
 }
 
-/// One repeat each; most knit all needles in the end, so that nothing piles up.
+/// Programs of one repeat. Most of them knit all needles in the end, so that loops do not pile up.
 fn repeats() -> impl Strategy<Value = Program> {
     (1..4_i32, 0..8_u32).prop_flat_map(|(width, knits)| {
         let sets = sets().len() as u32;
@@ -88,7 +88,7 @@ fn repeats() -> impl Strategy<Value = Program> {
     })
 }
 
-/// The loops that a program makes: the source and the plate of each.
+/// The source and the plate of each loop that a program makes.
 fn made(program: &Program) -> Vec<(u32, u16)> {
     let loops = |operation: &Operation| match operation.instruction {
         Instruction::Knit(..) | Instruction::Tuck(..) | Instruction::Split(..) => {
@@ -102,8 +102,8 @@ fn made(program: &Program) -> Vec<(u32, u16)> {
     program.operations.iter().flat_map(of).collect()
 }
 
-/// Of each of these loops its number among those that the program makes. Some are left out, as
-/// nothing holds them.
+/// For each loop of the stitches, its number among all loops that the program makes. Loops that
+/// nothing holds are left out of the stitches.
 fn names(program: &Program, stitches: &Stitches) -> Vec<usize> {
     let made = made(program);
     let name = |stitch: &Stitch| made.iter().position(|&loops| loops == (stitch.source, stitch.plate));
@@ -114,7 +114,8 @@ fn back(other: LoopRef, number: usize) -> LoopRef {
     LoopRef { number: number as u32, repeat: other.repeat.map(|repeats| -repeats) }
 }
 
-/// What holds of all stitches. In a repeat where needles never knit, some loops are held by none.
+/// Checks the laws of all stitches. In a repeat where needles never knit, some loops are held by no
+/// loop.
 fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     prop_assert!(names(program, stitches).is_sorted_by(|one, other| one < other), "loops in their order");
     let mut seen = vec![0; stitches.loops.len()];
@@ -157,7 +158,7 @@ fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// What the naive machine's loops are, seen from one of `round` in repeat 0.
+/// Loops of the naive machine, as seen from a loop of `round` in repeat 0.
 fn compare(
     program: &Program,
     stitches: &Stitches,
@@ -165,7 +166,7 @@ fn compare(
     round: i32,
 ) -> Result<(), TestCaseError> {
     let names = names(program, stitches);
-    // What is left out was drawn through nothing, nothing was drawn through it, and it fell.
+    // A loop that is left out was drawn through nothing, nothing was drawn through it, and it fell.
     for name in (0..made(program).len()).filter(|name| names.binary_search(name).is_err()) {
         let known = &naive[&(name, 0, round)];
         prop_assert!(known.dropped && known.held.is_none() && known.parents.is_empty(), "loop {}", name);
@@ -220,7 +221,7 @@ proptest! {
             return Ok(());
         }
         lawful(&program, &stitches)?;
-        // Rounds and repeats enough that those in the middle know of no edge.
+        // Enough rounds and repeats that those in the middle do not meet an edge.
         compare(&program, &stitches, &naive::run(&program, 24, 16), 12)?;
     }
 }

@@ -1,4 +1,4 @@
-//! What is refused by its name, and that large programs take no longer than they must.
+//! Refusals by name, and large programs that take time in proportion to their length.
 
 use texere_fabric::FabricError;
 use texere_fabric::weft::{
@@ -67,7 +67,7 @@ fn racks_that_are_no_numbers_are_faults_and_move_nothing() {
     }
 }
 
-/// Three million operations of each kind; were any to take time that grows with the program, this
+/// Three million operations of each kind. If one took time that grows with the program, this test
 /// would not end.
 #[test]
 fn large_programs_are_run_in_time_that_grows_with_them() {
@@ -86,7 +86,7 @@ fn large_programs_are_run_in_time_that_grows_with_them() {
     });
     assert!(Machine::default().knit(&program(tucks.chain(moves))).is_ok());
 
-    // A hook that takes the same carrier over and over, and lets go of others.
+    // A hook that takes the same carrier many times, and lets go of others.
     let hooks = (0..COUNT / 10).map(|_| Instruction::InHook);
     let mut hooks = program(hooks.chain((0..COUNT / 10).map(|_| Instruction::ReleaseHook)));
     let names = 0..60_000;

@@ -1,4 +1,4 @@
-//! What comes of knitting programs.
+//! The knitting machine, from programs to stitches.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test ends at what it did not expect")]
 

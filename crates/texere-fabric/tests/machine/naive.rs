@@ -1,27 +1,27 @@
-//! A machine as simple as can be, with code of its own: every needle of every repeat holds a list,
-//! and every round is kept.
+//! A naive machine as an oracle, with code of its own. Every needle of every repeat has a list of
+//! loops, and every round is kept.
 
 use std::collections::HashMap;
 
 use texere_fabric::weft::{Bed, Instruction, Needle, Program};
 
-/// A loop: which one of its round, in which repeat along x, and in which round.
+/// A loop: its number within its round, its repeat along x, and its round.
 pub(crate) type Id = (usize, i32, i32);
 
-/// What is known of a loop.
+/// The record of a loop.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Known {
     pub(crate) carrier: u32,
     pub(crate) at: f64,
     pub(crate) parents: Vec<Id>,
-    /// What holds it in the end.
+    /// The loop that holds it in the end.
     pub(crate) held: Option<Id>,
     pub(crate) dropped: bool,
     /// Place, bed and layer of its head.
     pub(crate) head: (f64, Bed, usize),
 }
 
-/// Runs a program so many rounds, with so many repeats on each side.
+/// Runs `rounds` rounds of a program, with `sides` repeats on each side.
 pub(crate) fn run(program: &Program, rounds: i32, sides: i32) -> HashMap<Id, Known> {
     let width = program.repeat.map_or(0, |width| width as i32);
     let mut loops: HashMap<Id, Known> = HashMap::new();

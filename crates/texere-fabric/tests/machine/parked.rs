@@ -1,5 +1,5 @@
-//! What nothing holds is no cloth: carriers that are parked beyond it, and sets of carriers that
-//! act at once.
+//! Yarn that nothing holds is left out: carriers that are parked beyond the cloth, and sets of
+//! carriers that act together.
 
 use proptest::prelude::*;
 use texere_fabric::weft::{Fault, FaultKind, Knit, Machine, Step, Stitches};
@@ -12,7 +12,7 @@ fn knit(text: &str) -> Knit {
     Machine::default().knit(&program(&lines.join("\n"))).expect("a knit")
 }
 
-/// Stitches without the lines that they come from.
+/// Stitches with all sources set to 0.
 fn bare(mut stitches: Stitches) -> Stitches {
     for stitch in &mut stitches.loops {
         stitch.source = 0;
@@ -26,7 +26,7 @@ fn bare(mut stitches: Stitches) -> Stitches {
 }
 
 /// Rows of knitting to and fro with `carriers`, over needles 1 to 4 of a bed. `right` and `left`
-/// are done at the end of each row.
+/// are the operations at the end of each row.
 fn rows(bed: &str, carriers: &str, [right, left]: [&str; 2]) -> String {
     let row = |way: &str, needles: [u32; 4], end: &str| {
         let knits = needles.map(|needle| format!("knit {way} {bed}{needle} {carriers}\n"));
@@ -37,7 +37,7 @@ fn rows(bed: &str, carriers: &str, [right, left]: [&str; 2]) -> String {
     format!("{there}{back}").repeat(3)
 }
 
-/// Lines that park a carrier begin with `~`: the cloth is that of the other lines.
+/// Lines that park a carrier begin with `~`. The cloth is that of the other lines.
 #[test]
 fn a_carrier_that_is_parked_beyond_the_cloth_draws_its_yarn_back() {
     let ends = |right: &'static str, left: &'static str| [right, left];
@@ -66,7 +66,7 @@ fn a_carrier_that_is_parked_beyond_the_cloth_draws_its_yarn_back() {
         let plain: String = text.lines().filter(|line| !line.starts_with('~')).map(|line| format!("{line}\n")).collect();
         let plain = knit(&plain);
         assert_eq!(bare(parked.stitches), bare(plain.stitches), "{name}");
-        // Neither a long float nor a catch is told of what is drawn back.
+        // Yarn that is drawn back gives neither a long float nor a catch.
         let kinds = |faults: &[Fault]| -> Vec<_> {
             let others = faults.iter().map(|fault| fault.kind.clone());
             others.filter(|kind| !matches!(kind, FaultKind::Dropped(_))).collect()
@@ -75,7 +75,7 @@ fn a_carrier_that_is_parked_beyond_the_cloth_draws_its_yarn_back() {
     }
 }
 
-/// Carriers of a set are laid in one stitch, side by side: none is caught behind another of them.
+/// Carriers of a set lay their yarns side by side in one stitch. None is caught behind another.
 #[test]
 fn carriers_of_a_set_act_at_once() {
     let tangled = |text: &str| {
@@ -99,13 +99,13 @@ fn carriers_of_a_set_act_at_once() {
                 .replace("knit - f3", "split - f3 b3")
         ),
         format!("in 1 2\n{}", rows("f", "1 2", ["xfer f2 b2\nrack 1\nxfer b2 f3\nrack 0", "drop f1"])),
-        // The one in front changes from row to row.
+        // The front carrier changes from row to row.
         format!("in 1 2\n{}{}", rows("f", "1 2", ["", ""]), rows("f", "2 1", ["", ""])),
     ] {
         assert_eq!(tangled(&text), [], "{text}");
     }
-    // What another operation lays on both sides of a set catches all of it, and a set catches what
-    // waits.
+    // Yarn that is laid on both sides of a set catches all of its carriers, and a set catches
+    // carriers that wait.
     let set = "in 1 2\nin 3\nknit + f2 1 2\nknit + f1 3\nknit + f3 3\nknit - f2 1 2";
     assert_eq!(tangled(set), [(6, "1".into(), "3".into()), (6, "2".into(), "3".into())]);
     let waits = "in 1 2\nin 3\nknit + f2 3\nknit + f1 1 2\nknit + f3 1 2\nknit - f2 3";
@@ -119,16 +119,16 @@ fn floats_between_loops_stay() {
         stitches.strands[0].steps.iter().map(|step| stitches.visit(step).at).collect()
     };
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f2 1\nmiss + f3 1\nknit + f4 1"), [1.0, 2.0, 3.0, 4.0]);
-    // On the way to a loop further out that is made on the way back, and on the way back to one
-    // further in.
+    // The carrier passes on its way out to a loop that is made on the way back, and on its way back
+    // to a loop further in.
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f3 1\nmiss + f9 1\nknit - f5 1"), [1.0, 3.0, 5.0]);
     assert_eq!(places("in 1\nknit + f5 1\nmiss + f9 1\nmiss - f3 1\nknit - f1 1"), [5.0, 3.0, 1.0]);
-    // What falls off a needle there floats.
+    // A loop that falls off a needle there becomes a float.
     assert_eq!(places("in 1\nknit + f1 1\ntuck + f2 1\nknit + f3 1\ndrop f2"), [1.0, 2.0, 3.0]);
 }
 
-/// Carrier 1 waits between needles 4 and 5, and carrier 2 lays its yarn over it: it can't be drawn
-/// back any more.
+/// Carrier 1 waits between needles 4 and 5, and carrier 2 lays its yarn over it. The yarn of
+/// carrier 1 can't be drawn back then.
 #[test]
 fn yarn_that_another_has_caught_is_held_there() {
     let text = "in 1\nin 2\nknit + f2 1\nmiss + f4 1\nknit + f1 2\nknit + f3 2\nknit + f5 2\nknit - f2 1";
@@ -149,8 +149,8 @@ fn yarn_that_no_loop_holds_is_left_out_and_told() {
 }
 
 proptest! {
-    /// However carriers are led astray, yarn ends in loops and lies between them, unless others
-    /// catch it.
+    /// For any paths of carriers, yarn begins and ends in loops and lies between them, unless
+    /// others catch it.
     #[test]
     fn yarns_are_taut(program in programs()) {
         let Knit { stitches, faults, .. } = Machine::default().knit(&program).expect("a knit");

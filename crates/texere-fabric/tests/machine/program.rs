@@ -1,4 +1,4 @@
-//! Programs from knitout's words, for tests alone: nothing is checked.
+//! Programs in knitout's words, for tests. The text is not checked.
 
 use texere_fabric::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 

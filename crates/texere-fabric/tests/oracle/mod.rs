@@ -1,4 +1,4 @@
-//! How near yarns come to one another, by brute force: nothing is skipped but what lies far away.
+//! Distances between yarns by brute force. Only pairs that are far apart are skipped.
 
 #![allow(dead_code, reason = "no test needs all of it")]
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
@@ -24,7 +24,7 @@ impl Place {
     }
 }
 
-/// One control interval, sampled, and the ball that holds it.
+/// The samples of one control interval, and a ball around them.
 pub(crate) struct Stretch {
     pub(crate) yarn: usize,
     pub(crate) places: Vec<Place>,
@@ -33,7 +33,7 @@ pub(crate) struct Stretch {
     reach: f64,
 }
 
-/// All control intervals of all yarns, with `samples` steps each.
+/// All control intervals of all yarns, in `samples` steps each.
 pub(crate) fn stretches(yarns: &Yarns, samples: usize) -> Vec<Stretch> {
     let mut stretches = Vec::new();
     for (yarn, what) in yarns.layout().yarns().iter().enumerate() {
@@ -79,8 +79,8 @@ fn near<'a>(
     })
 }
 
-/// The least distance between the centrelines of two different yarns over the sum of their radii,
-/// of round yarns; at most 2.
+/// The least distance between the centrelines of two round yarns over the sum of their radii; 2 at
+/// most.
 pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
     let thickest = yarns
         .points()
@@ -98,7 +98,8 @@ pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
     least
 }
 
-/// The same, with the nearest samples of each two intervals moved to where they come nearest.
+/// [`round_clearance`], refined: the nearest samples of each two intervals move to where the
+/// intervals are nearest.
 pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
     let thickest = yarns
         .points()
@@ -121,7 +122,8 @@ pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
                 }
             }
         }
-        // Compass search: to the best of the places round about, closer and closer.
+        // Compass search: it moves to the best of the places around, with smaller and smaller
+        // steps.
         let mut step = 1.0 / samples as f64;
         while best.0 < 2.0 && step > 1e-6 {
             let before = best.0;
@@ -143,9 +145,9 @@ pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
     least
 }
 
-/// Whether two different yarns pierce one another when their sections are scaled by `scale`:
-/// whether a point of one's surface lies inside the other. `samples` steps an interval, `sides`
-/// points round a section.
+/// Whether two yarns pierce one another when their sections are scaled by `scale`: whether a point
+/// of one surface lies inside the other yarn. There are `samples` steps per interval, and `sides`
+/// points around a section.
 pub(crate) fn pierce(yarns: &Yarns, samples: usize, sides: u32, scale: f64) -> bool {
     let sections = yarns.layout().sections();
     let outlines: Vec<Vec<DVec2>> = sections
@@ -192,12 +194,12 @@ fn inside(point: DVec3, pair: &[Place], outline: &[DVec2]) -> bool {
     let (side, up) = place.frame();
     let offset = point - centre;
     let at = DVec2::new(offset.dot(side), offset.dot(up)) / place.halves;
-    // Convex outlines: inside is left of every edge.
+    // Outlines are convex: a point inside lies to the left of every edge.
     outline.iter().zip(outline.iter().cycle().skip(1)).all(|(a, b)| (*b - *a).perp_dot(at - *a) > 0.0)
 }
 
-/// The scale of all sections at which the first two yarns touch, to within 1/256 of the way between
-/// `low` and `high`.
+/// The scale of all sections at which the first two yarns touch, to 1/256 of the range from `low`
+/// to `high`.
 pub(crate) fn surface_clearance(
     yarns: &Yarns,
     samples: usize,
@@ -215,7 +217,7 @@ pub(crate) fn surface_clearance(
     low
 }
 
-/// An ellipse of this width over height, as a section.
+/// An elliptical section with this width over height.
 pub(crate) fn ellipse(aspect: f32) -> Section {
     Section::Ellipse { aspect }
 }

@@ -8,14 +8,15 @@ use crate::outline::Outline;
 /// Radius of every yarn, mm.
 pub(crate) const RADIUS: f32 = 0.125;
 
-/// `size` threads, by turns `setts` diameters from the one before; `twist` in turns a metre.
+/// `size` threads, whose distances from the thread before are `setts` diameters in turn. `twist` in
+/// turns per metre.
 pub(crate) fn set(size: usize, setts: [f64; 2], radius: f32, twist: f32) -> Vec<Thread> {
     let twist = radians_a_mm(twist);
     let thread = |sett| Thread { twist, ..Thread::new(sett * 2.0 * f64::from(radius), radius) };
     setts.into_iter().cycle().map(thread).take(size).collect()
 }
 
-/// As many ends as picks, alike.
+/// Equally many ends and picks, all alike.
 pub(crate) fn woven(weave: &str, threads: Vec<Thread>, section: Section) -> Yarns {
     let size = threads.len();
     let drawdown = Weave::parse(weave).unwrap().drawdown(size, size).unwrap();
@@ -29,10 +30,10 @@ fn radians_a_mm(turns_a_metre: f32) -> f32 {
     turns_a_metre * 1e-3 * std::f32::consts::TAU
 }
 
-/// A cloth whose yarns touch or pierce a little; `twist` in turns a metre.
+/// A cloth whose yarns touch or pierce a little. `twist` in turns per metre.
 ///
-/// Untwisted it lies in the room that [`Woven`] makes, pressed to nine tenths of its height.
-/// Twisted yarns follow the paths of round ones that nearly hold them, or just.
+/// Untwisted yarns lie in the room that [`Woven`] makes, pressed to nine tenths of its height.
+/// Twisted yarns follow the paths of round yarns that hold them just or nearly.
 pub(crate) fn close(weave: &str, section: &Section, twist: f32) -> Yarns {
     let (size, sett) = match weave {
         "plain" => (4, 1.75),

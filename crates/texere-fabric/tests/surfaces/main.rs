@@ -1,5 +1,5 @@
-//! How near the surfaces of yarns come to one another, furrows, twist and all: an oracle of its
-//! own, and the clearance beside it.
+//! Distances between the surfaces of yarns with furrows and twist: the clearance report against an
+//! oracle.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -21,7 +21,7 @@ use outline::Outline;
 use ratio::{hull_ratio, surface_ratio};
 use tube::Tube;
 
-/// Settings that put rings a twenty-fifth of a diameter apart or nearer.
+/// Settings whose rings lie a twenty-fifth of a diameter apart, or nearer.
 fn dense(yarns: &Yarns) -> Settings {
     let longest = (0..yarns.layout().yarns().len())
         .flat_map(|yarn| yarns.yarn_points(yarn).unwrap().windows(2))
@@ -50,8 +50,8 @@ fn assert_near(ratio: f64, expected: f64) {
     assert!((ratio - expected).abs() < 5e-4, "{ratio} instead of {expected}");
 }
 
-/// The tube is the one that a backend makes vertices of: bent, flattened, twisted either way. So it
-/// is half way between rings.
+/// The oracle's tube is the one that a backend makes vertices of, on rings and half way between
+/// them. Yarns are bent, flattened, and twisted either way.
 #[test]
 fn vertices_lie_on_the_surface() {
     const SIDES: u32 = 48;
@@ -67,7 +67,7 @@ fn vertices_lie_on_the_surface() {
         let twice = Settings { subdivisions: 2 * settings.subdivisions + 1, ..settings };
         let mesh = Pipeline::new(&yarns).settings(twice).mesh(&SerialBackend::new()).unwrap();
         let (all, mut ring) = (0..=tube.rings() - 1, 0);
-        // The first and the last are the yarn's ends, beyond which there is none.
+        // The first and the last ring are the yarn's ends.
         for half in 1..2 * tube.rings() - 2 {
             let stance = tube.stance(half as f64 / 2.0);
             for k in 0..SIDES as usize {
@@ -83,7 +83,7 @@ fn vertices_lie_on_the_surface() {
     }
 }
 
-/// Round yarns touch when their radii make up the distance.
+/// Round yarns touch where their radii add up to the distance.
 #[test]
 fn round_yarns_that_cross() {
     for distance in [0.2, 0.25, 0.27] {
@@ -113,7 +113,7 @@ fn flat_yarns_that_cross() {
     }
 }
 
-/// Flat yarns of one twist, side by side, turn alike: they touch where both lie flat.
+/// Flat yarns with the same twist turn alike. Side by side they touch where both lie flat.
 #[test]
 fn twisted_yarns_side_by_side() {
     let width = f64::from(RADIUS) * 2f64.sqrt();
@@ -123,8 +123,8 @@ fn twisted_yarns_side_by_side() {
     assert_near(surface_ratio(&yarns, dense(&yarns)), 0.8);
 }
 
-/// Two straight yarns of two plies side by side, 1.95 radii apart: a short one whose ply points at
-/// the other, which has made a quarter turn on the way there and so turns a furrow to it.
+/// Two straight yarns of two plies side by side, 1.95 radii apart. The ply of the short one points
+/// at the other. The other has made a quarter turn there, and shows it a furrow.
 fn furrow_and_ply() -> Yarns {
     let (lead, apart) = (5.0, 1.95 * RADIUS);
     let ply = straight([0.0, 0.0, 0.0], [0.0, 0.01, 0.0], 0, 0.0);
@@ -132,7 +132,7 @@ fn furrow_and_ply() -> Yarns {
     yarns(Section::Lobed { plies: 2 }, &[ply, furrow])
 }
 
-/// A ply fits a furrow, and the hulls around them do not know.
+/// A ply fits into a furrow. Hulls do not show that.
 #[test]
 fn a_ply_lies_in_a_furrow() {
     let yarns = furrow_and_ply();
@@ -144,7 +144,7 @@ fn a_ply_lies_in_a_furrow() {
     assert_near(hull_ratio(&yarns, dense(&yarns)), 1.95 / (ply * (1.0 + (2.0f64 / 3.0).powf(1.5))));
 }
 
-/// What the crate measures.
+/// The clearance that the crate measures.
 fn clearance_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     clearance(yarns, &settings).unwrap().min
 }
@@ -152,7 +152,7 @@ fn clearance_ratio(yarns: &Yarns, settings: Settings) -> f64 {
 #[test]
 fn the_clearance_is_that_of_surfaces() {
     let mut cases = vec![("ply in a furrow".to_owned(), furrow_and_ply())];
-    // Each end beside its double, each pick beside its own: plies lie in furrows all along.
+    // Ends lie in pairs, and so do picks. Plies lie in furrows all along.
     for plies in [3, 5] {
         let threads = set(4, [2.5, 0.95], RADIUS, 0.0);
         let doubled = woven("2/2(2+2)", threads, Section::Lobed { plies });
@@ -183,9 +183,9 @@ fn the_clearance_is_that_of_surfaces() {
     }
 }
 
-/// A yarn that bends over backwards passes through the vertical between two rings, where the
-/// upright frame flips and the one that is carried along does not. A round yarn passes there on the
-/// section's wide side.
+/// A yarn that bends over backwards passes through the vertical between two rings. The upright
+/// frame flips there, and the frame that is carried along does not. A round yarn passes there, on
+/// the wide side of the section.
 #[test]
 fn a_carried_frame_does_not_flip_between_rings() {
     for (section, away) in [(Section::Ellipse { aspect: 3.0 }, 0.33), (Section::Lobed { plies: 2 }, 0.28)] {
@@ -206,7 +206,7 @@ fn a_carried_frame_does_not_flip_between_rings() {
     }
 }
 
-/// Threads that cross make room for all plies, however twist turns them.
+/// Threads that cross make room for all plies, at any turn of the twist.
 #[test]
 fn plied_threads_in_their_own_room_stay_clear() {
     for plies in 2..=6 {
@@ -218,7 +218,7 @@ fn plied_threads_in_their_own_room_stay_clear() {
                 let (oracle, crates) = (surface_ratio(&yarns, settings), clearance_ratio(&yarns, settings));
                 let name = format!("{plies} plies, twist {twist}, {sett} diameters");
                 assert!(oracle >= 0.999, "{name}: {oracle}");
-                // Beyond this nothing is looked for.
+                // The search does not go further than this.
                 let same = (oracle - crates).abs() <= 0.003 || oracle.min(crates) > CLEARANCE_NEAR - 0.003;
                 assert!(same, "{name}: {oracle}, clearance {crates}");
             }

@@ -1,35 +1,35 @@
-//! The outline of a section, by angle: how far from the centre it lies each way.
+//! The outline of a section, as its distance from the centre by angle.
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 use texere_core::Section;
 
-/// Corners of the outline that the table is made from.
+/// Corners of the outline from which the table is made.
 const CORNERS: u32 = 4096;
 
-/// Angles of the table.
+/// Number of angles in the table.
 const ANGLES: usize = 4096;
 
-/// How far a star-shaped outline lies from its centre at each of [`ANGLES`] angles, in radii of the
+/// Distance of a star-shaped outline from its centre at each of [`ANGLES`] angles, in radii of the
 /// yarn.
 pub(crate) struct Outline {
     radii: Vec<f64>,
-    /// The greatest of them.
+    /// The greatest distance.
     pub(crate) greatest: f64,
 }
 
 impl Outline {
-    /// The outline as the section draws it, furrows and all.
+    /// The outline of the section with its furrows.
     pub(crate) fn of(section: &Section) -> Self {
         Self::new(&corners(section))
     }
 
-    /// The outline as a taut thread round it lies.
+    /// The hull of the section: the outline that a taut thread around it takes.
     pub(crate) fn hull_of(section: &Section) -> Self {
         let mut corners = corners(section);
-        // The furthest corner is one of the hull's. From there on each corner that the next one
-        // lies outside of goes.
+        // The furthest corner is on the hull. From there on, a corner is dropped if the next one
+        // lies outside of it.
         let (furthest, _) =
             corners.iter().enumerate().max_by(|a, b| a.1.length().total_cmp(&b.1.length())).unwrap();
         corners.rotate_left(furthest);
@@ -47,7 +47,7 @@ impl Outline {
         Self::new(&hull)
     }
 
-    /// From `corners`, counter-clockwise round the centre.
+    /// An outline from `corners`, counter-clockwise around the centre.
     fn new(corners: &[DVec2]) -> Self {
         let mut side = 0;
         let radii: Vec<f64> = (0..ANGLES)
@@ -68,7 +68,7 @@ impl Outline {
         Self { radii, greatest }
     }
 
-    /// How far the outline lies from the centre at `angle` from the section's side.
+    /// Distance of the outline from the centre at `angle`, counted from the section's side.
     pub(crate) fn radius(&self, angle: f64) -> f64 {
         let at = angle.rem_euclid(TAU) / TAU * ANGLES as f64;
         let (step, share) = (at as usize, at.fract());
@@ -81,7 +81,7 @@ impl Outline {
         DVec2::from_angle(angle) * self.radius(angle)
     }
 
-    /// How many times the outline has to grow to reach `point`.
+    /// The factor by which the outline has to grow to reach `point`.
     pub(crate) fn gauge(&self, point: DVec2) -> f64 {
         point.length() / self.radius(point.y.atan2(point.x))
     }

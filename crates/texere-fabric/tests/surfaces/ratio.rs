@@ -1,9 +1,10 @@
-//! How far the sections of two yarns have to grow until their surfaces touch, by dense sampling.
+//! The factor by which the sections of two yarns have to grow until their surfaces touch, by dense
+//! sampling.
 //!
-//! Where sections grow about their centres, yarns at a ratio lie within the same yarns at any
-//! greater ratio. So there is one ratio below which no point of a surface lies in another yarn, and
-//! above which some do. It is looked for from above: any sample that lies in another yarn takes the
-//! ratio down to where it first touched that yarn, until none does.
+//! The idea is simple. Sections grow about their centres, and a yarn lies within the same yarn at
+//! any greater ratio. There is thus one ratio below which no surface has a point in another yarn,
+//! and above which some have. The search comes from above. Any sample that lies in another yarn
+//! lowers the ratio to where it first touched that yarn, until no sample lies in another yarn.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -18,24 +19,25 @@ use crate::tube::Tube;
 /// The least and the greatest ratio that is found.
 const RATIOS: [f64; 2] = [0.4, 1.15];
 
-/// Angles at which a ring is sampled.
+/// Number of angles at which a ring is sampled.
 const ANGLES: usize = 256;
 
-/// Samples whose gauge is within this of the ratio may hide a touch between them and the next.
+/// A sample whose gauge is within this of the ratio may hide a touch between it and the next
+/// sample.
 const DOUBT: f64 = 0.005;
 
-/// The factor by which all sections grow until the first two yarns touch, furrows and all: within
-/// 5e-4, if `settings` puts rings a twenty-fifth of a diameter apart. 0.4 at least, 1.15 at most.
+/// The factor by which all sections, with their furrows, grow until the first two yarns touch: 0.4
+/// to 1.15. It is exact to 5e-4, if `settings` puts rings a twenty-fifth of a diameter apart.
 pub(crate) fn surface_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     first_touch(yarns, settings, Outline::of)
 }
 
-/// The same of the sections' hulls.
+/// The factor for the hulls of the sections.
 pub(crate) fn hull_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     first_touch(yarns, settings, Outline::hull_of)
 }
 
-/// The same with sections of the outlines that `outline` makes.
+/// The factor for sections with the outlines that `outline` makes.
 fn first_touch(yarns: &Yarns, settings: Settings, outline: fn(&Section) -> Outline) -> f64 {
     let trajectory = Pipeline::new(yarns).settings(settings).trajectory(&SerialBackend::new()).unwrap();
     let layout = yarns.layout();
@@ -73,7 +75,7 @@ struct Search {
 struct Sample {
     yarns: [usize; 2],
     stretch: RangeInclusive<usize>,
-    /// Where the point's foot was found last in the other yarn.
+    /// Place in the other yarn at which the point's foot was last found.
     ring: usize,
     /// Place along its own yarn, in rings.
     at: f64,
@@ -81,8 +83,8 @@ struct Sample {
 }
 
 impl Search {
-    /// Tests one ring of `step` and one angle of `step` of each yarn against all other yarns, and
-    /// gives the nearest sample of each ring that is in doubt.
+    /// Tests samples of each yarn against all other yarns: every `step`-th ring, and every
+    /// `step`-th angle. Returns the nearest sample of each ring that is in doubt.
     fn sweep(&mut self, step: usize) -> Vec<Sample> {
         let mut doubtful = Vec::new();
         let pairs =
@@ -121,7 +123,7 @@ impl Search {
         doubtful
     }
 
-    /// By how much the gauge of a sample is over `ratio`.
+    /// The gauge of a sample less `ratio`.
     fn excess(&self, sample: &mut Sample, ratio: f64) -> f64 {
         let [own, other] = sample.yarns.map(|yarn| &self.tubes[yarn]);
         let stance = own.stance(sample.at);
@@ -129,8 +131,8 @@ impl Search {
         other.gauge(point, &sample.stretch, &mut sample.ring, ratio + DOUBT) - ratio
     }
 
-    /// Moves a sample to where its surface lies deepest in the other yarn, in steps from a ring and
-    /// an angle on down.
+    /// Moves a sample to where its surface lies deepest in the other yarn, in steps that begin with
+    /// one ring and one angle.
     fn settle(&mut self, sample: &mut Sample) {
         let ratio = self.ratio;
         let last = (self.tubes[sample.yarns[0]].rings() - 1) as f64;
@@ -156,7 +158,7 @@ impl Search {
     }
 }
 
-/// Where `excess`, below 0 at `above`, falls to 0.
+/// The ratio at which `excess`, which is below 0 at `above`, becomes 0.
 fn first_crossing(mut excess: impl FnMut(f64) -> f64, above: f64) -> f64 {
     let (mut low, mut high) = (RATIOS[0], above);
     while high - low > 1e-7 {

@@ -1,4 +1,4 @@
-//! A yarn's surface between its rings, and how deep a point lies in it.
+//! The surface of a yarn between its rings, and the depth of a point in it.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -21,13 +21,13 @@ struct Station {
 pub(crate) struct Tube {
     stations: Vec<Station>,
     pub(crate) outline: Rc<Outline>,
-    /// The furthest that its surface lies from its centreline, mm.
+    /// The greatest distance of its surface from its centreline, mm.
     pub(crate) reach: f64,
-    /// The longest way from a ring to the next, mm.
+    /// The greatest distance from a ring to the next, mm.
     stride: f64,
 }
 
-/// How a section stands at one place of a yarn.
+/// The frame of a section at one place of a yarn.
 pub(crate) struct Stance {
     pub(crate) centre: DVec3,
     side: DVec3,
@@ -37,13 +37,13 @@ pub(crate) struct Stance {
 }
 
 impl Stance {
-    /// From the centre to the surface, for a point of the outline.
+    /// The vector from the centre to the surface, for a point of the outline.
     pub(crate) fn outward(&self, point: DVec2) -> DVec3 {
         let turned = self.turned.rotate(point) * self.halves;
         self.side * turned.x + self.up * turned.y
     }
 
-    /// The point of the section's plane that `outward` would take to `offset`.
+    /// The point in the section's plane that `outward` takes to `offset`.
     fn within(&self, offset: DVec3) -> DVec2 {
         let turned = DVec2::new(offset.dot(self.side), offset.dot(self.up)) / self.halves;
         DVec2::new(self.turned.x, -self.turned.y).rotate(turned)
@@ -66,12 +66,12 @@ impl Tube {
         Self { stations, outline, reach, stride }
     }
 
-    /// Rings.
+    /// Number of rings.
     pub(crate) fn rings(&self) -> usize {
         self.stations.len()
     }
 
-    /// The centre between ring `ring` and the next, on the cubic through both that has their
+    /// The centre between ring `ring` and the next one, on the cubic through both with their
     /// tangents.
     fn centre(&self, ring: usize, share: f64) -> DVec3 {
         let (from, to) = (&self.stations[ring], &self.stations[ring + 1]);
@@ -82,7 +82,8 @@ impl Tube {
         from.centre + chord * gone + leave * (gone * left * left) - arrive * (gone * gone * left)
     }
 
-    /// How the section stands at `centre`, `share` of the way from ring `ring` to the next.
+    /// The frame of the section at `centre`, which lies `share` of the way from ring `ring` to the
+    /// next.
     fn stance_at(&self, ring: usize, share: f64, centre: DVec3) -> Stance {
         let (from, to) = (&self.stations[ring], &self.stations[ring + 1]);
         let tangent = from.tangent.lerp(to.tangent, share).normalize();
@@ -94,14 +95,14 @@ impl Tube {
         Stance { centre, side, up: tangent.cross(side), halves, turned: DVec2::from_angle(roll) }
     }
 
-    /// How the section stands at `at`, counted in rings.
+    /// The frame of the section at `at`, counted in rings.
     pub(crate) fn stance(&self, at: f64) -> Stance {
         let ring = (at as usize).min(self.rings() - 2);
         let share = at - ring as f64;
         self.stance_at(ring, share, self.centre(ring, share))
     }
 
-    /// Stretches of rings within `distance` of `point`, and a ring more at both ends.
+    /// Stretches of rings within `distance` of `point`, with one more ring at both ends.
     pub(crate) fn near(&self, point: DVec3, distance: f64) -> Vec<RangeInclusive<usize>> {
         let mut stretches: Vec<RangeInclusive<usize>> = Vec::new();
         let mut ring = 0;
@@ -121,10 +122,11 @@ impl Tube {
         stretches
     }
 
-    /// How many times the sections in `stretch` have to grow to reach `point`, which lies between
-    /// two rings alone (no bend is so tight that more would hold it): exact up to `most`, never too
-    /// much, and infinite beyond the stretch's ends. `ring` is where to look first, and becomes
-    /// where it was found.
+    /// The factor by which sections in `stretch` have to grow to reach `point`. It is exact up to
+    /// `most`, never too large, and infinite beyond the stretch's ends. The search starts at
+    /// `ring`, which becomes the ring of the result.
+    ///
+    /// No bend is so tight that the point lies between more than one pair of rings.
     pub(crate) fn gauge(
         &self,
         point: DVec3,

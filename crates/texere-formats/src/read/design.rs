@@ -1,15 +1,17 @@
 //! A design, read and checked.
 
-use std::fmt;
 use std::path::{self, PathBuf};
 
 use texere_contact::clearance;
 use texere_core::{BackendError, Origin, Settings, YarnPlace, Yarns};
-use texere_fabric::{FabricError, Finish, FinishError, Stretch, Structure, ThreadPlace};
+use texere_fabric::{FabricError, Finish, FinishError, Stretch, Structure};
 
 use super::FilePlace;
 use super::keys::Keys;
-use super::knit::KnittedFrom;
+use super::knitted_from::KnittedFrom;
+use super::machine_fault::MachineFault;
+use super::named_place::NamedPlace;
+use super::program_place::ProgramPlace;
 use super::refusal::Refusal;
 
 /// The most control points among which the place that is too crowded to settle is looked for: a
@@ -41,53 +43,6 @@ pub struct Design {
     knitted_from: Option<KnittedFrom>,
     faults: Vec<MachineFault>,
     keys: Keys,
-}
-
-/// What a knitting machine could not do, or a knitter would not want it to.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MachineFault {
-    /// Where, and what.
-    pub said: String,
-    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was
-    /// meant.
-    pub is_error: bool,
-}
-
-/// What told a machine to make a piece of yarn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Told {
-    /// The line of a knitout file, or the cell of a chart.
-    pub place: String,
-    /// The instructions that stand there, as knitout writes them, with their carriers.
-    pub instructions: Vec<String>,
-}
-
-/// A place on a yarn in a designer's words. It is written as `end 3 at pick 4, cotton`, of a knit
-/// with what [`Told`] says.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NamedPlace {
-    /// The thread, and the crossing or the stitch.
-    pub thread: ThreadPlace,
-    /// The name of its material, perhaps empty.
-    pub material: String,
-    /// What told a machine to make it. None of what is not knitted by one.
-    pub told: Option<Told>,
-}
-
-impl fmt::Display for NamedPlace {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.thread)?;
-        if !self.material.is_empty() {
-            write!(f, ", {}", self.material)?;
-        }
-        if let Some(Told { place, instructions }) = &self.told {
-            write!(f, ": {place}")?;
-            if !instructions.is_empty() {
-                write!(f, ": {}", instructions.join("; "))?;
-            }
-        }
-        Ok(())
-    }
 }
 
 impl Design {
@@ -238,11 +193,11 @@ impl Design {
         &self.faults
     }
 
-    /// What told a machine to make the yarn of a control point, by that point's
-    /// [source](Yarns::sources). None of what is not knitted.
+    /// The place in the program of a weft knit that the yarn of a control point comes from.
+    /// `source` is that point's [source](Yarns::sources). None for other structures.
     #[must_use]
-    pub fn told(&self, source: u32) -> Option<Told> {
-        self.knitted_from.as_ref().map(|from| from.told(source))
+    pub fn program_place(&self, source: u32) -> Option<ProgramPlace> {
+        self.knitted_from.as_ref().map(|from| from.program_place(source))
     }
 
     /// A place on one of `yarns`, the design's own, settled or not, in a designer's words: thread
@@ -276,7 +231,7 @@ impl Design {
                 .get(material)
                 .map(|material| material.name.clone())
                 .unwrap_or_default(),
-            told: place.source.and_then(|source| self.told(source)),
+            program: place.source.and_then(|source| self.program_place(source)),
         }
     }
 

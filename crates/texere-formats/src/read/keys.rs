@@ -282,7 +282,8 @@ mod tests {
             ),
             (FabricError::Woven(WovenError::TieUp { treadles: 1, ends: 2, limit: 1 }).into(), "knit.chart"),
             (
-                FabricError::Weft(WeftError::KnitRuns { passed: 9, loops: 1, limit: 1, told: None }).into(),
+                FabricError::Weft(WeftError::KnitRuns { passed: 9, loops: 1, limit: 1, operation: None })
+                    .into(),
                 "knit.chart",
             ),
             (

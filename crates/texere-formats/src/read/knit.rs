@@ -2,22 +2,22 @@
 //! from.
 
 use std::mem::{Discriminant, discriminant};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use texere_core::{Material, Section, counted};
 use texere_fabric::weft::{
-    CarrierSet, Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Operation, Program,
-    WeftError,
+    Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Program, WeftError,
 };
 use texere_fabric::{FabricError, Structure, Thread};
 
-use super::design::{MachineFault, Told};
 use super::error::named;
+use super::knitted_from::{Drawn, KnittedFrom};
+use super::machine_fault::MachineFault;
 use super::threads::only_used;
-use super::{Design, FilePlace, ReadError};
+use super::{Design, ReadError};
 
-/// How many faults of a kind are told.
-const FAULTS_TOLD: usize = 3;
+/// How many faults of each kind are listed.
+const FAULTS_LISTED: usize = 3;
 
 /// What a knit is beside its program.
 #[derive(Debug)]
@@ -31,65 +31,6 @@ pub(super) struct Knit {
     pub(super) cells: Cells,
     /// How many needles a yarn may float past, where the design says so.
     pub(super) float_max: Option<u32>,
-}
-
-/// What the sources of a program's operations are.
-#[derive(Debug, Clone)]
-pub(super) enum Drawn {
-    /// Lines of a file, from 1.
-    Lines { file: PathBuf },
-    /// Cells of a chart, row by row from the bottom, both from 0. In an image the bottom row may be
-    /// the top one.
-    Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
-}
-
-impl Drawn {
-    /// A source as a designer finds it.
-    fn place(&self, source: u32) -> String {
-        match self {
-            Self::Lines { file } => format!("{}, line {source}", named(file)),
-            Self::Cells { file, columns, rows, upside_down } => {
-                let (row, column) = (source as usize / columns, source as usize % columns);
-                let row = if *upside_down { row + 1 } else { rows.saturating_sub(row) };
-                format!("{}, row {row} from the top, column {}", named(file), column + 1)
-            }
-        }
-    }
-}
-
-/// A program and where its operations come from.
-#[derive(Debug, Clone)]
-pub(super) struct KnittedFrom {
-    drawn: Drawn,
-    program: Program,
-}
-
-impl KnittedFrom {
-    /// The line of a knitout file that a source is. None of a chart, which errors name as a whole.
-    pub(super) fn line(&self, source: u32) -> Option<FilePlace> {
-        let Drawn::Lines { file } = &self.drawn else { return None };
-        Some(FilePlace::new(file, source as usize, &self.told(source).instructions.join("; ")))
-    }
-
-    /// Where operations come from, and what they do.
-    pub(super) fn told(&self, source: u32) -> Told {
-        let carriers = |CarrierSet(set): CarrierSet| {
-            let set = self.program.carrier_sets.get(set as usize).into_iter().flatten();
-            set.filter_map(|&carrier| self.program.carriers.get(carrier as usize))
-        };
-        let written = |operation: &Operation| {
-            let carriers = carriers(operation.carriers).map(|name| format!(" {name}"));
-            format!("{}{}", operation.instruction, carriers.collect::<String>())
-        };
-        let mut instructions: Vec<String> = Vec::new();
-        for operation in self.program.operations.iter().filter(|operation| operation.source == source) {
-            let written = written(operation);
-            if !instructions.contains(&written) {
-                instructions.push(written);
-            }
-        }
-        Told { place: self.drawn.place(source), instructions }
-    }
 }
 
 impl Knit {
@@ -137,15 +78,15 @@ impl Knit {
             }
         };
         let knit = machine.knit(&program).map_err(refused)?;
-        let (faults, more) = told(&knit, &drawn);
-        warnings.extend(faults.iter().map(|fault| fault.said.clone()));
+        let (faults, more) = listed(&knit, &drawn);
+        warnings.extend(faults.iter().map(|fault| fault.message.clone()));
         if more > 0 {
             let more = counted(more, "more fault");
             warnings.push(format!("{}: {more} of the kinds that are told", named(file)));
         }
         let refused = |error: FabricError| match (&error, &drawn) {
-            (FabricError::Weft(WeftError::KnitRuns { told: Some(told), .. }), Drawn::Lines { .. }) => {
-                ReadError::Operation { place: drawn.place(*told), source: error }
+            (FabricError::Weft(WeftError::KnitRuns { operation: Some(source), .. }), Drawn::Lines { .. }) => {
+                ReadError::Operation { place: drawn.place(*source), source: error }
             }
             _ => fabric(error),
         };
@@ -160,7 +101,7 @@ impl Knit {
 
 /// The faults of a program as a designer reads them, the first few of each kind, and how many more
 /// there are.
-fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
+fn listed(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
     let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
     let mut faults = Vec::new();
     for fault in &knit.faults {
@@ -170,9 +111,9 @@ fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
             kinds.push((kind, 0));
         }
         kinds[place].1 += 1;
-        if kinds[place].1 <= FAULTS_TOLD {
-            let said = format!("{}: {fault}", drawn.place(fault.source));
-            faults.push(MachineFault { said, is_error: fault.kind.is_error() });
+        if kinds[place].1 <= FAULTS_LISTED {
+            let message = format!("{}: {fault}", drawn.place(fault.source));
+            faults.push(MachineFault { message, is_error: fault.kind.is_error() });
         }
     }
     let more = (knit.faults.len() - faults.len()) as u64 + knit.unlisted;

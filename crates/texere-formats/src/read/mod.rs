@@ -1,54 +1,40 @@
 //! Readers: from a design file to a [`Design`], and from a file of saved yarns to [the
 //! yarns](fn@yarns).
 
-#[cfg(all(feature = "images", feature = "toml"))]
-mod bmp_file;
 mod bytes;
 mod design;
 #[cfg(feature = "toml")]
 mod design_file;
 mod error;
 mod file;
-#[cfg(all(feature = "images", feature = "toml"))]
+#[cfg(feature = "toml")]
 mod image_file;
 mod keys;
 mod knit;
 #[cfg(feature = "knitout")]
 mod knitout;
-#[cfg(all(feature = "images", feature = "toml"))]
-mod png_file;
+mod knitted_from;
+mod machine_fault;
+mod named_place;
 #[cfg(feature = "toml")]
 mod point_paper;
+mod program_place;
 mod refusal;
 mod threads;
-#[cfg(all(feature = "images", feature = "toml"))]
-mod tiff_file;
 #[cfg(feature = "wif")]
 mod wif;
 mod yarns;
-
-#[cfg(all(feature = "toml", not(feature = "images")))]
-mod image_file {
-    //! A build without images refuses them by name.
-
-    use std::path::Path;
-
-    use super::ReadError;
-    use super::file::Files;
-    use super::point_paper::Image;
-
-    pub(super) fn decode(path: &Path, _: &Files<'_>) -> Result<Image, ReadError> {
-        Err(ReadError::Feature { file: path.into(), what: "images", feature: "images" })
-    }
-}
 
 use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::Path;
 
-pub use design::{Design, MachineFault, NamedPlace, Told};
+pub use design::Design;
 pub use error::{FilePlace, ReadError};
 use file::Files;
+pub use machine_fault::MachineFault;
+pub use named_place::NamedPlace;
+pub use program_place::ProgramPlace;
 pub use refusal::Refusal;
 pub use texere_fabric::Structure;
 pub use yarns::{SavedYarns, yarns, yarns_from};
@@ -59,7 +45,7 @@ use crate::yarns_file::ENDING;
 pub(crate) use design_file::limits;
 #[cfg(feature = "wif")]
 pub(crate) use wif::{
-    FILE_LIMIT as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, LOOM_LIMIT, PROGRAM as WIF_PROGRAM,
+    FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, LOOM_MAX, PROGRAM as WIF_PROGRAM,
     UNITS_MM as WIF_UNITS_MM,
 };
 
@@ -70,7 +56,7 @@ pub(crate) use wif::{
 /// [`ReadError::Feature`] for a kind of file that this build was made without.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     let opened = RefCell::new(Vec::new());
-    let design = design(path.as_ref(), &|path, limit| {
+    let design = by_ending(path.as_ref(), &|path, limit| {
         let file = file::open(path, limit)?;
         opened.borrow_mut().push(path.to_owned());
         Ok(file)
@@ -111,15 +97,15 @@ pub fn read_from(
     files: impl FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<Design, ReadError> {
     let (own, files) = (Cell::new(Some(bytes.into())), RefCell::new(files));
-    design(name.as_ref(), &|path, limit| {
+    by_ending(name.as_ref(), &|path, limit| {
         let refused = |source| ReadError::Io { file: path.into(), source };
         let bytes = own.take().map_or_else(|| (files.borrow_mut())(path).map_err(refused), Ok)?;
         file::held(path, bytes, limit)
     })
 }
 
-/// The design in `path`, which `files` opens, by the reader of its kind.
-fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+/// The design in `path`, which `files` opens, by the reader of its file's ending.
+fn by_ending(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
         #[cfg(feature = "wif")]

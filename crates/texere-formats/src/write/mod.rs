@@ -58,8 +58,7 @@ pub use design::{toml, toml_to};
 pub use design::{wif, wif_to};
 #[cfg(feature = "pictures")]
 pub use draft::{
-    NEEDLES_MAX, SHAFTS_MAX, Side, draft, draft_to, knit_draft, knit_draft_to, knit_rows, warp_draft,
-    warp_draft_to, warp_rows,
+    Side, draft, draft_to, knit_draft, knit_draft_to, knit_rows, warp_draft, warp_draft_to, warp_rows,
 };
 pub use error::WriteError;
 pub use file::file;

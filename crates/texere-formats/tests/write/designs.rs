@@ -1,5 +1,5 @@
-//! Designs as files: what is read again equals what was written, and a second reader of WIF, which
-//! shares nothing with ours, agrees.
+//! Designs as files: a design that is written and read again is equal, and a second reader of WIF,
+//! which shares no code with texere's, agrees.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ pub(crate) fn woven(design: &Design) -> &WovenDesign {
     design.structure.woven().unwrap()
 }
 
-/// What a design has once it was written with `write` to a file of this name and read again, and
-/// what the file left out.
+/// The design that is read again after `write` to a file of this name, and the parts that the file
+/// left out.
 pub(crate) fn again(
     design: &Design,
     name: &str,
@@ -36,7 +36,7 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
     again(design, "a.toml", |design, path| write::toml(design, path))
 }
 
-/// Everything of a thread but numbers of tables, which another order may change.
+/// Everything of a thread, except indices into tables, which another order may change.
 fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 5], &'a Section, [u8; 3], Option<f32>) {
     let Thread { radius_mm, flatness, stiffness, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];
@@ -53,7 +53,7 @@ fn name<'a>(cloth: &'a Woven, thread: &Thread) -> &'a str {
     &cloth.materials()[thread.material as usize].name
 }
 
-/// Compares all that a design file holds.
+/// Compares everything that a design file holds.
 pub(crate) fn check_toml(given: &Design) {
     let (read, left_out, text) = as_toml(given);
     let (own, other) = (woven(given), woven(&read));
@@ -86,11 +86,11 @@ pub(crate) fn check_toml(given: &Design) {
     assert_eq!(finish, read.finish);
     assert_eq!(said("finish.length"), given.finish.length.is_some());
     assert_eq!(said("finish.press"), given.finish.press_mm.is_some());
-    // What is read again needs no other words.
+    // A design that is read again is written with the same text.
     assert_eq!(as_toml(&read).2, text);
 }
 
-/// Compares all that a WIF draft holds.
+/// Compares everything that a WIF draft holds.
 pub(crate) fn check_wif(given: &Design) {
     let (mut read, left_out, text) = as_wif(given);
     let (own, other) = (woven(given), woven(&read));
@@ -123,8 +123,8 @@ pub(crate) fn check_wif(given: &Design) {
         ("cloth.warp_crimp", cloth.crimp() != made.crimp()),
         ("cloth.jam", own.relief() != Relief::Report),
         ("finish.settle", given.settle),
-        ("finish.warp_tension", given.finish.taut[0] != 1.0),
-        ("finish.weft_tension", given.finish.taut[1] != 1.0),
+        ("finish.warp_tension", given.finish.taut.warp != 1.0),
+        ("finish.weft_tension", given.finish.taut.weft != 1.0),
         ("finish.calender", given.finish.calender != 1.0),
         ("finish.stretch", given.stretch.is_some()),
         ("finish.length", given.finish.length.is_some()),
@@ -134,12 +134,12 @@ pub(crate) fn check_wif(given: &Design) {
         assert_eq!(said(key), is_used, "{key}: {left_out:?}");
     }
     second_reader(&text, cloth);
-    // A draft without a title is called as its file.
+    // A draft without a title has the name of its file.
     read.name.clone_from(&given.name);
     assert_eq!(as_wif(&read).2, text);
 }
 
-/// Reads a WIF file as the standard has it, and compares the cloth.
+/// Reads a WIF file by the standard, and compares the cloth.
 fn second_reader(text: &str, cloth: &Woven) {
     let mut sections: BTreeMap<&str, BTreeMap<&str, &str>> = BTreeMap::new();
     let mut open = "";
@@ -218,7 +218,7 @@ fn second_reader(text: &str, cloth: &Woven) {
     }
 }
 
-/// All files with one of these endings in a folder and those in it.
+/// All files with one of these endings in a folder and its subfolders.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
@@ -255,7 +255,7 @@ fn our_own_designs_are_read_again() {
     assert!(woven > 20, "{woven}");
 }
 
-/// Two by two threads, the first end red.
+/// Two ends and two picks. The first end is red.
 fn small(drawdown: Drawdown, warp: Thread) -> Woven {
     let red = Material { name: "red".into(), srgb: [200, 0, 0], ..Material::default() };
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
@@ -293,7 +293,7 @@ fn many_kinds_of_picks_take_a_lift_plan() {
 
 #[test]
 fn threads_as_thick_as_their_spacing_stay_so() {
-    // What other programs write so is what they draw.
+    // Files of other programs give the cloth that these programs draw.
     let cloth = small(Weave::parse("plain").unwrap().drawdown(4, 4).unwrap(), Thread::new(0.2, 0.1));
     let (read, _, text) = as_wif(&design(cloth));
     assert_eq!(woven(&read).cloth().warp()[0].radius_mm, 0.1);
@@ -305,8 +305,8 @@ fn threads_as_thick_as_their_spacing_stay_so() {
 
 #[test]
 fn sizes_that_no_unit_holds_to_the_bit_have_the_same_text_again() {
-    // Each unit is off in two of these, and decipoints have the fewest digits. What is read of them
-    // has as many in centimeters, which come first.
+    // Each unit is inexact in two of these, and decipoints have the fewest digits. Values read from
+    // them have as many digits in centimeters, which are tried first.
     let sizes = [(819.4922889486355, 214.85893), (10.0 / 12.0, 305.75195), (232.13929242082267, 159.15794)];
     let warp = sizes.map(|(spacing_mm, radius_mm)| Thread::new(spacing_mm, radius_mm)).to_vec();
     let drawdown = Weave::parse("plain").unwrap().drawdown(3, 2).unwrap();
@@ -337,7 +337,7 @@ fn what_no_reader_takes_is_refused_by_name() {
     let thin = design(small(plain(), Thread::new(0.5, 4e-4)));
     let error = write::wif_to(&thin, Vec::new()).unwrap_err();
     assert!(error.to_string().starts_with("[WARP THICKNESS] 1, in "), "{error}");
-    // No repeat, and more crossings than a design file has bytes.
+    // A cloth without a repeat, with more crossings than a design file has bytes.
     let mut bits = 1_u64;
     let noise = Drawdown::from_fn(4200, 4200, |_, _| {
         bits ^= bits << 13;
@@ -380,7 +380,7 @@ fn rows_of_a_drawdown_are_checked_one_by_one() {
         std::fs::write(&path, format!("{threads}[weave]\n{weave}\n")).unwrap();
         read(&path)
     };
-    // The last pick on top; trailing spaces and empty lines count for nothing.
+    // The last pick is on top. Trailing spaces and empty lines have no meaning.
     let design = read("drawdown = \"\"\"\n001  \n\n  110\n\"\"\"\nends = 5").unwrap();
     let drawdown = woven(&design).cloth().drawdown().clone();
     assert_eq!((drawdown.ends(), drawdown.picks()), (5, 2));

@@ -1,4 +1,4 @@
-//! Pictures of drafts, read back: what stands in which square.
+//! Pictures of drafts, read back square by square.
 
 use std::path::Path;
 
@@ -7,13 +7,14 @@ use tempfile::TempDir;
 use texere_core::{Material, Section};
 use texere_fabric::{Draft, Drawdown, Shedding, Thread, Weave, Woven};
 use texere_formats::WriteError;
-use texere_formats::write::{SHAFTS_MAX, Side, draft};
+use texere_formats::write::{Side, draft};
 
 const WARP: [u8; 3] = [10, 120, 30];
 const WEFT: [u8; 3] = [200, 40, 90];
 
-/// Where things lie in a draft of six ends, four picks, four shafts and three treadles, of squares
-/// of 16 pixels: a margin of 12, a gap of 16 between blocks, and a line that closes each block.
+/// Places in the picture of a draft with six ends, four picks, four shafts and three treadles.
+/// Squares have 16 pixels. There is a margin of 12, a gap of 16 between blocks, and a line that
+/// closes each block.
 const LEFT: u32 = 12;
 const BAR_TOP: u32 = 12;
 const THREADING_TOP: u32 = 12 + 17 + 16;
@@ -31,7 +32,7 @@ fn cloth(drawdown: Drawdown) -> Woven {
     Woven::new(drawdown, warp, weft, vec![material(WARP), material(WEFT)], vec![Section::Circle]).unwrap()
 }
 
-/// Six ends on four shafts, four picks by three treadles, nothing of it symmetric.
+/// Six ends on four shafts, and four picks by three treadles, without any symmetry.
 fn shafts() -> Draft {
     Draft {
         threading: vec![vec![1], vec![2], vec![3], vec![4], vec![2], vec![0, 1]],
@@ -52,8 +53,7 @@ fn drawn(cloth: &Woven, shafts: Option<&Draft>, side: Side) -> RgbImage {
     picture
 }
 
-/// Squares of 16 pixels from a place, as a weaver writes them: `#` for black, `.` for white, `?`
-/// for a colour.
+/// The squares of 16 pixels from a place on: `#` for black, `.` for white, `?` for a colour.
 fn squares(picture: &RgbImage, left: u32, top: u32, columns: u32, rows: u32) -> Vec<String> {
     let sign = |column, row| match picture.get_pixel(left + column * 16 + 8, top + row * 16 + 8).0 {
         [0, 0, 0] => '#',
@@ -68,11 +68,11 @@ fn a_draft_lies_as_weavers_draw_it() {
     let shafts = shafts();
     let cloth = cloth(shafts.drawdown().unwrap());
     let picture = drawn(&cloth, Some(&shafts), Side::Face);
-    // Shaft 1 at the bottom, next to the cloth; treadle 1 on the left; pick 1 at the bottom.
+    // Shaft 1 is at the bottom, next to the cloth; treadle 1 on the left; pick 1 at the bottom.
     assert_eq!(squares(&picture, LEFT, THREADING_TOP, 6, 4), ["...#..", "..#...", ".#..#.", "#....#"]);
     assert_eq!(squares(&picture, TREADLES_LEFT, THREADING_TOP, 3, 4), ["..#", ".#.", "#.#", "#.."]);
     assert_eq!(squares(&picture, TREADLES_LEFT, CLOTH_TOP, 3, 4), ["##.", "..#", ".#.", "#.."]);
-    // Lifted by treadles 1 and 2, 3, 2, 1, from the top.
+    // From the top, picks use treadles 1 and 2, 3, 2, 1.
     assert_eq!(squares(&picture, LEFT, CLOTH_TOP, 6, 4), ["###.##", ".#.##.", "..#...", "##..##"]);
     for end in 0..6 {
         assert_eq!(*picture.get_pixel(LEFT + end * 16 + 8, BAR_TOP + 8), Rgb(WARP));
@@ -80,7 +80,7 @@ fn a_draft_lies_as_weavers_draw_it() {
     for (row, color) in [(0, WEFT), (1, WEFT), (2, WEFT), (3, WARP)] {
         assert_eq!(*picture.get_pixel(WEFT_LEFT + 8, CLOTH_TOP + row * 16 + 8), Rgb(color));
     }
-    // Between the squares there are lines, and nothing between the blocks.
+    // There are lines between squares, and nothing between blocks.
     assert_ne!(*picture.get_pixel(LEFT + 16, CLOTH_TOP + 8), Rgb([255; 3]));
     assert_eq!(*picture.get_pixel(LEFT + 40, CLOTH_TOP - 8), Rgb([255; 3]));
 }
@@ -96,7 +96,7 @@ fn a_lift_plan_stands_where_the_treadling_would() {
     let picture = drawn(&cloth, Some(&shafts), Side::Face);
     assert_eq!(squares(&picture, TREADLES_LEFT, CLOTH_TOP, 4, 4), ["....", "..#.", ".#.#", "#..."]);
     assert_eq!(squares(&picture, TREADLES_LEFT, THREADING_TOP, 4, 4), ["...."; 4]);
-    // A sinking shed: what is marked goes down.
+    // A sinking shed: marked shafts go down.
     assert_eq!(squares(&picture, LEFT, CLOTH_TOP, 6, 4), ["######", "##.###", "#.#..#", ".####."]);
 }
 
@@ -105,7 +105,7 @@ fn the_back_is_turned_over_sideways() {
     let shafts = shafts();
     let mut cloth = cloth(shafts.drawdown().unwrap());
     for side in [Side::Face, Side::Back] {
-        // Point paper: the drawdown follows the bar of the warp.
+        // Point paper: the drawdown follows the colour bar of the warp.
         let picture = drawn(&cloth, None, side);
         let rows = squares(&picture, LEFT, THREADING_TOP, 6, 4);
         match side {
@@ -151,10 +151,10 @@ fn squares_shrink_with_the_cloth_down_to_a_pixel() {
 #[test]
 fn what_no_loom_has_is_not_drawn() {
     let mut shafts = shafts();
-    shafts.threading[3] = vec![SHAFTS_MAX as u32 + 1];
+    shafts.threading[3] = vec![101];
     let cloth = cloth(shafts.drawdown().unwrap());
     assert_eq!(drawn(&cloth, Some(&shafts), Side::Face), drawn(&cloth, None, Side::Face));
-    // A draft that is not this cloth's says what it says, and no more.
+    // A draft of another cloth is drawn as it is.
     shafts.threading.truncate(2);
     shafts.shedding = Shedding::LiftPlan(vec![vec![1]]);
     let picture = drawn(&cloth, Some(&shafts), Side::Face);

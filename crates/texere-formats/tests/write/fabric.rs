@@ -1,5 +1,5 @@
-//! A small fabric with everything in it that a file has to get right, and what its mesh is, told
-//! without any file.
+//! A small fabric with everything that files have to get right, and its expected mesh, made without
+//! files.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use texere_core::{
 };
 use texere_cpu::SerialBackend;
 
-/// Three vertices, as the bits of their six floats each.
+/// A triangle: three vertices, each as the bits of six floats.
 pub(crate) type Triangle = [[u32; 6]; 3];
 
-/// Two ends of one length, a closed yarn, one of no known origin that is lobed, and a pick of 65
-/// rings with K = 1: one more than a block.
+/// Two ends of equal length, a closed yarn, a lobed yarn of unknown origin, and a pick of 65 rings
+/// with K = 1, one more than a block has.
 pub(crate) fn fabric() -> Yarns {
     let mut yarns = Yarns::builder();
     let materials: Vec<u32> = ["cotton \"raw\"\n", "Wolle, grün"]
@@ -56,11 +56,11 @@ pub(crate) fn long_yarn() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Buffers that hold one block of 65 rings, five sides and a cap, 7,920 bytes, but hardly more:
-/// chunks cut through yarns.
+/// Buffers for one block of 65 rings, five sides and a cap, 7,920 bytes, and hardly more. Chunks
+/// cut through yarns.
 pub(crate) const TINY: Limits = Limits { binding_bytes: 8000, ..Limits::NONE };
 
-/// All that should make no difference to what is in a file: topologies and ways to cut.
+/// Variants that should make no difference to a file: topologies and cuts.
 pub(crate) fn ways() -> Vec<(Topology, Limits)> {
     [Topology::Indexed, Topology::Shared, Topology::None]
         .into_iter()
@@ -78,12 +78,12 @@ pub(crate) fn pipeline(yarns: &Yarns, caps: bool, way: (Topology, Limits)) -> Pi
     Pipeline::new(yarns).settings(settings(caps)).topology(way.0).limits(way.1)
 }
 
-/// The mesh in one piece, with indices of the device's own.
+/// The mesh in one piece, with the device's own indices.
 pub(crate) fn whole(yarns: &Yarns, caps: bool) -> Mesh {
     pipeline(yarns, caps, (Topology::Indexed, Limits::NONE)).mesh(&SerialBackend::new()).unwrap()
 }
 
-/// Triangles of each yarn, sorted: chunks change their order.
+/// The triangles of each yarn, sorted, because chunks change their order.
 pub(crate) fn triangles(mesh: &Mesh) -> BTreeMap<u32, Vec<Triangle>> {
     let mut triangles: BTreeMap<u32, Vec<Triangle>> = BTreeMap::new();
     for draw in mesh.draws() {
@@ -112,8 +112,7 @@ fn tiny_chunks_cut_where_it_hurts() {
     assert!(chunks.iter().any(|chunk| chunk.caps().len() == 1), "one end of a yarn without the other");
 }
 
-/// A box in the fabric that only some blocks of the closed yarn reach into, and the half of another
-/// yarn.
+/// A box in the fabric that some blocks of the closed yarn and half of another yarn reach into.
 pub(crate) fn region() -> Bounds {
     Bounds::rectangle([-12.0, 5.0], [0.4, 12.0])
 }

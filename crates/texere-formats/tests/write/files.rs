@@ -1,4 +1,4 @@
-//! What is left in the folder, whatever happens.
+//! Files that are left in the folder after success and failure.
 
 use std::error::Error;
 use std::fs;
@@ -15,7 +15,7 @@ use texere_formats::write::{self, Format};
 
 use crate::fabric::{TINY, fabric, pipeline, whole};
 
-/// What lies in a folder: names and contents.
+/// The files of a folder: names and contents.
 fn contents(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
     let mut all: Vec<_> = fs::read_dir(folder.path())
         .unwrap()
@@ -26,8 +26,8 @@ fn contents(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
     all
 }
 
-/// Runs `attempt`, which must fail, towards a new file and over an old one in either format: no new
-/// file may be there after it, and the old one as it was.
+/// Runs `attempt`, which has to fail, towards a new file and over an old one, in each format.
+/// Afterwards there may be no new file, and the old file has to be unchanged.
 fn leaves_no_trace(attempt: impl Fn(&Path) -> WriteError, expected: impl Fn(&WriteError) -> bool) {
     for format in Format::ALL {
         let folder = tempfile::tempdir().unwrap();
@@ -120,14 +120,14 @@ fn a_vertex_that_is_not_finite_leaves_no_trace() {
     let yarns = fabric();
     for caps in [false, true] {
         let mut mesh = whole(&yarns, caps);
-        // The last vertex is of the last tube or of the last cap; both are the pick's.
+        // The last vertex is of the last tube or of the last cap. Both belong to the pick.
         let last = mesh.vertices.len() - 1;
         mesh.vertices[last].normal[2] = f32::NAN;
         leaves_no_trace(
             |path| write::mesh(&mesh, path).unwrap_err(),
             |error| matches!(error, WriteError::NotFinite { vertex, yarn: 4 } if *vertex == last as u64),
         );
-        // The first vertex of the second yarn, 79 rings of five after the first.
+        // The first vertex of the second yarn, 79 rings of five vertices after the first yarn's.
         mesh.vertices[395].position[0] = f32::INFINITY;
         let error = write::mesh(&mesh, "never.ply").unwrap_err();
         assert_eq!(error.to_string(), "vertex 395, of yarn 1, is not finite");

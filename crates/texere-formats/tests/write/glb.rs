@@ -9,7 +9,7 @@ use texere_formats::write;
 
 use crate::fabric::{Triangle, fabric, long_yarn, pipeline, region, triangles, ways, whole};
 
-/// What a reader makes of one yarn.
+/// One yarn, as a reader gets it.
 struct ReadYarn {
     name: String,
     material: String,
@@ -17,7 +17,7 @@ struct ReadYarn {
     triangles: Vec<Triangle>,
 }
 
-/// The yarns of a file, after checks of what holds for any file.
+/// The yarns of a file. Properties of every file are checked first.
 fn read(bytes: &[u8]) -> Vec<ReadYarn> {
     assert_eq!(
         u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize,
@@ -46,7 +46,7 @@ fn read_yarn(node: &gltf::Node<'_>, blob: &[u8]) -> ReadYarn {
             .zip(&normals)
             .map(|([x, y, z], [nx, ny, nz])| [x, y, z, nx, ny, nz].map(|float| float.to_bits()))
             .collect();
-        // A reader need load no vertex that no triangle has.
+        // Every vertex belongs to a triangle, so that readers load nothing needless.
         let used: BTreeSet<u32> = indices.iter().copied().collect();
         assert!(used.iter().copied().eq(0..vertices.len() as u32), "vertices of {:?}", node.name());
         let bounds = primitive.bounding_box();
@@ -69,7 +69,7 @@ fn read_yarn(node: &gltf::Node<'_>, blob: &[u8]) -> ReadYarn {
     ReadYarn { name, material, colour, triangles }
 }
 
-/// That a file holds every triangle of `mesh`, yarn by yarn, and no other.
+/// Checks that a file holds every triangle of `mesh`, yarn by yarn, and no other.
 fn assert_holds(bytes: &[u8], mesh: &Mesh, what: &str) {
     let (read, expected) = (read(bytes), triangles(mesh));
     assert_eq!(read.len(), expected.len(), "yarns, {what}");
@@ -81,7 +81,7 @@ fn assert_holds(bytes: &[u8], mesh: &Mesh, what: &str) {
     }
 }
 
-/// Writes `yarns` in every way and calls `check` with each file and what it is.
+/// Writes `yarns` in every variant, and calls `check` with each file and its description.
 fn each_way(yarns: &Yarns, caps: bool, check: impl Fn(&[u8], &str)) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fabric.glb");
@@ -136,7 +136,7 @@ fn yarns_of_one_length_share_their_indices() {
         .collect();
     assert_eq!(indices[0], indices[1], "two ends of 40 points");
     assert_eq!(indices.iter().collect::<BTreeSet<_>>().len(), 4, "four lengths");
-    // The pattern of the longest, 260 gaps of five sides, and nothing twice.
+    // Indices are the pattern of the longest yarn, 260 gaps of five sides, and occur once.
     assert_eq!(gltf.views().next().unwrap().length(), 260 * 5 * 6 * 4);
 }
 

@@ -30,14 +30,14 @@ fn a_chart_is_drawn_as_it_was_written() {
     for chart in ["kk\nbb", "bb\nku\nbb\ntp"] {
         assert_eq!(rows(chart, Beds::Two, Side::Face), chart);
     }
-    // Interlock: neither yarn is drawn through the other's loops, so both lie in one course.
+    // Interlock: neither yarn is drawn through the other's loops, so that both lie in one course.
     assert_eq!(rows("kp\npk", Beds::Two, Side::Face), "bb");
 }
 
 #[test]
 fn the_back_shows_each_stitch_from_behind_the_last_wale_first() {
     assert_eq!(rows("kkkkk\npkkkt\nkkkkk", Beds::One, Side::Back), "ppppp\nupppk\nppppp");
-    // What goes to the right in front goes to the left behind, seen from there.
+    // A yarn that goes to the right on the front goes to the left as seen from the back.
     assert_eq!(rows("kkkkk\nRRrkk", Beds::One, Side::Back), "ppppp\nppRrr");
 }
 
@@ -49,11 +49,11 @@ fn squares_have_the_yarns_colour_and_a_dot_where_it_purls() {
     let size = knit_draft(&cloth, Side::Face, &path).unwrap();
     let picture = image::open(&path).unwrap().to_rgb8();
     assert_eq!(size, [picture.width(), picture.height()]);
-    // Squares of 16 pixels, after a margin of 12.
+    // Squares have 16 pixels, after a margin of 12.
     let middle = |column: u32, row: u32| *picture.get_pixel(12 + 16 * column + 8, 12 + 16 * row + 8);
     assert_eq!([middle(0, 0), middle(1, 0), middle(0, 1)], [Rgb(YARN); 3]);
     assert_eq!(middle(1, 1), Rgb([0, 0, 0]));
-    // The needle diagram makes it higher; the back has none.
+    // The needle diagram makes the picture higher. The back has none.
     let back = knit_draft(&cloth, Side::Back, &path).unwrap();
     assert!(back[1] < size[1], "{size:?} and {back:?}");
 }

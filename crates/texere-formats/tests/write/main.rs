@@ -1,4 +1,4 @@
-//! What is written, read back by others; and what is left when writing fails.
+//! Written files, read back by other readers; and the files that are left when writing fails.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod designs;

@@ -1,4 +1,4 @@
-//! What no output may replace, and what is swept up before one is written.
+//! Files that no output may replace, and leftovers that are removed before writing.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -73,7 +73,7 @@ fn no_input_is_replaced_under_any_name() {
             }
         }
     }
-    // Files of another design are nobody's.
+    // Files of another design may be replaced.
     write::file(b"new", Output::to(at("draft.wif")).sparing(image.files())).unwrap();
     assert_eq!(fs::read(at("draft.wif")).unwrap(), b"new");
 }
@@ -137,7 +137,7 @@ fn what_a_dead_writer_left_is_removed_and_nothing_else() {
     assert!(!at(".texere-aLive10123456789.unfinished").exists());
 }
 
-/// Each sweeps while the others start and finish.
+/// Each writer removes leftovers while others start and finish.
 #[test]
 fn writers_in_one_folder_do_not_sweep_one_another() {
     let folder = tempfile::tempdir().unwrap();
@@ -187,7 +187,7 @@ fn links_that_lead_nowhere_are_refused_and_stay() {
     assert_eq!(names(&folder), ["dangling.ply", "loop.ply"]);
 }
 
-/// Before any work: the system refuses such a name only when it is used.
+/// The check comes before any work. The system refuses such a name only when it is used.
 #[test]
 fn a_name_that_is_too_long_is_refused_at_once() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! A yarn is one piece for a reader that joins nothing of itself: triangles hang together where
-//! they share a vertex's number.
+//! A yarn is one piece for a reader that does not join equal vertices: triangles hang together
+//! where they share the number of a vertex.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use texere_formats::write::{self, Format};
 
 use crate::fabric::{fabric, long_yarn, pipeline, region, ways, whole};
 
-/// Sets that are joined when two of their members are.
+/// Union-find: sets are joined when two of their members are.
 struct Pieces {
     parents: Vec<usize>,
 }
@@ -50,7 +50,7 @@ fn ply_triangles(bytes: &[u8]) -> (usize, impl Iterator<Item = [usize; 3]>) {
     let text = std::str::from_utf8(&bytes[..end]).unwrap();
     let number = |element: &str| text.split(element).nth(1).unwrap().lines().next().unwrap().parse().unwrap();
     let (vertices, triangles): (usize, usize) = (number("element vertex "), number("element face "));
-    // Six floats and three bytes a vertex; a byte and three numbers a triangle.
+    // A vertex has six floats and three bytes. A triangle has a byte and three numbers.
     let faces = bytes[end + vertices * 27..].chunks_exact(13);
     assert_eq!((faces.len(), faces.remainder().len()), (triangles, 0));
     let corner =
@@ -58,14 +58,14 @@ fn ply_triangles(bytes: &[u8]) -> (usize, impl Iterator<Item = [usize; 3]>) {
     (vertices, faces.map(move |face| [0, 1, 2].map(|k| corner(face, k))))
 }
 
-/// Pieces of a PLY file.
+/// Number of pieces in a PLY file.
 fn of_ply(bytes: &[u8]) -> usize {
     let (vertices, triangles) = ply_triangles(bytes);
     Pieces::of(vertices, triangles).count()
 }
 
-/// Pieces of a GLB file: a primitive has vertices of its own, so what two of them have in common is
-/// not joined.
+/// Number of pieces in a GLB file. A primitive has vertices of its own, so that two primitives are
+/// never joined.
 fn of_glb(bytes: &[u8]) -> usize {
     let gltf = Gltf::from_slice(bytes).unwrap();
     let blob = gltf.blob.as_deref().unwrap();
@@ -79,7 +79,7 @@ fn of_glb(bytes: &[u8]) -> usize {
     pieces.sum()
 }
 
-/// Writes `mesh`'s and `stream`'s files of each format.
+/// The files of `mesh` and of `stream` in each format.
 fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8>)) {
     let folder = tempfile::tempdir().unwrap();
     for format in Format::ALL {
@@ -103,7 +103,7 @@ fn leaked(yarns: Yarns) -> &'static Yarns {
     Box::leak(Box::new(yarns))
 }
 
-/// Caps have normals of their own, so they can't share vertices with the tube: each is a piece of
+/// Caps have normals of their own, and can't share vertices with the tube. Each cap is a piece of
 /// its own.
 #[test]
 fn a_yarn_is_one_piece_however_it_is_cut() {
@@ -122,7 +122,7 @@ fn a_yarn_is_one_piece_however_it_is_cut() {
     }
 }
 
-/// The limits of each count and of each device may cut anywhere; the file does not show where.
+/// Limits of counts and of devices may cut anywhere. The file does not show where.
 #[test]
 fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
     for yarns in [leaked(fabric()), leaked(long_yarn())] {
@@ -138,7 +138,7 @@ fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
                     },
                 );
             }
-            // Neither is a vertex twice: as many as the uncut mesh has.
+            // No vertex occurs twice: the file has as many as the uncut mesh.
             let mesh = whole(yarns, caps);
             let bytes = &first.borrow()["ply"];
             assert_eq!(ply_triangles(bytes).0, mesh.vertices.len());
@@ -146,7 +146,7 @@ fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
     }
 }
 
-/// What a box cuts out of a yarn in one row of rings is one piece.
+/// A box cuts one row of rings out of a yarn, which is one piece.
 #[test]
 fn a_region_has_a_piece_for_each_run_of_rings() {
     let yarns = leaked(fabric());
@@ -159,8 +159,7 @@ fn a_region_has_a_piece_for_each_run_of_rings() {
     }
 }
 
-/// Sixteen sides and six subdivisions of many ends and picks: the cut that the default limits make
-/// lies inside a yarn.
+/// Many ends and picks with sixteen sides and six subdivisions. Default limits cut inside a yarn.
 #[test]
 fn the_default_limits_cut_no_yarn_in_two() {
     let mut yarns = Yarns::builder();

@@ -42,7 +42,7 @@ fn read(bytes: &[u8]) -> Vec<Coloured> {
     faces
 }
 
-/// What a reader should find, from the mesh in memory.
+/// The expected content, from the mesh in memory.
 fn expected(mesh: &Mesh) -> Vec<Coloured> {
     let mut all: Vec<Coloured> = triangles(mesh)
         .into_iter()

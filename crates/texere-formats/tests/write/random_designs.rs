@@ -1,17 +1,18 @@
-//! Woven designs of any kind, written and read again.
+//! Random woven designs, written and read again.
 
 use proptest::prelude::*;
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_fabric::{
-    Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure, Thread, Woven, WovenDesign,
+    BySet, Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure, Thread, Woven,
+    WovenDesign,
 };
 use texere_formats::Design;
 
 use crate::designs::{check_toml, check_wif};
 
-/// Names as designers give them, and such that lists and tables have to be careful with.
+/// Names as designers give them, and names with characters that need care in lists and tables.
 const NAMES: [&str; 12] = [
     "indigo",
     "red",
@@ -28,8 +29,8 @@ const NAMES: [&str; 12] = [
 ];
 
 /// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
-/// unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has digits
-/// finer than those of the upper bound.
+/// unit. proptest 1.12 may fail an assertion of its own where the lower bound has finer digits than
+/// the upper one.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))
 }
@@ -57,7 +58,7 @@ fn material() -> impl Strategy<Value = Material> {
     ]
 }
 
-/// Threads of one kind, and how many of them lie side by side.
+/// Threads of one kind, with the number of them side by side.
 fn run() -> impl Strategy<Value = (Thread, usize)> {
     let spacing = prop_oneof![0.002_f64..900.0, Just(0.5), Just(10.0 / 12.0), Just(25.4 / 72.0)];
     let one = || prop_oneof![Just(1.0_f32), numbers(0.11, 9.9)];
@@ -77,7 +78,7 @@ fn threads() -> impl Strategy<Value = Vec<Thread>> {
     (repeat, 1_usize..40).prop_map(|(repeat, count)| repeat.into_iter().cycle().take(count).collect())
 }
 
-/// Lists of different numbers up to `most`, one for each of `count`.
+/// `count` lists of different numbers up to `most`.
 fn lists(count: usize, most: u32) -> impl Strategy<Value = Vec<Vec<u32>>> {
     let numbers = (1..=most).collect::<Vec<_>>();
     prop::collection::vec(prop::sample::subsequence(numbers, 0..=most.min(3) as usize), count)
@@ -95,7 +96,7 @@ fn draft(ends: usize, picks: usize) -> impl Strategy<Value = Draft> {
     })
 }
 
-/// A drawdown, at random, from a repeat or by a draft.
+/// A random drawdown, a drawdown from a repeat, or one from a draft.
 fn interlacing(ends: usize, picks: usize) -> impl Strategy<Value = (Drawdown, Option<Draft>)> {
     let bits = prop::collection::vec(any::<bool>(), ends * picks);
     let random = (bits, 1..=ends, 1..=picks).prop_map(move |(bits, width, height)| {
@@ -117,7 +118,7 @@ fn finish() -> impl Strategy<Value = (Finish, Option<Stretch>)> {
     let press = prop_oneof![4 => Just(None), 1 => Just(Some(0.3_f32))];
     (times(), times(), times(), length, press, stretch).prop_map(
         |(warp, weft, calender, length, press_mm, stretch)| {
-            (Finish { taut: [warp, weft], calender, length, press_mm, ..Finish::default() }, stretch)
+            (Finish { taut: BySet { warp, weft }, calender, length, press_mm, ..Finish::default() }, stretch)
         },
     )
 }
@@ -144,7 +145,7 @@ fn design() -> impl Strategy<Value = Design> {
             cloth.set_selvedge(selvedge);
             let relief = [Relief::Report, Relief::Flatten, Relief::Shrink][relief];
             let relieved = WovenDesign::new(cloth.clone(), draft.clone(), relief);
-            // Not every cloth can be relieved.
+            // Some cloths can't be relieved.
             let woven = relieved.unwrap_or_else(|_| WovenDesign::new(cloth, draft, Relief::Report).unwrap());
             let (name, settle, (finish, stretch)) = named;
             let mut design = Design::of(name, Structure::Woven(woven));
@@ -154,7 +155,7 @@ fn design() -> impl Strategy<Value = Design> {
     )
 }
 
-/// Whether relief has made threads that are thinner or flatter than files take.
+/// Whether relief has made threads thinner or flatter than files take.
 fn is_held(design: &Design) -> bool {
     let cloth = design.structure.woven().unwrap().cloth();
     let thickness = |thread: &Thread| (1e-3..=1e3).contains(&(2.0 * f64::from(thread.radius_mm)));

@@ -1,4 +1,4 @@
-//! Any writer gets the bytes that a file has, from where it stands.
+//! Any writer gets the bytes of the file, from its current position on.
 
 use std::fs;
 use std::io::{self, Cursor, ErrorKind, Seek, SeekFrom, Write};
@@ -10,11 +10,11 @@ use texere_formats::write::{self, Format, Side};
 
 use crate::fabric::{TINY, fabric, pipeline, ways, whole};
 
-/// What lies before and behind the file in the writer: neither may change.
+/// Bytes before and behind the file in the writer. Neither may change.
 const BEFORE: &[u8] = b"what an archive has before it";
 
-/// What `write` leaves in a writer that stands behind `BEFORE`, whose old bytes reach further than
-/// any file.
+/// The output of `write` into a writer that is positioned after `BEFORE`, and whose old bytes reach
+/// further than any file.
 fn written(write: impl FnOnce(&mut Cursor<Vec<u8>>)) -> Vec<u8> {
     let mut out = Cursor::new([BEFORE, &vec![0xa5; 1 << 20]].concat());
     out.set_position(BEFORE.len() as u64);
@@ -87,7 +87,7 @@ fn pictures_have_the_bytes_of_their_files() {
     }
 }
 
-/// A writer that refuses after so many bytes, or only when it is flushed.
+/// A writer that refuses after this many bytes, or only when it is flushed.
 struct Full {
     room: usize,
 }
@@ -134,7 +134,7 @@ fn what_a_writer_refuses_is_said() {
                 other => panic!("{other:?} with room for {room}"),
             }
         }
-        // PNG's encoder wraps what the writer says.
+        // The PNG encoder wraps the writer's error.
         let refused = write::picture_to([40, 40], &noise, Full { room });
         assert!(matches!(refused, Err(WriteError::Writer { .. })), "{refused:?}");
     }

@@ -6,7 +6,7 @@ use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn,
 use texere_cpu::ParallelBackend;
 use texere_formats::{Design, read_from};
 
-/// A poplin so dense that its threads flatten, of two-ply yarns.
+/// A poplin of two-ply yarns, so dense that its threads flatten.
 pub(crate) const POPLIN: &str = "weave = { notation = \"plain\", ends = 6, picks = 5 }\n\
     yarns.white = { diameter_mm = 0.143, plies = 2, twist_per_m = 800, color = \"#f0ede4\" }\n\
     yarns.blue = { tex = 14.0, section = { shape = \"lenticular\", aspect = 1.5 } }\n\
@@ -23,7 +23,7 @@ pub(crate) fn design(text: &str) -> Design {
     read_from("cloth.toml", text, |_| Err(ErrorKind::NotFound.into())).unwrap()
 }
 
-/// The yarns of a design at rest, or placed where it asks for no more.
+/// The yarns of a design: at rest, or as placed if the design does not settle.
 pub(crate) fn cloth(text: &str) -> Yarns {
     design(text).rest(&ParallelBackend::open().unwrap()).run().unwrap().into_parts().1
 }
@@ -34,8 +34,8 @@ pub(crate) fn repeat(text: &str) -> (Yarns, Boundary) {
     (piece.yarns, piece.boundary)
 }
 
-/// A ring, a ribbon with an outline of its own, and a loop that goes on; every kind of origin and
-/// section, odd materials, and sources.
+/// A ring, a ribbon with its own outline, and a loop that goes on. They have every kind of origin
+/// and section, odd materials, and sources.
 pub(crate) fn odd() -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     for (name, tex, hairiness) in
@@ -83,7 +83,7 @@ pub(crate) fn odd() -> (Yarns, Boundary) {
     (yarns, boundary)
 }
 
-/// `yarns` round a cylinder, so that each point has an up direction of its own.
+/// `yarns`, bent around a cylinder, so that each point has an up direction of its own.
 pub(crate) fn bent(yarns: &Yarns) -> Yarns {
     let round = |[x, y, z]: [f64; 3]| {
         let (sin, cos) = (x / 9.0).sin_cos();

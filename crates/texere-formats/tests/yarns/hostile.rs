@@ -1,5 +1,4 @@
-//! Files that are not what they say: each is refused by name, in memory that grows with the file
-//! alone.
+//! Broken files of yarns: each is refused by name, in memory that grows only with the file.
 
 use std::error::Error;
 
@@ -9,16 +8,16 @@ use texere_formats::{ReadError, read, write};
 use crate::HEAP;
 use crate::clothes::{bent, odd};
 
-/// Bytes of the header, and where in it is what.
+/// Length of the header in bytes, and the places of its fields.
 const HEADER: usize = 60;
 const LENGTH_AT: usize = 16;
 const COUNTS_AT: [usize; 3] = [24, 32, 40];
 const TENSION_AT: usize = 48;
 const REPEAT_AT: usize = 52;
 
-/// Bytes that the materials of [`odd`] take: 20 each and their names.
+/// Bytes of the materials of [`odd`]: 20 for each, and their names.
 const MATERIALS: usize = 3 * 20 + 14 + 4;
-/// And its sections: 12 each, and five corners.
+/// Bytes of the sections of [`odd`]: 12 for each, and five corners.
 const SECTIONS: usize = 6 * 12 + 5 * 8;
 const SECTIONS_AT: usize = HEADER + MATERIALS;
 const YARNS_AT: usize = SECTIONS_AT + SECTIONS;
@@ -39,7 +38,7 @@ fn crc(bytes: &[u8]) -> u32 {
     })
 }
 
-/// `file` with other bytes at `at`, and the length and the checksum that it then needs.
+/// `file` with other bytes at `at`, and with a fitting length and checksum.
 fn changed(mut file: Vec<u8>, at: usize, bytes: &[u8]) -> Vec<u8> {
     file[at..at + bytes.len()].copy_from_slice(bytes);
     sealed(file)
@@ -54,7 +53,7 @@ fn sealed(mut file: Vec<u8>) -> Vec<u8> {
     file
 }
 
-/// An error with all its causes, each of one short line.
+/// An error with all its causes. Checks that each is one short line.
 fn said(error: &dyn Error) -> String {
     let mut said = error.to_string();
     let mut cause = error.source();
@@ -94,7 +93,7 @@ fn a_file_cut_short_is_refused_at_every_length() {
             said.contains(if length < 24 { "cut off after" } else { "the length in bytes is" }),
             "{said}"
         );
-        // Even where its length and its checksum say that this is all.
+        // A cut file is refused, even with a fitting length and checksum.
         if length >= 28 {
             refused(&sealed(file[..length].to_vec()));
         }
@@ -121,8 +120,7 @@ fn each_bit_that_flips_is_found() {
     }
 }
 
-/// What stands at a byte is changed, with a checksum that holds; the file is refused by its name
-/// and says why.
+/// Values are changed under a fitting checksum. The file is refused by its name, with the reason.
 #[test]
 fn every_field_is_checked() {
     let nan = f32::NAN.to_le_bytes();
@@ -185,7 +183,7 @@ fn every_field_is_checked() {
     }
 }
 
-/// Counts that the file has no room for: memory grows with the file alone.
+/// Counts for which the file has no room. Memory grows only with the file.
 #[test]
 fn memory_grows_with_the_file_alone() {
     let file = file();
@@ -202,7 +200,7 @@ fn memory_grows_with_the_file_alone() {
             HEAP.reset_peak_usage();
             let read = yarns_from("cloth.yarns", &bytes);
             let taken = HEAP.peak_usage().saturating_sub(before);
-            // The file has three kilobytes; the rest is for the tests that run beside this one.
+            // The file has three kilobytes. The rest is for tests that run at the same time.
             assert!(taken < 1 << 26, "{claim} at byte {at} takes {taken} bytes: {read:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! Files of yarns: what is read is what was written, to the bit, and what has changed on the way is
+//! Files of saved yarns: yarns are read as they were written, to the bit, and damaged files are
 //! refused.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 

@@ -1,11 +1,11 @@
-//! Any yarns at all.
+//! Random yarns, written and read again.
 
 use proptest::prelude::*;
 use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn, Yarns};
 
 use crate::round_trip::same;
 
-/// A yarn, and how it goes on.
+/// A yarn, and the way in which it goes on.
 #[derive(Debug, Clone)]
 struct Made {
     points: Vec<ControlPoint>,

@@ -1,4 +1,4 @@
-//! What is read is what was written.
+//! Yarns are read as they were written.
 
 use std::fs;
 
@@ -8,8 +8,8 @@ use texere_formats::{WriteError, read, write};
 
 use crate::clothes::{JERSEY, POPLIN, TRICOT, bent, cloth, odd, repeat};
 
-/// Everything that yarns hold, each number with all its digits: no two values of different bits are
-/// written alike, but for NaN.
+/// Everything that yarns hold, as text with all digits. Values of different bits have different
+/// texts, except NaN.
 fn all(yarns: &Yarns, boundary: &Boundary) -> String {
     format!("{yarns:?} {boundary:?}")
 }
@@ -19,7 +19,7 @@ fn mesh(yarns: &Yarns) -> Mesh {
     Pipeline::new(yarns).settings(settings).mesh(&ParallelBackend::open().unwrap()).unwrap()
 }
 
-/// Writes yarns, reads them, and holds what was read to what was written. Gives the file's bytes.
+/// Writes yarns, reads them, and compares. Returns the bytes of the file.
 pub(crate) fn same(yarns: &Yarns, boundary: &Boundary) -> Vec<u8> {
     let mut file = Vec::new();
     let length = write::repeat_to(yarns, boundary, &mut file).unwrap();
@@ -33,7 +33,7 @@ pub(crate) fn same(yarns: &Yarns, boundary: &Boundary) -> Vec<u8> {
     file
 }
 
-/// [`same`], and the mesh of what was read is that of what was written.
+/// Checks [`same`], and that the mesh of the yarns that were read equals that of the original.
 fn same_mesh(yarns: &Yarns, boundary: &Boundary) {
     let read = read::yarns_from("cloth.yarns", &same(yarns, boundary)).unwrap().yarns;
     let [first, again] = [yarns, &read].map(mesh);
@@ -72,7 +72,7 @@ fn every_kind_of_section_origin_and_end() {
     let bent = bent(&yarns);
     assert!(bent.ups().is_some());
     same(&bent, &boundary);
-    // A polygon asks for a mesh of its own.
+    // A polygon needs settings of its own.
     for yarn in 0..5 {
         cut(&yarns.only([yarn]).unwrap());
     }

@@ -11,12 +11,12 @@ use texere_kernels::{
 };
 
 use super::memory::Memory;
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
-/// They run one after the other; the host waits for the extent of all chords, and for how many
-/// neighbours there are.
+/// The kernels of a list run one after the other. The host waits twice: for the extent of all
+/// chords, and for the number of neighbours.
 #[derive(Debug)]
 pub(super) struct ListKernels {
     extent: Kernel,
@@ -41,7 +41,7 @@ impl ListKernels {
         })
     }
 
-    /// Sorts chords into cells, and gives back `params` with them.
+    /// Sorts chords into cells, and returns `params` with the cells.
     pub(super) fn cells(
         &mut self,
         opened: &Opened,
@@ -73,7 +73,7 @@ impl ListKernels {
         Ok(params)
     }
 
-    /// Lists the neighbours of all chords in their cells, and gives back how many there are.
+    /// Lists the neighbours of all chords, and returns their number.
     pub(super) fn neighbours(
         &mut self,
         opened: &Opened,
@@ -81,7 +81,7 @@ impl ListKernels {
         params: &SettlingParams,
         memory: &mut Memory,
     ) -> Result<u32, BackendError> {
-        // The one behind the last count is to be 0.
+        // The value behind the last count must be 0.
         memory.starts.clear(opened)?;
         let value = [Arg::Value(bytes_of(params))];
         let Memory { chords, chord_rows, place_rows, strands, cells, sorted, starts, sums, .. } = memory;
@@ -107,7 +107,7 @@ impl ListKernels {
     }
 }
 
-/// The kernels that turn counts into sums of those before each.
+/// The kernels that replace each count by the sum of all before it.
 #[derive(Debug)]
 struct Scan {
     sum: Kernel,
@@ -115,7 +115,8 @@ struct Scan {
 }
 
 impl Scan {
-    /// Scans the first `count` of `values`, with room for the sums of groups, level by level.
+    /// Scans the first `count` of `values`. `sums` has room for the sums of workgroups, level by
+    /// level.
     fn run(
         &mut self,
         opened: &Opened,

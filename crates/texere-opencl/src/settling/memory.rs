@@ -5,56 +5,57 @@ use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, StrandRow};
 use texere_kernels::{SETTLING_PULL_WEIGHTED, SETTLING_SCAN_VALUES};
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::opened::Opened;
 use crate::room::Room;
 
-/// Numbers that the block form writes for each place, the more of both forms.
+/// Numbers that a pass writes for each place: those of the block form, which writes more than the
+/// weighted form.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
-/// What kernels read and write.
+/// The buffers that the kernels read and write.
 #[derive(Debug)]
 pub(super) struct Memory {
     pub(super) place_rows: Buffer,
     pub(super) strands: Buffer,
     pub(super) chord_rows: Buffer,
     pub(super) places: Buffer,
-    /// The places that the last pass has seen, where the next one writes.
+    /// The places that the last pass has seen. The next pass writes here.
     pub(super) seen: Buffer,
     pub(super) kept: Buffer,
     /// The step that each point has taken last, mm.
     pub(super) steps: Buffer,
-    /// The length that each interval is to have, mm.
+    /// The length that each interval shall have, mm.
     pub(super) lengths: Buffer,
     /// Where all chords lie.
     pub(super) chords: Buffer,
     pub(super) pulls: Buffer,
-    /// What groups of places have seen, and what all of them have.
+    /// What workgroups have seen in a pass, and what all of them have.
     pub(super) rows: Buffer,
     pub(super) all: Buffer,
-    /// What groups have found of where chords lie.
+    /// The extents of chords that workgroups have found.
     pub(super) extents: Buffer,
-    /// Where each cell's chords begin, and chords cell by cell.
+    /// Where each cell's chords begin, and the chords cell by cell.
     pub(super) cells: Buffer,
     pub(super) sorted: Buffer,
-    /// Where each chord's neighbours begin, and the neighbours of all.
+    /// Where each chord's neighbours begin, and the neighbours of all chords.
     pub(super) starts: Buffer,
     pub(super) neighbours: Buffer,
-    /// Sums of groups of a scan, level by level.
+    /// Sums of the workgroups of a scan, level by level.
     pub(super) sums: Vec<Buffer>,
     room: Room,
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
-    /// them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
+    /// may have.
     pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let groups = places.div_ceil(SETTLING_PULL_WEIGHTED.group as u64);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // As many cells as chords, or a few more.
+        // There are as many cells as chords, or a few more.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -85,7 +86,7 @@ impl Memory {
         })
     }
 
-    /// Makes room for `count` neighbours, and an eighth more where there is room.
+    /// Makes room for `count` neighbours, and for an eighth more where memory allows it.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, opened: &Opened, count: u32) -> Result<(), BackendError> {

@@ -13,7 +13,7 @@ use texere_core::{BackendError, Limits};
 use texere_gpu::{SettlingParams, settles_flattened};
 use texere_kernels::EntryPoint;
 
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::kernel::Kernel;
 use crate::opened::Opened;
 use list::ListKernels;
@@ -30,14 +30,14 @@ pub(crate) struct OpenClSettler {
     pass: PassKernels,
     points: PointKernels,
     memory: Memory,
-    /// Whether a pass has seen places, and whether such were kept.
+    /// Whether a pass has been made, and whether what it saw was kept.
     seen: bool,
     kept: bool,
     opened: Arc<Opened>,
 }
 
 impl OpenClSettler {
-    /// Compiles the kernels if no settler has before, and takes memory.
+    /// Takes memory, and compiles the kernels unless a settler has done so before.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
     pub(crate) fn new(
@@ -60,8 +60,8 @@ impl OpenClSettler {
         })
     }
 
-    /// Writes all control points, padded as `plan` says, to `points` where that lies in the same
-    /// context. Says whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that lies in the same
+    /// context. Returns whether it does.
     pub(crate) fn write_points(
         &mut self,
         opened: &Arc<Opened>,
@@ -101,7 +101,7 @@ impl Settler for OpenClSettler {
             .and_then(|()| list.cells(opened, plan, &params, memory))
             .and_then(|params| list.neighbours(opened, plan, &params, memory));
         if listed.is_err() {
-            // Of a list that has starts alone none is left; an error of this adds nothing.
+            // A half-made list must be empty. An error of this adds nothing.
             let _ = memory.starts.clear(opened);
         }
         listed.map(u64::from)

@@ -13,18 +13,19 @@ use super::memory::Memory;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
-/// They run one after the other; the host waits for 16 bytes at the end.
+/// The kernels of a pass run one after the other. At the end the host waits for 16 bytes.
 #[derive(Debug)]
 pub(super) struct PassKernels {
     chords: Kernel,
-    /// What pulls and the steps that come of it, in the weighted form and in the block form.
+    /// Pulls at intervals, then steps of control points, in the weighted form and in the block
+    /// form.
     weighted: [Kernel; 2],
     block: [Kernel; 2],
     ends: Kernel,
     seen: Kernel,
 }
 
-// The groups of both kernels share their rows.
+// The workgroups of both kernels write the same rows.
 const _: () = assert!(
     SETTLING_PULL_WEIGHTED.group == SETTLING_STEP_WEIGHTED.group
         && SETTLING_PULL_WEIGHTED.group == SETTLING_PULL_BLOCK.group
@@ -44,7 +45,7 @@ impl PassKernels {
         })
     }
 
-    /// Works out where all chords lie.
+    /// Works out all chords.
     pub(super) fn chords(
         &mut self,
         opened: &Opened,
@@ -60,7 +61,7 @@ impl PassKernels {
         unsafe { start(&mut self.chords, opened, &args, params.chords) }
     }
 
-    /// Makes a pass from `memory.places` to `memory.seen`, and gives back what it saw.
+    /// Makes a pass from `memory.places` to `memory.seen`, and returns what it saw.
     pub(super) fn run(
         &mut self,
         opened: &Opened,

@@ -1,4 +1,4 @@
-//! Control points from where yarns have come to rest, without a way over the host.
+//! Settled places turned into control points on the device, without a way over the host.
 
 use bytemuck::bytes_of;
 use texere_core::BackendError;
@@ -8,11 +8,11 @@ use texere_gpu::{BoundsRow, EXTENT_GROUPS, SettledParams, SettledRow};
 use texere_kernels::{EntryPoint, SETTLING_BOUNDS, SETTLING_POINTS};
 
 use super::memory::Memory;
-use crate::buffers::Buffer;
+use crate::buffer::Buffer;
 use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
-/// The kernels that read where yarns rest.
+/// The kernels that read settled places.
 #[derive(Debug)]
 pub(super) struct PointKernels {
     points: Kernel,

@@ -5,9 +5,9 @@ use texere_core::settling::Form;
 use texere_shaders::settling;
 
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
-/// All of them, for round yarns alone or for all yarns.
+/// The shaders of a settling, for round yarns alone or for all yarns.
 #[derive(Debug)]
 pub(crate) struct SettlingKernels {
     pub(super) chords: Kernel,
@@ -48,7 +48,7 @@ impl SettlingKernels {
         })
     }
 
-    /// What pulls at intervals and the steps that come of it, in a form.
+    /// The two shaders of a form: pulls at intervals, then steps of control points.
     pub(super) fn form(&self, form: Form) -> &[Kernel; 2] {
         match form {
             Form::Weighted => &self.weighted,

@@ -1,4 +1,4 @@
-//! Every chord's neighbours.
+//! The kernels that list neighbours.
 
 use texere_core::BackendError;
 use texere_gpu::{EXTENT_GROUPS, ExtentRow};
@@ -8,11 +8,10 @@ use wgpu::{BindingResource, BufferBinding, BufferSize, CommandEncoder, ComputePa
 use super::memory::groups;
 use super::{SettlingKernels, WgpuSettler, record, submit};
 use crate::gpu::Gpu;
-use crate::kernels::Kernel;
+use crate::kernel::Kernel;
 
 impl WgpuSettler {
-    /// Works out all chords, and cells as they need them while yarns have `growth` of their
-    /// thickness.
+    /// Works out all chords, and cells for them, while yarns have `growth` of their thickness.
     pub(super) fn find_cells(&mut self, growth: f32) -> Result<(), BackendError> {
         self.params.growth = growth;
         self.send_params()?;
@@ -27,14 +26,14 @@ impl WgpuSettler {
         self.send_params()
     }
 
-    /// Sorts chords into cells, and finds the neighbours of each. Gives back how many there are.
+    /// Sorts chords into cells, and finds the neighbours of each. Returns their number.
     pub(super) fn find_neighbours(&mut self) -> Result<u32, BackendError> {
         let Self { opened, memory, kernels, answer, params, .. } = self;
         let (gpu, chords) = (&opened.gpu, u64::from(params.chords));
         let groups = kernels.count.workgroups(params.chords);
         let total: Vec<u32> = answer.after(gpu, &memory.starts, (chords, 1), |encoder| {
             encoder.clear_buffer(&memory.cells, 0, None);
-            // The one behind the last count is to be 0.
+            // The value behind the last count must be 0.
             encoder.clear_buffer(&memory.starts, 0, None);
             record(gpu, memory, encoder, &[(&kernels.cell_count, groups)]);
             scan(gpu, kernels, encoder, (&memory.cells, u64::from(params.cells()) + 1), &memory.sums);
@@ -49,8 +48,8 @@ impl WgpuSettler {
     }
 }
 
-/// Turns the first `count` of `values` into sums of those before each, with room for the sums of
-/// groups, level by level.
+/// Replaces each of the first `count` of `values` by the sum of all before it. `sums` has room for
+/// the sums of workgroups, level by level.
 fn scan(
     gpu: &Gpu,
     kernels: &SettlingKernels,

@@ -10,13 +10,14 @@ use wgpu::{BindingResource, BufferUsages};
 use crate::gpu::Gpu;
 use crate::room::Room;
 
-/// Numbers that the block form writes for each place, the more of both forms.
+/// Numbers that a pass writes for each place: those of the block form, which writes more than the
+/// weighted form.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
-/// Lanes of a workgroup of places, which write a row together.
+/// Lanes of a workgroup of places, which write one row together.
 const ROW_PLACES: u64 = 64;
 
-/// What shaders read and write, each array in a buffer of its own.
+/// The buffers that the shaders read and write.
 #[derive(Debug)]
 pub(super) struct Memory {
     pub(super) params: wgpu::Buffer,
@@ -24,43 +25,43 @@ pub(super) struct Memory {
     strands: wgpu::Buffer,
     chord_rows: wgpu::Buffer,
     pub(super) places: wgpu::Buffer,
-    /// The places that the last pass has seen, where the next one writes.
+    /// The places that the last pass has seen. The next pass writes here.
     pub(super) seen: wgpu::Buffer,
     pub(super) kept: wgpu::Buffer,
     /// The step that each point has taken last, mm.
     pub(super) steps: wgpu::Buffer,
-    /// The length that each interval is to have, mm.
+    /// The length that each interval shall have, mm.
     pub(super) lengths: wgpu::Buffer,
     /// Where all chords lie.
     chords: wgpu::Buffer,
     pulls: wgpu::Buffer,
-    /// What groups have seen, and what all of them have.
+    /// What workgroups have seen in a pass, and what all of them have.
     rows: wgpu::Buffer,
     pub(super) all: wgpu::Buffer,
-    /// What groups have found of where chords lie.
+    /// The extents of chords that workgroups have found.
     pub(super) extents: wgpu::Buffer,
-    /// Where each cell's chords begin, and chords cell by cell.
+    /// Where each cell's chords begin, and the chords cell by cell.
     pub(super) cells: wgpu::Buffer,
     sorted: wgpu::Buffer,
-    /// Where each chord's neighbours begin, and the neighbours of all.
+    /// Where each chord's neighbours begin, and the neighbours of all chords.
     pub(super) starts: wgpu::Buffer,
     pub(super) neighbours: wgpu::Buffer,
-    /// Bytes of these that were taken off the room.
+    /// Bytes that `neighbours` has taken of the room.
     listed: u64,
-    /// Sums of groups of a scan, level by level.
+    /// Sums of the workgroups of a scan, level by level.
     pub(super) sums: Vec<wgpu::Buffer>,
     room: Room,
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of
-    /// them, may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
+    /// may have.
     pub(super) fn new(gpu: &Gpu, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(gpu, limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // As many cells as chords, or a few more.
+        // There are as many cells as chords, or a few more.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -95,12 +96,12 @@ impl Memory {
         })
     }
 
-    /// How large a binding may be.
+    /// The most bytes of a binding.
     pub(super) const fn binding_bytes(&self) -> u64 {
         self.room.binding_bytes
     }
 
-    /// Makes room for `count` neighbours, and an eighth more where there is room.
+    /// Makes room for `count` neighbours, and for an eighth more where memory allows it.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, gpu: &Gpu, count: u32) -> Result<(), BackendError> {
@@ -118,8 +119,7 @@ impl Memory {
         Ok(())
     }
 
-    /// What a shader sees as `resource`; nothing where that is none of a settling, or lies
-    /// elsewhere.
+    /// The binding of `resource`. None for a resource that is not of a settling, or lies elsewhere.
     pub(super) fn resource(&self, resource: Resource) -> Option<BindingResource<'_>> {
         let buffer = match resource {
             Resource::SettlingParams => &self.params,
@@ -145,7 +145,7 @@ impl Memory {
     }
 }
 
-/// Groups of a scan of so many values.
+/// The workgroups of a scan of `values` values.
 pub(super) fn groups(values: u64) -> u64 {
     values.div_ceil(SCAN_VALUES.into())
 }

@@ -3,6 +3,7 @@
 mod kernels;
 mod list;
 mod memory;
+mod pass;
 mod points;
 
 use std::ops::ControlFlow;
@@ -11,18 +12,19 @@ use std::sync::Arc;
 use texere_core::backend::zeroed;
 use texere_core::settling::{Pass, Place, Settler, SettlingPlan, SettlingSeen};
 use texere_core::{BackendError, Limits};
-use texere_gpu::{SeenRow, SettlingParams, settles_flattened};
+use texere_gpu::{SettlingParams, settles_flattened};
 use wgpu::{CommandEncoder, ComputePassDescriptor};
 
 use crate::answer::Answer;
 use crate::gpu::Gpu;
-use crate::kernels::{Kernel, Opened};
+use crate::kernel::Kernel;
+use crate::opened::Opened;
 use crate::readback::Readback;
 
 pub(crate) use kernels::SettlingKernels;
 use memory::Memory;
 
-/// A settling on one device.
+/// The settler of a [`WgpuBackend`](crate::WgpuBackend).
 #[derive(Debug)]
 pub(crate) struct WgpuSettler {
     opened: Arc<Opened>,
@@ -30,7 +32,7 @@ pub(crate) struct WgpuSettler {
     plan: Arc<SettlingPlan>,
     params: SettlingParams,
     memory: Memory,
-    /// Whether a pass has seen places, and whether such were kept.
+    /// Whether a pass has been made, and whether what it saw was kept.
     seen: bool,
     kept: bool,
     answer: Answer,
@@ -38,7 +40,7 @@ pub(crate) struct WgpuSettler {
 }
 
 impl WgpuSettler {
-    /// Takes memory for a plan.
+    /// Takes memory, and compiles the shaders unless a settler has done so before.
     pub(crate) fn new(
         opened: Arc<Opened>,
         limits: &Limits,
@@ -65,7 +67,7 @@ impl WgpuSettler {
     }
 }
 
-/// Hands over what `record` records.
+/// Submits what `record` records.
 fn submit(gpu: &Gpu, record: impl FnOnce(&mut CommandEncoder)) -> Result<(), BackendError> {
     gpu.scoped("Queue::submit", || {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -103,7 +105,7 @@ impl Settler for WgpuSettler {
         }
         let listed = self.find_cells(growth).and_then(|()| self.find_neighbours());
         if listed.is_err() {
-            // Of a list that has starts alone none is left; an error of this adds nothing.
+            // A half-made list must be empty. An error of this adds nothing.
             let _ = submit(&self.opened.gpu, |encoder| encoder.clear_buffer(&self.memory.starts, 0, None));
         }
         listed.map(u64::from)
@@ -113,25 +115,10 @@ impl Settler for WgpuSettler {
         if self.params.places == 0 {
             return Ok(SettlingSeen::NOTHING);
         }
-        self.params = self.params.with_pass(&self.plan, pass);
-        self.send_params()?;
-        let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
-        let [pull, step] = kernels.form(pass.form);
-        let places = pull.workgroups(self.params.places);
-        let yarns = kernels.ends.workgroups(self.params.yarns);
-        let seen: Vec<SeenRow> = self.answer.after(gpu, &memory.all, (0, 1), |encoder| {
-            let stages = [
-                (&kernels.chords, kernels.chords.workgroups(self.params.chords)),
-                (pull, places),
-                (step, places),
-                (&kernels.ends, yarns),
-                (&kernels.seen, 1),
-            ];
-            record(gpu, memory, encoder, &stages);
-        })?;
+        let seen = self.run(pass)?;
         std::mem::swap(&mut self.memory.places, &mut self.memory.seen);
         self.seen = true;
-        Ok(seen.first().map_or(SettlingSeen::NOTHING, |row| row.seen()))
+        Ok(seen)
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {

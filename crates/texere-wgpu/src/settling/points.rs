@@ -1,4 +1,4 @@
-//! Control points from where yarns have come to rest, without a way over the host.
+//! Settled places turned into control points on the device, without a way over the host.
 
 use std::sync::Arc;
 
@@ -9,11 +9,12 @@ use texere_shaders::Resource;
 use wgpu::{BufferUsages, CommandEncoder, ComputePassDescriptor};
 
 use super::{WgpuSettler, submit};
-use crate::kernels::{Kernel, Opened};
+use crate::kernel::Kernel;
+use crate::opened::Opened;
 
 impl WgpuSettler {
-    /// Writes all control points, padded as `plan` says, to `points` where that lies on the same
-    /// device and in one binding. Says whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that lies on the same
+    /// device and fits one binding. Returns whether it does.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,
@@ -63,7 +64,7 @@ impl WgpuSettler {
         Ok(buffer)
     }
 
-    /// Records a kernel that reads where yarns rest, with `buffers` beside the settling's own.
+    /// Records a kernel that reads settled places, with `buffers` beside the settling's own.
     fn record_settled(
         &self,
         encoder: &mut CommandEncoder,

@@ -1,4 +1,4 @@
-//! What is edited: lifts, yarns, structures, colours.
+//! Edits of a live fabric: lifts, yarns, tension, structures, colours.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use texere_fabric::{Loom, Structure};
 use super::{Live, LiveError, SetYarn, Source};
 
 impl Live {
-    /// Changes a material: a colour is none of the mesh's, so nothing is made again.
+    /// Changes material number `number`, from 0. A mesh holds no colours, so nothing is made again.
     ///
     /// **Errors**: [`LiveError::NoMaterial`], and [`LiveError::Yarns`] for a material that no yarn
     /// can have; the fabric is then as it was.
@@ -26,8 +26,8 @@ impl Live {
         Ok(())
     }
 
-    /// Says whether the warp is up at a crossing, end and pick counted from 0 (errors name them
-    /// from 1, as weavers do). Both yarns are those of the weave then, even if they were
+    /// Sets whether the warp is up at a crossing. `end` and `pick` count from 0; errors name them
+    /// from 1, as weavers do. Both threads then lie as they are woven, even if they were
     /// [set](Live::set_yarn) before.
     ///
     /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] outside the cloth, and
@@ -36,9 +36,10 @@ impl Live {
         self.set_drawdown(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
 
-    /// The same for all crossings of some ends and picks.
+    /// Sets whether the warp is up at every crossing of `ends` and `picks`, which count from 0:
+    /// [`Live::set_lift`] of many crossings at once. `up` takes the end and the pick.
     ///
-    /// **Errors**: those of [`Live::set_lift`].
+    /// **Errors**: the errors of [`Live::set_lift`].
     pub fn set_drawdown(
         &mut self,
         ends: Range<usize>,
@@ -55,12 +56,12 @@ impl Live {
         self.show_all(&changed)
     }
 
-    /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its
-    /// control points, mm. Where it has [up directions of its own](Yarns::with_ups), as many
-    /// control points as before keep them; more or fewer points stand as a yarn does that has none.
+    /// Replaces yarn number `yarn`, from 0: `what` is its material, section and twist, `points` are
+    /// its control points, mm. If the yarn has [up directions of its own](Yarns::with_ups), it
+    /// keeps them where `points` are as many as before, and loses them otherwise.
     ///
-    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] for
-    /// what no yarn can be and for a device that fails.
+    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], and [`LiveError::Session`] for
+    /// values that no yarn may have and for a device that fails.
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
         let yarns = self.mesh.plan().layout().yarns().len();
         if yarn >= yarns {
@@ -76,9 +77,10 @@ impl Live {
         self.set_all([(yarn, SetYarn { what, points, sources: None, ups, before })])
     }
 
-    /// Moves yarn number `yarn`, from 0: gives it other control points, perhaps more or fewer.
+    /// Gives yarn number `yarn`, from 0, other control points, mm; there may be more or fewer than
+    /// before.
     ///
-    /// **Errors**: those of [`Live::set_yarn`].
+    /// **Errors**: the errors of [`Live::set_yarn`].
     pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), LiveError> {
         let yarns = self.mesh.plan().layout().yarns().len();
         if yarn >= yarns {
@@ -87,13 +89,15 @@ impl Live {
         self.set_yarn(yarn, self.yarn(yarn), points)
     }
 
-    /// Gives all yarns splines of another [tension](texere_core::Layout::tension). The whole mesh
-    /// is made again.
+    /// Sets the [tension](Live::tension) of the splines of all yarns, from 0 to below 1. The whole
+    /// mesh is made again.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// # use std::sync::Arc;
-    /// # use texere::{Live, Material, Section, Settings, Thread, Weave, Woven};
+    /// # use texere::woven::{Thread, Weave, Woven};
+    /// # use texere::yarn::{Material, Section};
+    /// # use texere::{Live, Settings};
     /// # let (warp, weft) = (vec![Thread::new(1.0, 0.2); 40], vec![Thread::new(1.0, 0.2); 30]);
     /// # let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
     /// # let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
@@ -106,8 +110,8 @@ impl Live {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`LiveError::Yarns`] for a tension outside \[0, 1), and those of
-    /// [`Live::given`]; the fabric is then as it was.
+    /// **Errors**: [`LiveError::Yarns`] for a tension outside \[0, 1), and the errors of
+    /// [`Live::yarns`] and [`Live::given`]; the fabric is then as it was.
     pub fn set_tension(&mut self, tension: f32) -> Result<(), LiveError> {
         let yarns = self.yarns()?.with_tension(tension)?;
         self.mesh = self.another(&yarns)?;
@@ -115,16 +119,16 @@ impl Live {
         Ok(())
     }
 
-    /// That yarns have splines of the fabric's tension.
+    /// Refuses yarns whose splines have another tension than the fabric's.
     fn check_tension(&self, yarns: &Yarns) -> Result<(), LiveError> {
         let [given, tension] = [yarns.tension(), self.tension()];
         if given == tension { Ok(()) } else { Err(YarnError::OtherTension { given, tension }.into()) }
     }
 
-    /// Takes another structure in place of this one: a knit with other stitches, a cloth with other
-    /// threads. The tension of splines stays. Yarns that stay as they are are not made again.
+    /// Replaces the structure, such as by a knit with other stitches or a cloth with other threads.
+    /// The tension of splines stays. Yarns that are the same in both are not made again.
     ///
-    /// **Errors**: those of [`Live::new`].
+    /// **Errors**: the errors of [`Live::new`].
     pub fn set_structure(&mut self, structure: &Structure) -> Result<(), LiveError> {
         self.set_yarns(structure.yarns()?.with_tension(self.tension())?)?;
         if let Some(design) = structure.woven() {
@@ -133,8 +137,8 @@ impl Live {
         Ok(())
     }
 
-    /// Takes other yarns in place of these: such as have come to rest. Yarns that stay as they are
-    /// are not made again. The fabric is known by its yarns alone from then on.
+    /// Replaces all yarns. Yarns that are the same in both are not made again. The fabric is known
+    /// by its yarns alone from then on: its lifts can't be set.
     ///
     /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension),
     /// [`LiveError::Session`] of the device.
@@ -163,9 +167,9 @@ impl Live {
         Ok(())
     }
 
-    /// Lays all yarns as `rest` has them, which were brought to rest since, and keeps the weave:
-    /// yarns that are lifted later are laid as woven, among those at rest, until the next call.
-    /// Yarns that stay as they are are not made again.
+    /// Replaces all yarns by those of the same fabric at rest, and keeps the weave. Threads whose
+    /// lifts are set later lie as they are woven, among those at rest, until the next call. Yarns
+    /// that are the same in both are not made again.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -179,7 +183,7 @@ impl Live {
     /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::default())?);
     /// let design = Design::of("Dense plain weave", structure);
     /// let device = Arc::from(texere::open("cpu")?);
-    /// // To be seen at once.
+    /// // The cloth as it is woven is seen at once.
     /// let mut live = Live::new(Arc::clone(&device), &design.structure, Settings::default())?;
     /// live.set_rest(design.rest(&*device).run()?.yarns())?;
     /// live.set_lift(3, 2, false)?; // end 4 and pick 3 lie as woven
@@ -188,8 +192,8 @@ impl Live {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`LiveError::OtherYarns`] for yarns or sections that are not as many as the
-    /// fabric's, [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and those of
+    /// **Errors**: [`LiveError::OtherYarns`] where the numbers of yarns differ or sections do,
+    /// [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and the errors of
     /// [`Live::set_yarn`].
     pub fn set_rest(&mut self, rest: &Yarns) -> Result<(), LiveError> {
         self.check_tension(rest)?;
@@ -223,12 +227,12 @@ impl Live {
         self.set_all(changed)
     }
 
-    /// What the source's yarn number `yarn` is.
+    /// Material, section, twist and origin of the source's yarn number `yarn`.
     fn before(&self, yarn: usize) -> Yarn {
         self.set.get(&yarn).map_or_else(|| self.yarn(yarn), |set| set.before)
     }
 
-    /// Takes yarns in place of the source's: all of them, or none where it fails.
+    /// Sets yarns in place of the source's: all of them, or none where it fails.
     fn set_all(&mut self, yarns: impl IntoIterator<Item = (usize, SetYarn)>) -> Result<(), LiveError> {
         let (mut numbers, mut replaced) = (Vec::new(), Vec::new());
         for (yarn, set) in yarns {
@@ -249,15 +253,15 @@ impl Live {
         shown
     }
 
-    /// Gives the mesh these yarns as they are now, all at once, or begins another mesh where it has
-    /// no room for one of them or where one of them has up directions of its own.
+    /// Updates these yarns in the mesh, all at once. Begins another mesh where it has no room for
+    /// one of them or where one of them has up directions of its own.
     fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
         let (plan, mut laid) = (self.mesh.plan().clone(), Vec::with_capacity(yarns.len()));
         for &yarn in yarns {
             let (what, mut points) = (self.yarn(yarn), Vec::new());
             self.lay(yarn, &mut points);
             let edit = plan.check_edit(yarn, &what, points.len() as u64);
-            // No plan takes a yarn with up directions of its own.
+            // A plan takes no edit of a yarn with up directions of its own.
             if self.ups(yarn).is_some()
                 || matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
             {
@@ -270,7 +274,7 @@ impl Live {
         let edits: Edits<'_> =
             laid.iter().map(|(yarn, what, points)| (*yarn, (*what, &points[..]))).collect();
         self.mesh.set_yarns(&edits)?;
-        // A picker that does not take the yarns is made anew.
+        // A picker that refuses the yarns is made anew for the next ray.
         let (plan, picker) = (self.mesh.plan().clone(), self.picker.take());
         self.picker = picker.and_then(|mut picker| picker.set_yarns(plan, &edits).ok().and(Some(picker)));
         Ok(())

@@ -10,40 +10,40 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LiveError {
-    /// A lift of a fabric that is not woven, or is known by its yarns alone.
+    /// A lift was set in a fabric that is not woven, or that is known by its yarns alone.
     #[error(
         "there is no weave to lift in: the fabric is not woven, or is known by its yarns alone since they were set"
     )]
     NotWoven,
-    /// A yarn that there is not.
+    /// No yarn has this number.
     #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
     NoYarn {
-        /// The yarn.
+        /// The number, from 0.
         yarn: usize,
         /// How many there are.
         yarns: usize,
     },
-    /// A material that there is not.
+    /// No material has this number.
     #[error("material {material}, but there are {materials}, counted from 0")]
     NoMaterial {
-        /// The material.
+        /// The number, from 0.
         material: usize,
         /// How many there are.
         materials: usize,
     },
-    /// The structure does not take it.
+    /// The structure refuses the edit.
     #[error(transparent)]
     Fabric(#[from] FabricError),
-    /// Nothing can be picked.
+    /// A picker can't be made.
     #[error(transparent)]
     Pick(#[from] PickError),
-    /// Yarns can't be so.
+    /// The yarns break a rule of all yarns.
     #[error(transparent)]
     Yarns(#[from] YarnError),
-    /// Yarns at rest that are not those of the fabric.
+    /// The yarns at rest have other numbers of yarns or sections than the fabric.
     #[error("{given} yarns at rest of {sections} sections are not the fabric's {yarns} of {own}")]
     OtherYarns {
-        /// Yarns given.
+        /// Yarns at rest.
         given: usize,
         /// Their sections.
         sections: usize,

@@ -1,9 +1,9 @@
-//! Files of a crate that import one another, directly or in a round.
+//! Files of a crate that import one another, directly or in a circle.
 //!
-//! A file imports another one where it names something that is defined there, by a `use` or by a
-//! path in its code. A name is followed through what modules pass on, so that a `mod.rs` that only
-//! declares and passes on is no part of any circle. Each circle is told once, as the largest set of
-//! files from each of which all others are reached.
+//! A file imports another file if it names an item that is defined there, in a `use` or in a path
+//! in its code. A name is followed through re-exports, so a `mod.rs` that only declares and
+//! re-exports is part of no circle. Each circle is listed once, as the largest set of files from
+//! each of which all others are reached.
 
 mod names;
 mod tree;
@@ -16,7 +16,7 @@ use self::tree::Crate;
 use super::files::{is_test, shown};
 use crate::workspace::Package;
 
-/// All circles outside tests, each with the names that make it.
+/// All circles outside tests, each with the imports that make it.
 ///
 /// **Errors**: a sentence that names a file that can't be read or is no Rust.
 pub(crate) fn find(packages: &[Package]) -> Result<Vec<String>, String> {
@@ -56,7 +56,7 @@ fn circles(files: usize, imports: &Imports) -> BTreeSet<BTreeSet<usize>> {
     (0..files).map(|file| circle(file).collect::<BTreeSet<_>>()).filter(|circle| circle.len() > 1).collect()
 }
 
-/// What a file imports, and what that imports, and so on.
+/// All files that a file imports, directly or through others.
 fn reached(file: usize, imports: &Imports) -> BTreeSet<usize> {
     let (mut seen, mut left) = (BTreeSet::new(), vec![file]);
     while let Some(from) = left.pop() {
@@ -122,8 +122,8 @@ mod tests {
         }
     }
 
-    /// A module takes part where it defines what its own modules name, and not where it passes it
-    /// on.
+    /// A module is part of a circle if it defines an item that its own modules name, and not if it
+    /// re-exports it.
     #[test]
     fn what_only_passes_on_is_no_part() {
         let passes_on = "mod a;\nmod b;\nuse a::A;\npub use b::B;";

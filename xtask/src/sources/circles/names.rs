@@ -1,28 +1,28 @@
-//! Where a name is defined.
+//! Finds the file that defines a name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::tree::{Crate, Module};
 
-/// What each file imports from which other one: names by both files' numbers.
+/// Names that one file imports from another, by the numbers of both files.
 pub(super) type Imports = BTreeMap<(usize, usize), BTreeSet<String>>;
 
-/// How many modules may pass a name on to each other, so that a round of them ends.
+/// The most re-exports that a name is followed through, so that a circle of re-exports ends.
 const PASSED_ON_MOST: usize = 16;
 
-/// What a name stands for within the crate.
+/// The meaning of a name within the crate.
 #[derive(Debug, Clone, Copy)]
 enum Meaning {
     Module(usize),
-    /// Something that this file defines.
+    /// An item that this file defines.
     DefinedIn(usize),
 }
 
-/// What each file of a crate imports from which other one.
+/// Names that each file of a crate imports from each other file.
 pub(super) fn imports(read: &Crate) -> Imports {
     let mut found = Imports::new();
     for (number, module) in read.modules.iter().enumerate() {
-        // What is passed on is not needed here, unless a path in the code names it.
+        // A re-export is no import, unless a path in the code names it.
         let used =
             module.uses.iter().filter(|used| !used.passes_on && used.name != "*").map(|used| &used.path);
         for path in used.chain(&module.paths) {
@@ -38,8 +38,8 @@ pub(super) fn imports(read: &Crate) -> Imports {
 }
 
 impl Crate {
-    /// What a path stands for in a module, with the name that it is found by: a module and a
-    /// function may have one name.
+    /// The meanings of a path in a module, each with the name that led to it. There may be several:
+    /// a module and a function may have the same name.
     fn meanings<'a>(&self, module: usize, path: &'a [String], left: usize) -> Vec<(Meaning, &'a str)> {
         let Some((first, mut rest)) = path.split_first() else { return Vec::new() };
         let parent = self.modules[module].parent;
@@ -62,7 +62,7 @@ impl Crate {
                     self.named(module, name, left).into_iter().map(|meaning| (meaning, name)).collect()
                 }
             });
-            // What has further names behind it is the module, where there is one.
+            // A name with further names behind it is the module, if there is one.
             let mut inner: Vec<_> = inner.collect();
             if !further.is_empty() && inner.iter().any(|inner| matches!(inner.0, Meaning::Module(_))) {
                 inner.retain(|inner| matches!(inner.0, Meaning::Module(_)));
@@ -72,7 +72,7 @@ impl Crate {
         found
     }
 
-    /// What a name stands for in a module.
+    /// The meanings of a name in a module.
     fn named(&self, number: usize, name: &str, left: usize) -> Vec<Meaning> {
         let module: &Module = &self.modules[number];
         let mut found: Vec<_> =
@@ -82,8 +82,7 @@ impl Crate {
         }
         let Some(left) = left.checked_sub(1) else { return found };
         for used in &module.uses {
-            // A name that is used from itself, as `use clearance::clearance`, is that of a module
-            // first.
+            // In `use clearance::clearance` the first name is a module, the second an item of it.
             if used.name == name {
                 found.extend(self.meanings(number, &used.path, left).into_iter().map(|meaning| meaning.0));
             } else if used.name == "*" {

@@ -24,7 +24,7 @@ pub(super) struct Module {
     pub(super) file: usize,
     pub(super) parent: Option<usize>,
     pub(super) children: BTreeMap<String, usize>,
-    /// What it defines.
+    /// Names of the items that it defines.
     pub(super) items: BTreeSet<String>,
     pub(super) uses: Vec<Use>,
     /// The paths in its code, single names among them.
@@ -34,10 +34,10 @@ pub(super) struct Module {
 /// One name of a `use`.
 #[derive(Debug)]
 pub(super) struct Use {
-    /// What it is called here; `*` stands for all names of `path`.
+    /// The name in this module; `*` stands for all names of `path`.
     pub(super) name: String,
     pub(super) path: Vec<String>,
-    /// Whether it passes the name on to other modules.
+    /// Whether it re-exports the name.
     pub(super) passes_on: bool,
 }
 
@@ -50,7 +50,7 @@ impl Crate {
         Ok(read)
     }
 
-    /// Reads a file as a module, whose own modules lie in `folder`. Gives its number.
+    /// Reads a file as a module, whose own modules lie in `folder`. Returns its number.
     fn file(&mut self, path: &Path, folder: PathBuf, parent: Option<usize>) -> Result<usize, String> {
         let named = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|error| named(&error))?;
@@ -94,7 +94,7 @@ impl Crate {
     }
 }
 
-/// The name that an item defines, if it does, and its attributes.
+/// The name that an item defines, if any, and its attributes.
 fn definition(item: &Item) -> Option<(Option<String>, &[Attribute])> {
     let (name, attributes) = match item {
         Item::Const(item) => (&item.ident, &item.attrs),
@@ -135,8 +135,8 @@ impl Paths<'_> {
         self.0.uses.push(Use { name, path, passes_on });
     }
 
-    /// Paths among the tokens of a macro, which need not be Rust. A single name may be a field
-    /// there, and is left out.
+    /// Collects paths among the tokens of a macro, which need not be Rust. A single name may be a
+    /// field there, and is ignored.
     fn tokens(&mut self, tokens: TokenStream) {
         let mut path: Vec<String> = Vec::new();
         let mut colons = 0;

@@ -1,4 +1,4 @@
-//! What an interval's own bends and length do, a vector of intervals at a time.
+//! Pulls of an interval's own bends and length, a vector of intervals at a time.
 
 use texere_core::settling::{
     BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, GAUSS, Interval, Pass, Pull, SHORT, SOFT_BEND,
@@ -9,13 +9,13 @@ use super::curves::{Curve, acceleration, reach, velocity};
 use super::tables::{IntervalRow, PullRow};
 use crate::parallel::simd::{Floats, IN_TURN, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 
-/// Intervals whose own bends and lengths are worked out.
+/// The intervals, and their lengths.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Own<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) pass: &'a Pass,
     pub(super) intervals: &'a [IntervalRow],
-    /// The length that each is to have.
+    /// The length that each interval shall have, mm.
     pub(super) lengths: &'a [f32],
 }
 
@@ -23,7 +23,7 @@ pub(super) struct Own<'a> {
 type Slots<F> = [[F; 9]; 4];
 
 impl Own<'_> {
-    /// Adds what the intervals of `pulls` do, the first of which is that of place `first`.
+    /// Adds the intervals' own pulls to `pulls`, the first of which belongs to place `first`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn add<S: Simd>(&self, simd: S, first: usize, pulls: &mut [PullRow]) {
         match self.pass.form {
@@ -144,8 +144,8 @@ impl Own<'_> {
             let tags = self.plan.tags()[place + lane];
             let chords = self.plan.chords()[place + lane + 1] - self.plan.chords()[place + lane];
             if tags & (tag::OPENS | tag::ENDS) != 0 || chords > BEND_PARTS {
-                // Its bends count otherwise, or are looked at in more places: by the core's own
-                // function.
+                // Bends that count differently, or are looked at in more places, are left to the
+                // core's own function.
                 self.alone(place + lane, (tags, chords), pull);
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Pairs of chords in lanes: which image of the repeat is nearest, and where the chords come
-//! nearest to one another.
+//! Pairs of chords in lanes: their nearest images, and the places where they come nearest to one
+//! another.
 
 use texere_core::settling::{SHORT, SettlingPlan};
 
@@ -13,7 +13,7 @@ use crate::parallel::simd::{
 pub(super) struct Chords<S: Simd> {
     at: [S::Integers; 3],
     pub(super) span: [S::Floats; 3],
-    /// Of their intervals.
+    /// The thickest half of each chord's interval, mm.
     pub(super) thickest: S::Floats,
 }
 
@@ -45,19 +45,19 @@ impl<S: Simd> Chords<S> {
     }
 }
 
-/// Where pairs of chords come nearest to one another.
+/// The places where pairs of chords come nearest to one another.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest<S: Simd> {
-    /// Shares of both.
+    /// The places, as shares of both chords.
     pub(super) shares: [S::Floats; 2],
-    /// The way from the first one's place to the second one's, mm.
+    /// The way from the first chord's place to the second's, mm.
     pub(super) apart: [S::Floats; 3],
-    /// How many repeats away the second one is, negated.
+    /// The number of repeats by which the second chord is away, negated.
     pub(super) image: [S::Floats; 2],
 }
 
 impl<S: Simd> Nearest<S> {
-    /// As `Chord::nearest`, of the nearest images.
+    /// `Chord::nearest` of the core, for the nearest images.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, images: &Images<S>, one: &Chords<S>, other: &Chords<S>) -> Self {
         let (half, short) = (simd.splat(0.5), simd.splat(SHORT));
@@ -76,7 +76,7 @@ impl<S: Simd> Nearest<S> {
     }
 }
 
-/// Images of what repeats.
+/// Images in a cloth that repeats.
 #[derive(Clone, Copy)]
 pub(super) struct Images<S: Simd> {
     simd: S,
@@ -101,8 +101,8 @@ impl<S: Simd> Images<S> {
         }
     }
 
-    /// The way to the nearest image, and how many repeats away that is, negated. `middles` lead
-    /// from the ends of the way to what is to be near, mm.
+    /// The way to the nearest image, and the number of repeats by which that is away, negated.
+    /// `middles` lead from the ends of the way to the points that shall be near, mm.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn nearest(
         &self,
@@ -120,7 +120,7 @@ impl<S: Simd> Images<S> {
         (self.moved(way, image), image)
     }
 
-    /// A way, to the image that lies so many repeats away, negated.
+    /// The way to the image that is `image` repeats away, negated.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn moved(&self, [x, y, z]: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
         if !self.any {

@@ -1,7 +1,8 @@
 //! Contacts, a vector of pairs of chords at a time.
 //!
-//! All pairs are looked at on their chords. Those that are near go on to their exact places, again
-//! in full vectors. What they pull is then added up pair by pair, in the order of the lists.
+//! All pairs are first looked at on their chords. For pairs that are near the exact places are
+//! worked out, again in full vectors. Then their pulls are added up pair by pair, in the order of
+//! the lists.
 
 use std::ops::Range;
 
@@ -15,7 +16,7 @@ use crate::parallel::simd::{
     select, share, to_floats,
 };
 
-/// What pairs are made from.
+/// The input that pairs are made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) plan: &'a SettlingPlan,
@@ -25,7 +26,7 @@ pub(super) struct Source<'a> {
     pub(super) chords: &'a [ChordRow],
     /// Where each chord's neighbours begin, and the end of the last one's.
     pub(super) starts: &'a [u32],
-    /// With [`LANES_MAX`] entries more than there are.
+    /// All chords' neighbours, and [`LANES_MAX`] entries more.
     pub(super) neighbours: &'a [u32],
 }
 
@@ -34,15 +35,16 @@ pub(super) struct Source<'a> {
 pub(super) struct Room {
     /// The first chords of all pairs.
     ones: Vec<u32>,
-    /// How many pairs are near, and both chords of each.
+    /// The number of pairs that are near, and both chords of each.
     count: usize,
     near: [Vec<u32>; 2],
-    /// Where on their chords these are, and how many repeats away the second one is, negated.
+    /// The places of near pairs on their chords, and the number of repeats by which the second
+    /// chord is away, negated.
     on: Vec<[f32; 4]>,
 }
 
 impl Source<'_> {
-    /// Adds the contacts of the intervals of `pulls`, the first of which is that of place `first`.
+    /// Adds the contacts of intervals to `pulls`, the first of which belongs to place `first`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn add<S: Simd>(&self, simd: S, first: usize, room: &mut Room, pulls: &mut [PullRow]) {
         room.list(self, self.plan.chords()[first]..self.plan.chords()[first + pulls.len()]);
@@ -135,7 +137,7 @@ impl Source<'_> {
         owners
     }
 
-    /// What the places are.
+    /// The tags of `places`.
     #[cfg_attr(optimized, inline(always))]
     fn tags<S: Simd>(&self, places: &[u32; LANES_MAX]) -> [u32; LANES_MAX] {
         let mut tags = [0; LANES_MAX];
@@ -145,8 +147,8 @@ impl Source<'_> {
         tags
     }
 
-    /// Where along their intervals places on chords are, and how far from there the exact ones may
-    /// be.
+    /// For places on chords: where they lie along the intervals, and how far from there the exact
+    /// places may be.
     #[cfg_attr(optimized, inline(always))]
     fn places<S: Simd>(&self, simd: S, chords: &[u32], share: S::Floats) -> (S::Floats, S::Floats) {
         let shares: &[[[f32; 4]; 1]] = bytemuck::cast_slice(&self.fixed.shares);
@@ -174,7 +176,7 @@ impl Room {
 const ORDER: [f32; LANES_MAX] =
     [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
 
-/// Where pairs of intervals come near one another.
+/// The places where pairs of intervals come near one another.
 #[derive(Clone, Copy)]
 struct Contacts<S: Simd> {
     at: [S::Floats; 2],
@@ -182,7 +184,7 @@ struct Contacts<S: Simd> {
     distance: S::Floats,
 }
 
-/// As `Pair::refined`.
+/// `Pair::refined` of the core.
 #[cfg_attr(optimized, inline(always))]
 fn refined<S: Simd>(
     simd: S,
@@ -224,7 +226,7 @@ fn refined<S: Simd>(
 }
 
 impl<S: Simd> Contacts<S> {
-    /// Two places, on intervals of which the second begins `way` from the first.
+    /// Two places on two intervals. The second interval begins `way` from the first.
     #[cfg_attr(optimized, inline(always))]
     fn new(curves: &[Curve<S>; 2], way: [S::Floats; 3], at: [S::Floats; 2]) -> Self {
         let way = difference(plus(way, curves[1].offset(at[1])), curves[0].offset(at[0]));
@@ -232,13 +234,13 @@ impl<S: Simd> Contacts<S> {
     }
 }
 
-/// What contacts come to, lane by lane.
+/// The pulls of contacts, lane by lane.
 struct Touches {
     distance: [f32; LANES_MAX],
     ratio: [f32; LANES_MAX],
     /// The lanes that pull.
     pulling: u32,
-    /// What they add to the slots of a [`PullRow`].
+    /// What each lane adds to the slots of a [`PullRow`].
     adds: [[[[f32; 4]; 3]; 4]; LANES_MAX],
 }
 
@@ -261,7 +263,7 @@ impl Touches {
     ) {
         let Contacts { at: [u, v], way, distance } = *contact;
         let velocities = [curves[0].velocity(simd, u), curves[1].velocity(simd, v)];
-        // As `Contact::direction`.
+        // `Contact::direction` of the core.
         let [a, b] = velocities;
         let square = [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]];
         let way = select(simd.splat(1e-9).less(distance), way, square);
@@ -295,7 +297,7 @@ impl Touches {
         }
     }
 
-    /// Adds a lane's contact to what pulls at its interval.
+    /// Adds a lane's contact to the pulls at its interval.
     #[cfg_attr(optimized, inline(always))]
     fn add<const BLOCK: bool>(&self, lane: usize, pull: &mut PullRow) {
         pull.see(self.distance[lane], self.ratio[lane]);
@@ -312,7 +314,7 @@ impl Touches {
     }
 }
 
-/// As `SettlingPlan::folded`.
+/// `SettlingPlan::folded` of the core.
 #[cfg_attr(optimized, inline(always))]
 fn folded<S: Simd>(simd: S, tags: &[u32; LANES_MAX], weights: [S::Floats; 4]) -> [S::Floats; 4] {
     let mut any = 0;

@@ -43,14 +43,14 @@ impl<S: Simd> Curve<S> {
         acceleration(simd, &self.terms, u)
     }
 
-    /// How fast it moves at `u`.
+    /// The speed at `u`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn speed(&self, simd: S, u: f32) -> S::Floats {
         let velocity = self.velocity(simd, simd.splat(u));
         dot(velocity, velocity).sqrt()
     }
 
-    /// As `Interval::reach`.
+    /// `Interval::reach` of the core.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn reach(
         &self,
@@ -63,14 +63,14 @@ impl<S: Simd> Curve<S> {
     }
 }
 
-/// As `Interval::velocity`.
+/// `Interval::velocity` of the core.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn velocity<S: Simd>(simd: S, [c1, c2, c3]: &[[S::Floats; 3]; 3], u: S::Floats) -> [S::Floats; 3] {
     let thrice = simd.splat(3.0) * u;
     plus(*c1, scale(plus(scale(*c2, simd.splat(2.0)), scale(*c3, thrice)), u))
 }
 
-/// As `Interval::acceleration`.
+/// `Interval::acceleration` of the core.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn acceleration<S: Simd>(
     simd: S,
@@ -80,7 +80,7 @@ pub(super) fn acceleration<S: Simd>(
     plus(scale(*c2, simd.splat(2.0)), scale(*c3, simd.splat(6.0) * u))
 }
 
-/// As `Interval::reach`, of intervals that move in direction `tangent` there.
+/// `Interval::reach` of the core, for intervals that run in direction `tangent` there.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn reach<S: Simd>(
     simd: S,
@@ -106,7 +106,7 @@ pub(super) fn reach<S: Simd>(
     round.select(width, stands.select(flat, width))
 }
 
-/// As the core's weights.
+/// The core's weights of four control points.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn weights<S: Simd>(simd: S, u: S::Floats, s: f32) -> [S::Floats; 4] {
     let (square, one) = (u * u, simd.splat(1.0));

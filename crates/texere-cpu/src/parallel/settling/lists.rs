@@ -1,8 +1,8 @@
 //! Neighbours of all chords.
 //!
-//! Chords are sorted by cells, so that those of cells side by side lie side by side in memory, too.
-//! Most of them are refused by the distance of their middles. The others are looked at as the core
-//! does.
+//! Chords are sorted by cells, so that chords of cells side by side also lie side by side in
+//! memory. Most pairs are refused by the distance of their middles. The others are tested as the
+//! core does.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -22,26 +22,26 @@ use crate::parallel::simd::{
 /// Chords that one task works on.
 const TASK: usize = 1024;
 
-/// Every chord's neighbours, in the order of their numbers.
+/// The neighbours of every chord, in the order of their numbers.
 #[derive(Debug, Default)]
 pub(super) struct Lists {
     /// Where each chord's neighbours begin, and the end of the last one's.
     pub(super) starts: Vec<u32>,
-    /// With [`LANES_MAX`] entries more than there are.
+    /// All chords' neighbours, and [`LANES_MAX`] entries more.
     pub(super) neighbours: Vec<u32>,
-    /// Of each chord: where its middle is (as bits), and how far from there a neighbour's reach may
-    /// begin, mm.
+    /// For each chord: its middle (as bits), and the distance from there at which a neighbour's
+    /// reach may begin, mm.
     middles: Vec<[f32; 4]>,
-    /// Each chord's cell, above its number: in the order of both.
+    /// Each chord's cell and number, with the cell in the high bits, sorted.
     sorted: Vec<u64>,
-    /// The columns of `middles` in that order, with [`LANES_MAX`] entries more.
+    /// The columns of `middles` in the order of `sorted`, with [`LANES_MAX`] entries more.
     columns: [Vec<f32>; 4],
-    /// Where each cell's chords begin in that order, and the end of the last one's.
+    /// Where each cell's chords begin in `sorted`, and the end of the last cell's.
     cells: Vec<u32>,
     tasks: Vec<Task>,
 }
 
-/// What a task finds.
+/// The neighbours that a task finds.
 #[derive(Debug, Default)]
 struct Task {
     neighbours: Vec<u32>,
@@ -49,7 +49,7 @@ struct Task {
     near: Vec<u32>,
 }
 
-/// What lists are made from.
+/// The input that lists are made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Basis<'a> {
     pub(super) set: InstructionSet,
@@ -60,7 +60,7 @@ pub(super) struct Basis<'a> {
 }
 
 impl Lists {
-    /// Finds the neighbours anew and gives back how many there are.
+    /// Finds all neighbours anew, and returns their number.
     pub(super) fn fill(&mut self, basis: Basis<'_>) -> Result<u64, BackendError> {
         let (set, count) = (basis.set, basis.chords.len());
         self.middles.resize(count, [0.0; 4]);
@@ -94,7 +94,7 @@ impl Lists {
         });
         let listed: Result<(), BackendError> = listed.collect();
         if listed.is_err() {
-            // What was found until then is as much as was allowed.
+            // The lists found so far fill the memory that was allowed.
             self.tasks.clear();
         }
         listed?;
@@ -126,7 +126,7 @@ impl Lists {
         });
     }
 
-    /// Puts what tasks have found into one list.
+    /// Puts the lists of all tasks into one.
     fn gather(&mut self) -> Result<u64, BackendError> {
         let count = self.tasks.iter().map(|task| task.neighbours.len() as u64).sum();
         self.neighbours.resize(count as usize + LANES_MAX, 0);
@@ -149,7 +149,7 @@ impl Lists {
     }
 }
 
-/// Where a chord's middle is.
+/// A chord's middle.
 fn at([x, y, z, _]: &[f32; 4]) -> IVec3 {
     IVec3::new(x.to_bits().cast_signed(), y.to_bits().cast_signed(), z.to_bits().cast_signed())
 }
@@ -176,8 +176,8 @@ impl Job for MiddleJob<'_> {
             let own = Chords::<S>::new(simd, chords, &numbers);
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
-            // What `are_neighbours` allows, half of it each; more than rounding and the units of
-            // middles may take away.
+            // Each chord has half of what `are_neighbours` allows, and more than rounding and the
+            // units of middles may take away.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
             let [x, y, z] = bit_cast(own.middle(simd, unit));
@@ -192,7 +192,7 @@ impl Job for MiddleJob<'_> {
     }
 }
 
-/// Chords by cells.
+/// Chords sorted by cells.
 #[derive(Debug, Clone, Copy)]
 struct Sorted<'a> {
     grid: &'a Grid,
@@ -203,8 +203,8 @@ struct Sorted<'a> {
 }
 
 impl Sorted<'_> {
-    /// Writes the chords that may be neighbours of one whose middle is `own`, and gives back how
-    /// many they are.
+    /// Writes the chords that may be neighbours of a chord whose middle is `own`, and returns their
+    /// number.
     #[cfg_attr(optimized, inline(always))]
     fn near<S: Simd>(&self, simd: S, images: &Images<S>, own: &[f32; 4], near: &mut Vec<u32>) -> usize {
         let zero = [simd.splat(0.0); 3];
@@ -247,7 +247,7 @@ struct ListJob<'a> {
     /// Where each chord's neighbours end, counted from the task's first one.
     ends: &'a mut [u32],
     room: &'a mut Task,
-    /// How many neighbours all tasks have found so far, and whether that is allowed.
+    /// The number of neighbours that all tasks have found so far, and whether it is allowed.
     found: &'a AtomicU64,
     listed: &'a mut Result<(), BackendError>,
 }
@@ -277,7 +277,7 @@ impl Job for ListJob<'_> {
                 let others = &near[k..][..S::LANES];
                 let other = Chords::<S>::new(simd, chords, others);
                 let Nearest { apart, image, .. } = Nearest::new(simd, &images, &one, &other);
-                // As `are_neighbours`.
+                // `are_neighbours` of the core.
                 let thickness = one.thickest + other.thickest;
                 let within = grown * thickness + skin;
                 let mut found = dot(apart, apart).less(within * within).bits() & first::<S>(count - k);

@@ -5,6 +5,7 @@ mod chords;
 mod contacts;
 mod curves;
 mod lists;
+mod make;
 mod steps;
 mod tables;
 
@@ -23,31 +24,31 @@ use super::simd::{Job, Simd};
 use bends::Own;
 use contacts::{Room, Source};
 use lists::{Basis, Lists};
+use make::Make;
 use steps::Gather;
-use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, Make, PullRow, TASK};
+use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, PullRow, TASK};
 
-/// All cores.
+/// The settler on all cores.
 #[derive(Debug)]
 pub(crate) struct ParallelSettler {
     set: InstructionSet,
     plan: Arc<SettlingPlan>,
     fixed: Fixed,
-    /// Where everything is, with [`FRONT`] entries before the first place and [`BACK`] behind the
-    /// last one.
+    /// The places as they are now, between [`FRONT`] entries more before the first and [`BACK`]
+    /// behind the last.
     places: Vec<Place>,
-    /// Where everything was when the last pass saw it, likewise; the next places while a pass makes
-    /// them.
+    /// The places that the last pass has seen, likewise. During a pass it takes the next places.
     seen: Vec<Place>,
-    /// Where everything was kept, likewise; empty before that.
+    /// The places that were kept, likewise; empty before that.
     kept: Vec<Place>,
     /// The step that each point has taken last, mm.
     steps: Vec<[f32; 4]>,
-    /// The length that each interval is to have, mm.
+    /// The length that each interval shall have, mm.
     lengths: Vec<f32>,
     intervals: Vec<IntervalRow>,
     chords: Vec<ChordRow>,
     lists: Lists,
-    /// With [`FRONT`] entries before the first place.
+    /// The pulls at all intervals, behind [`FRONT`] entries more.
     pulls: Vec<PullRow>,
 }
 
@@ -96,7 +97,7 @@ impl ParallelSettler {
     }
 }
 
-/// What pulls at the intervals of a task.
+/// Works out the pulls at a task's intervals.
 struct PullJob<'a> {
     source: Source<'a>,
     own: Own<'a>,
@@ -120,7 +121,7 @@ impl Job for PullJob<'_> {
     }
 }
 
-/// The steps of a task's control points.
+/// Moves a task's control points.
 struct StepJob<'a> {
     gather: Gather<'a>,
     first: usize,
@@ -217,8 +218,8 @@ impl Settler for ParallelSettler {
     }
 }
 
-/// Copies what pulls at the intervals beyond a yarn's ends that the points at its ends steer, where
-/// it goes on.
+/// Copies pulls to the intervals beyond a yarn's ends, where the yarn goes on. The points at its
+/// ends also steer those intervals.
 fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     if strand.shift().is_some() {
         let first = FRONT + strand.first as usize;
@@ -228,7 +229,7 @@ fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     }
 }
 
-/// The lengths that intervals are to have from now on.
+/// Renews the lengths that intervals shall have, where lengths are free.
 fn free(plan: &SettlingPlan, pulls: &[PullRow], lengths: &mut [f32], tension: f32) {
     let tasks = lengths[..plan.tags().len()].par_iter_mut().enumerate();
     tasks.filter(|(place, _)| plan.tags()[*place] & tag::INTERVAL != 0).for_each(|(place, length)| {

@@ -7,18 +7,18 @@ use crate::parallel::simd::{
     Floats, IN_TURN, Integers, LANES_MAX, Simd, difference, dot, plus, rounded, scale, select, share,
 };
 
-/// What control points gather from.
+/// The input of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gather<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) pass: &'a Pass,
-    /// With [`FRONT`] entries before the first place, as `pulls` has.
+    /// All places, behind [`FRONT`] entries more; `pulls` is laid out likewise.
     pub(super) places: &'a [Place],
     pub(super) pulls: &'a [PullRow],
 }
 
 impl Gather<'_> {
-    /// Moves the places from `first` on, as many as `steps`, and gives back the longest step, mm.
+    /// Moves the places from `first` on, one for each of `steps`, and returns the longest step, mm.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn step<S: Simd>(
         &self,
@@ -57,7 +57,7 @@ impl Gather<'_> {
         longest
     }
 
-    /// As the core's `Gathered::step`.
+    /// `Gathered::step` of the core.
     #[cfg_attr(optimized, inline(always))]
     fn vector<S: Simd>(&self, simd: S, place: usize, last: [S::Floats; 3]) -> [S::Floats; 3] {
         let (plan, pass) = (self.plan, self.pass);
@@ -111,7 +111,7 @@ impl Gather<'_> {
     }
 }
 
-/// As the core's function of that name.
+/// The core's function of that name.
 #[cfg_attr(optimized, inline(always))]
 fn solved<S: Simd>(
     simd: S,

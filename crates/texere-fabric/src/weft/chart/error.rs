@@ -1,9 +1,9 @@
-//! What can be wrong with a chart.
+//! Errors of charts.
 
 use texere_core::{OutOfMemory, counted};
 use thiserror::Error;
 
-/// A chart that can't be knitted. Rows and columns are counted from 1 at the top left.
+/// A chart that is refused. Rows and columns are counted from 1 at the top left.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChartError {
@@ -20,7 +20,7 @@ pub enum ChartError {
         /// Its courses.
         courses: usize,
     },
-    /// No stitches at all, or more in a direction than are taken.
+    /// A chart without stitches, or with too many wales or rows.
     #[error("a chart of {wales} and {rows}; each must be 1 to {limit}", wales = counted(*.wales, "wale"), rows = counted(*.rows, "row"))]
     Size {
         /// Its wales.
@@ -30,7 +30,7 @@ pub enum ChartError {
         /// Most taken of either.
         limit: usize,
     },
-    /// More cells of all courses than are taken.
+    /// Too many cells in all courses.
     #[error("a chart of {cells} in all its courses, more than {limit}", cells = counted(*.cells, "cell"))]
     Cells {
         /// Wales times courses.
@@ -45,10 +45,10 @@ pub enum ChartError {
         row: usize,
         /// Its stitches.
         wales: usize,
-        /// Those of the first row.
+        /// Stitches of the first row.
         first: usize,
     },
-    /// A symbol that stands for nothing.
+    /// An unknown symbol.
     #[error("row {row}, column {column} of the chart: '{}' is no symbol; there are {known}", .symbol.escape_default())]
     Symbol {
         /// The row.
@@ -57,10 +57,10 @@ pub enum ChartError {
         column: usize,
         /// The symbol.
         symbol: char,
-        /// Those that there are.
+        /// The known symbols.
         known: &'static str,
     },
-    /// A cable that has only one half.
+    /// A cable with only one half.
     #[error(
         "row {row}, column {column} of the chart: {symbols} is half a cable; a whole one is such as RRrr or llLL"
     )]
@@ -69,10 +69,10 @@ pub enum ChartError {
         row: usize,
         /// The column at which it begins.
         column: usize,
-        /// Its symbols, cut short where there are many.
+        /// Its symbols, cut short where there are many of them.
         symbols: String,
     },
-    /// A stitch for other beds than the chart's.
+    /// A stitch that the chart's beds can't make.
     #[error("row {row}, column {column} of the chart: this stitch needs {needs}")]
     Beds {
         /// The row.
@@ -82,7 +82,7 @@ pub enum ChartError {
         /// What it needs.
         needs: &'static str,
     },
-    /// A loop that is moved over more needles than a chart's are.
+    /// A loop that is moved over too many needles.
     #[error(
         "row {row}, column {column} of the chart: this loop moves by {by}; {limit} are taken at most", by = counted(*.by, "needle"))]
     Moved {
@@ -95,7 +95,7 @@ pub enum ChartError {
         /// Most taken, either way.
         limit: u32,
     },
-    /// A yarn of a number that no machine has carriers for.
+    /// A yarn with too large a number: no machine has so many carriers.
     #[error("the chart's yarn {yarn}, counted from 0, is none of {limit}")]
     Yarn {
         /// The yarn.
@@ -103,19 +103,19 @@ pub enum ChartError {
         /// How many yarns are taken at most.
         limit: u32,
     },
-    /// A needle that gets loops and never knits them off, or a chart without any stitch that knits.
+    /// A needle that gets loops and never knits them off, or a chart in which nothing knits.
     #[error("wale {wale} of the chart: its needle gets loops but never knits")]
     NeverKnits {
         /// The wale.
         wale: usize,
     },
-    /// Memory could not be had.
+    /// Memory was refused.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
 }
 
 impl ChartError {
-    /// The same of a chart of so many rows that are counted from the bottom.
+    /// The error with its row counted from the bottom, for a chart of `rows` rows.
     #[must_use]
     pub fn from_below(mut self, rows: usize) -> Self {
         if let Self::Ragged { row, .. }

@@ -1,28 +1,31 @@
-//! Jacquard: a picture whose colours are yarns.
+//! Jacquard charts: pictures whose colours are yarns.
 
 use texere_core::backend::room_for;
 
 use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, known, sized};
 
-/// Which back needles knit where a Jacquard picture is knitted on two beds.
+/// The back of a Jacquard picture on two beds: which back needles knit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Backing {
-    /// Every other needle, by turns from yarn to yarn and from row to row: flecks of all yarns.
+    /// Every other needle knits, by turns from yarn to yarn and from row to row. The back shows
+    /// flecks of all yarns.
     Birdseye,
-    /// Of n yarns in a row each knits every n-th needle, always the same ones: a light back of
-    /// upright lines.
+    /// Each of the n yarns in a row knits every n-th needle, always on the same needles. The back
+    /// is light, with upright lines.
     Ladder,
 }
 
 impl Chart {
-    /// A chart of a picture: `yarn` is that at a column and a row, both from 0, row 0 at the
-    /// bottom. Each row of it becomes a course for each yarn that occurs there, by rising numbers:
-    /// the front needles knit where the picture has this yarn. Without a backing the yarn floats
-    /// past the others; with one, back needles knit it in between, half a needle beside the front
-    /// ones.
+    /// A chart of a picture. `yarn` gives the yarn at a column and a row, both from 0, with row 0
+    /// at the bottom.
     ///
-    /// **Errors**: [`ChartError`] for a size that is not taken; with a backing also where a back
-    /// needle would never knit.
+    /// Each row of the picture becomes one course for each yarn that occurs in it, by rising
+    /// numbers of yarns. The front needles knit where the picture has the course's yarn. Elsewhere
+    /// the yarn floats without a backing. With one, back needles knit it, half a needle beside the
+    /// front needles.
+    ///
+    /// **Errors**: [`ChartError::Size`], [`ChartError::Cells`], [`ChartError::Yarn`] and
+    /// [`ChartError::OutOfMemory`].
     ///
     /// ```
     /// use texere_fabric::weft::Chart;

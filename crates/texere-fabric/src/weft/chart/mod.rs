@@ -1,5 +1,6 @@
-//! Charts: what is knitted in each wale of each course, as knitters draw it.
+//! Charts: the stitch in each wale of each course, as knitters draw it.
 
+mod cell;
 mod error;
 mod jacquard;
 mod program;
@@ -7,64 +8,26 @@ mod symbols;
 #[cfg(test)]
 mod tests;
 
+use cell::CHART_MOVED_MAX;
+pub use cell::{Beds, Cell};
 pub use error::ChartError;
 pub use jacquard::Backing;
 
 use texere_core::backend::{filled, room_for};
 
-use super::check::MOVED_MAX;
 use super::machine::CARRIERS_MAX;
 
 /// The most wales or rows of a chart.
-pub const CHART_SIDE_MAX: usize = 1 << 16;
+const CHART_SIDE_MAX: usize = 1 << 16;
 
-/// The most cells of all courses of a chart. Before a machine has knitted them it is not known how
-/// many loops they make, and knitting takes up to 160 bytes a cell, until a repeat of more than a
-/// million loops is refused.
-pub const CHART_CELLS_MAX: usize = 1 << 22;
+/// The most cells in all courses of a chart. Only knitting shows how many loops they make. It takes
+/// up to 160 bytes for each cell before a repeat of more than a million loops is refused.
+const CHART_CELLS_MAX: usize = 1 << 22;
 
-/// The most yarns of a chart: each has a carrier of its own.
-pub const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
+/// The most yarns of a chart. Each has a carrier of its own.
+const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
 
-/// The most needles that a loop of a chart moves by.
-pub const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
-
-/// What is made in a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cell {
-    /// The front needle knits: `k`.
-    Knit,
-    /// The back needle knits: `p`. On one bed the loops are moved there first.
-    Purl,
-    /// Front and back needle both knit: `b`, with two beds, which lie half a needle apart then.
-    Both,
-    /// The needle takes the yarn and keeps what it has: `t`. With two beds it is the front needle.
-    Tuck,
-    /// The back needle tucks: `u`, with two beds.
-    BackTuck,
-    /// The yarn floats past: `m`.
-    Miss,
-    /// The front needle knits, and its loop then goes to another needle: `<` and `>` to the next
-    /// one, for lace; `RRrr` and `llLL` to the places of others, for cables.
-    Moved {
-        /// So many needles to the right, [`CHART_MOVED_MAX`] at most either way.
-        by: i32,
-        /// Behind those that go in front: a cable's lower half.
-        behind: bool,
-    },
-}
-
-/// On which needles a chart is knitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Beds {
-    /// A wale has loops on one needle, front or back.
-    #[default]
-    One,
-    /// Both needles of a wale may hold loops of their own.
-    Two,
-}
-
-/// One course of yarn.
+/// One course: a pass of one yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Course {
     yarn: u32,
@@ -72,7 +35,7 @@ struct Course {
     row: u32,
 }
 
-/// A repeat of stitches: courses of one yarn each, seen from the right side.
+/// A chart: one repeat of stitches, seen from the right side. Each course is of one yarn.
 ///
 /// ```
 /// use texere_fabric::weft::{Beds, Chart};
@@ -88,15 +51,17 @@ pub struct Chart {
     wales: usize,
     beds: Beds,
     courses: Vec<Course>,
-    /// Course by course from the first, from left to right.
+    /// Cells course by course from the first, each from left to right.
     cells: Vec<Cell>,
 }
 
 impl Chart {
-    /// A chart of cells, `wales` to a course, the first course first. All courses are of yarn 0.
+    /// A chart of `cells`, given course by course from the first, each from left to right. All
+    /// courses are of yarn 0.
     ///
-    /// **Errors**: [`ChartError`] for a size that is not taken, for cells that are not for these
-    /// beds, and for needles that hold loops but never knit.
+    /// **Errors**: [`ChartError::Size`], [`ChartError::Cells`] and [`ChartError::Ragged`] for the
+    /// number of cells, [`ChartError::Beds`] and [`ChartError::Moved`] for a stitch that these beds
+    /// can't make, and [`ChartError::NeverKnits`].
     pub fn new(wales: usize, beds: Beds, cells: Vec<Cell>) -> Result<Self, ChartError> {
         let rows = cells.len().checked_div(wales).unwrap_or(0);
         sized(wales, rows, cells.len())?;
@@ -111,8 +76,8 @@ impl Chart {
         Self { wales, beds, courses, cells }.checked()
     }
 
-    /// A chart from symbols, a line for each row, the last course on top. Spaces and empty lines
-    /// count for nothing.
+    /// Reads a chart from symbols. Each line is a row, and the last course is on top. Spaces and
+    /// empty lines have no meaning.
     ///
     /// | symbol | stitch |
     /// |---|---|
@@ -139,8 +104,8 @@ impl Chart {
         Self::from_symbols(wales, rows.len(), beds, |column, row| rows[row][column])
     }
 
-    /// A chart from a symbol for each place, given by column and by row from the top: those of
-    /// [`Chart::parse`].
+    /// A chart from the symbol at each column and each row, both from 0 and rows from the top. The
+    /// symbols are those of [`Chart::parse`].
     ///
     /// **Errors**: [`ChartError`] with row, from the top, and column.
     pub fn from_symbols(
@@ -158,11 +123,11 @@ impl Chart {
         Self::new(wales, beds, cells)
     }
 
-    /// The chart with these yarns for its courses, over and over from the first course on. Where
-    /// they end in the middle of the chart, it is repeated upwards until both end.
+    /// Gives `yarns` to the courses, in turn from the first course on. Where the yarns do not go
+    /// evenly into the courses, the chart is repeated upwards until they do.
     ///
-    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large,
-    /// [`ChartError::Yarn`] for a yarn beyond [`CHART_YARNS_MAX`].
+    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where the repeated chart is too
+    /// large, [`ChartError::Yarn`] for a yarn beyond 65534.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};
@@ -203,8 +168,8 @@ impl Chart {
         self.courses.len()
     }
 
-    /// Puts another stitch into a cell, both counted from 0: the wale from the left, the course
-    /// from the first.
+    /// Puts another stitch into a cell. Wales count from 0 at the left, courses from 0 at the
+    /// first.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Cell, Chart};
@@ -216,8 +181,8 @@ impl Chart {
     /// # Ok::<(), texere_fabric::weft::ChartError>(())
     /// ```
     ///
-    /// **Errors**: [`ChartError::NoCell`] outside the chart, and those of [`Chart::new`]; the chart
-    /// is then as it was.
+    /// **Errors**: [`ChartError::NoCell`] outside the chart, and the errors of [`Chart::new`]. The
+    /// chart is then unchanged.
     pub fn set(&mut self, wale: usize, course: usize, cell: Cell) -> Result<(), ChartError> {
         let (wales, courses) = (self.wales, self.courses());
         if wale >= wales || course >= courses {
@@ -234,11 +199,12 @@ impl Chart {
         &self.cells[course * self.wales..][..self.wales]
     }
 
-    /// The chart, if its beds can knit it and every needle that holds loops knits.
+    /// The chart, if its beds can make all its stitches and every needle that gets loops also
+    /// knits.
     fn checked(self) -> Result<Self, ChartError> {
         let on_two = self.beds == Beds::Two;
         let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
-        // Of the front and of the back needle of each wale: whether it gets loops, and whether it
+        // For the front and the back needle of each wale: whether it gets loops, and whether it
         // knits.
         let mut gets = filled("wales of a chart", self.wales, [false; 2])?;
         let mut knits = filled("wales of a chart", self.wales, [false; 2])?;

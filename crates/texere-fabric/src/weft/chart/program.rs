@@ -1,18 +1,20 @@
-//! From a chart to what a machine is told.
+//! From a chart to a knitting program.
 
 use texere_core::backend::{filled, room_for};
 
 use super::{Beds, Cell, Chart, ChartError};
 use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 
-/// How far back needles lie to the right of front ones where both knit.
+/// Rack where front and back needles both knit: back needles lie half way between front ones.
 const HALF: f64 = 0.5;
 
 impl Chart {
-    /// The program that knits one repeat of the chart, over and over. Its carriers are the yarns of
-    /// the courses, by number; each goes to the right in its first course, to the left in its next,
-    /// and so on. An operation's source is row × wales + column of its cell, both from 0 and row 0
-    /// at the bottom; of a Jacquard picture it is that of its pixel.
+    /// The program of one repeat of the chart. Its carriers are the yarns of the courses, by
+    /// number. Each carrier goes to the right in its first course, to the left in its next one, and
+    /// so on.
+    ///
+    /// The source of an operation is row × wales + column of its cell, both from 0 with row 0 at
+    /// the bottom. For a Jacquard picture it is that of the pixel.
     ///
     /// **Errors**: [`ChartError::OutOfMemory`].
     pub fn program(&self) -> Result<Program, ChartError> {
@@ -23,8 +25,8 @@ impl Chart {
             goes: filled("carriers", carriers as usize, Direction::Left)?,
             operations: Vec::new(),
         };
-        // At its end each wale hangs on the bed of its last stitch: there the next round, and so
-        // this one, begins.
+        // At the end of a round each wale hangs on the bed of its last stitch. The next round
+        // begins there, and this one has to begin alike.
         for course in 0..self.courses() {
             knitter.follow(course);
         }
@@ -46,12 +48,12 @@ impl Chart {
     }
 }
 
-/// A chart that is knitted.
+/// The state of knitting a chart.
 struct Knitter<'a> {
     chart: &'a Chart,
-    /// With one bed, where the loops of each wale hang.
+    /// The bed on which the loops of each wale hang, where the chart has one bed.
     beds: Vec<Bed>,
-    /// Which way each carrier went last.
+    /// The last direction of each carrier.
     goes: Vec<Direction>,
     operations: Vec<Operation>,
 }
@@ -61,7 +63,7 @@ impl Knitter<'_> {
         self.operations.push(Operation { instruction, carriers: CarrierSet(set), source: source as u32 });
     }
 
-    /// Where the loops of each wale hang after a course.
+    /// Updates the bed on which the loops of each wale hang after a course.
     fn follow(&mut self, course: usize) {
         let cells = self.chart.course(course);
         for (bed, cell) in self.beds.iter_mut().zip(cells) {
@@ -90,8 +92,8 @@ impl Knitter<'_> {
     fn knit(&mut self, course: usize) -> Result<(), ChartError> {
         let chart = self.chart;
         let cells = chart.course(course);
-        // A course takes at most a change of beds, two needles and two moves for each cell, and two
-        // racks for each kind of move.
+        // At most, each cell of a course takes a change of beds, two needles and two moves, and
+        // each kind of move takes two racks.
         room_for(&mut self.operations, 8 * cells.len() + 1, "a knitting program")?;
         if chart.beds == Beds::One {
             self.change_beds(course, cells);
@@ -113,7 +115,7 @@ impl Knitter<'_> {
         Ok(())
     }
 
-    /// Moves loops to the bed on which their wale knits next.
+    /// Transfers loops to the bed on which their wale knits next.
     fn change_beds(&mut self, course: usize, cells: &[Cell]) {
         for (wale, cell) in cells.iter().enumerate() {
             let wanted = match cell {
@@ -136,7 +138,7 @@ impl Knitter<'_> {
     fn stitch(&mut self, course: usize, wale: usize, cell: Cell, direction: Direction) {
         use Instruction::{Knit, Miss, Tuck};
         let (front, back) = (Needle::front(wale as i32), Needle::back(wale as i32));
-        // Where one bed's loops hang; with two, what is not said otherwise is done in front.
+        // With one bed, the needle on which the loops hang; with two, the front needle.
         let own = if self.beds[wale] == Bed::Back && self.chart.beds == Beds::One { back } else { front };
         let (set, source) = (self.chart.courses[course].yarn + 1, self.source(course, wale));
         match cell {
@@ -154,7 +156,7 @@ impl Knitter<'_> {
         }
     }
 
-    /// Moves loops to other needles by way of the back bed. Those that come back first lie in
+    /// Moves loops to other needles by way of the back bed. Loops that come back first lie in
     /// front.
     fn move_loops(&mut self, course: usize, cells: &[Cell]) {
         let mut moves = Vec::new();
@@ -176,8 +178,8 @@ impl Knitter<'_> {
         for &(_, _, wale) in &moves {
             self.transfer(wale as i32, Bed::Front, wale as i32, self.source(course, wale));
         }
-        // To the right before to the left, so that of two loops that come to one needle the left
-        // one comes first.
+        // Moves to the right come before moves to the left. Of two loops that come to one needle,
+        // the left one thus comes first.
         moves.sort_by_key(|&(behind, by, wale)| (behind, -by, wale));
         let mut racked = 0;
         for (_, by, wale) in moves {

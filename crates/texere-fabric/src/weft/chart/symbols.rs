@@ -1,14 +1,15 @@
-//! A row of a chart in symbols.
+//! Reading one row of a chart's symbols.
 
 use super::{Cell, ChartError};
 
 /// All symbols, for messages.
 const KNOWN: &str = "k, p, b, t, u, m, <, > and cables such as RRrr or llLL";
 
-/// Symbols that a message shows.
+/// The most symbols that a message shows.
 const SHOWN: usize = 20;
 
-/// Reads the row `row` from the top, given by its symbol at each column.
+/// Reads row `row`, counted from 0 at the top, and appends its cells. `symbol` gives the symbol at
+/// a column and a row.
 pub(super) fn read(
     wales: usize,
     row: usize,
@@ -31,7 +32,7 @@ pub(super) fn read(
                 let run = |from: usize, letter: char| {
                     (from..wales).take_while(|&column| symbol(column, row) == letter).count()
                 };
-                // The left half of a cable goes in front where it is written in capitals.
+                // The half of a cable that is written in capitals goes in front.
                 let right_half = if letter == 'R' { 'r' } else { 'L' };
                 let left = run(column, letter);
                 let right = run(column + left, right_half);

@@ -1,9 +1,9 @@
-//! Charts and the programs that knit them, written out as knitout writes operations.
+//! Charts against their knitting programs, written out in knitout's notation.
 
 use super::{Backing, Beds, CHART_MOVED_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError};
 use crate::weft::{Bed, CarrierSet, Instruction, Machine, Program};
 
-/// Operations as knitout writes them, with numbers of yarns from 1.
+/// Operations in knitout's notation, with yarns numbered from 1.
 fn text(program: &Program) -> String {
     let each = program.operations.iter().map(|operation| {
         let CarrierSet(set) = operation.carriers;
@@ -39,9 +39,9 @@ fn courses_go_to_and_fro() {
 fn loops_are_moved_to_the_bed_that_knits_them() {
     // The first round begins as the last one ended.
     assert_eq!(knitted("p\nk", Beds::One), "xfer b0 f0; knit + f0 [1]; xfer f0 b0; knit - b0 [1]");
-    // Rib stays where it is, and what tucks or misses hangs where it did.
+    // Rib is not moved, and loops of needles that tuck or miss stay where they hang.
     assert_eq!(knitted("mt\nkp", Beds::One), "knit + f0 [1]; knit + b1 [1]; tuck - b1 [1]; miss - f0 [1]");
-    // Interlock: nothing is moved between beds that both hold loops.
+    // Interlock: both beds hold loops, and nothing moves between them.
     assert_eq!(knitted("pk\nkp", Beds::Two), "knit + f0 [1]; knit + b1 [1]; knit - f1 [1]; knit - b0 [1]");
     assert_eq!(
         knitted("uk\nbb", Beds::Two),
@@ -56,7 +56,8 @@ fn lace_goes_to_the_next_needle() {
         "knit + f0 [1]; knit + f1 [1]; knit + f2 [1]; xfer f0 b0; xfer f2 b2; rack 1; xfer b0 f1; rack -1; xfer b2 f1; \
          rack 0"
     );
-    // Beyond the edge lies the next repeat, and a wale that purls comes to the front.
+    // The next repeat lies beyond the edge. A loop moves there, and the purling wale comes to the
+    // front.
     assert_eq!(
         knitted("p>", Beds::One),
         "xfer f0 b0; knit + b0 [1]; knit + f1 [1]; xfer b0 f0; xfer f1 b1; rack 1; xfer b1 f2; rack 0"
@@ -74,7 +75,7 @@ fn cables_cross_the_front_half_first() {
         knitted("lLL", Beds::One),
         format!("{knits}rack -1; xfer b1 f0; xfer b2 f1; rack 2; xfer b0 f2; rack 0")
     );
-    // Cables side by side need no space in between.
+    // Cables need no space between them.
     assert_eq!(Chart::parse("RrRr", Beds::One), Chart::parse("Rr Rr", Beds::One));
     assert_ne!(Chart::parse("RrRr", Beds::One), Chart::parse("RRrr", Beds::One));
 }
@@ -151,8 +152,7 @@ fn jacquard_has_a_course_for_each_yarn_of_a_row() {
     );
 }
 
-/// On a bird's-eye back the yarns of a row change needles from row to row: no wale of it is of one
-/// colour.
+/// On a bird's-eye back the yarns change needles from row to row, so that no wale is of one colour.
 #[test]
 fn birdseye_has_flecks_of_all_yarns() {
     let chart = Chart::jacquard(4, 4, Some(Backing::Birdseye), |column, row| ((column + row) / 2 % 2) as u32);

@@ -1,4 +1,4 @@
-//! Needles and what hangs on them.
+//! Both needle beds, and the loops that hang on their needles.
 
 use texere_core::OutOfMemory;
 use texere_core::backend::room_for;
@@ -9,42 +9,42 @@ use super::super::{Bed, LoopRef, Needle};
 /// A loop that hangs on a needle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Held {
-    /// Its number.
+    /// The number of the loop.
     pub(super) number: u32,
-    /// The round of the repeat in which it was made.
+    /// The round in which it was made.
     pub(super) round: u32,
-    /// Which repeat of the loop hangs on the needle of repeat 0.
+    /// The repeat to which it belongs, where it hangs on a needle of repeat 0.
     pub(super) repeat: i32,
-    /// Its transfer's number, 0 before any.
+    /// The number of its last transfer, 0 before any.
     pub(super) moved: u32,
-    /// The loop that was drawn through it when its needle was split, as seen from it.
+    /// The loop that a split has drawn through it, as seen from it.
     pub(super) split: Option<LoopRef>,
 }
 
-/// Where a needle's loops are kept.
+/// The place of a needle's loops in [`Beds`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Slot {
-    /// Which list it is.
+    /// Index of the needle's list of loops.
     pub(super) index: usize,
     /// The repeat in which the needle lies.
     pub(super) repeat: i32,
 }
 
-/// Both beds, with their sliders.
+/// Both needle beds, with their sliders.
 #[derive(Debug)]
 pub(super) struct Beds {
     low: i32,
     width: i32,
     repeats: bool,
-    /// Front needles, front sliders, back needles, back sliders.
+    /// The loops on each needle: front needles, front sliders, back needles, back sliders.
     stacks: Vec<Vec<Held>>,
-    /// By how many half wales the back bed is shifted to the right.
+    /// Half wales by which the back bed is shifted to the right.
     racked: i64,
 }
 
 impl Beds {
-    /// Empty needles `low` to `low + width - 1`; where they are those of a repeat, all others are
-    /// theirs in other repeats.
+    /// Empty needles from `low` to `low + width - 1`. With `repeats` these are the needles of one
+    /// repeat, and all others belong to other repeats.
     pub(super) fn new(low: i32, width: i32, repeats: bool) -> Result<Self, OutOfMemory> {
         let count = 4 * usize::try_from(width).unwrap_or(0);
         let mut stacks = Vec::new();
@@ -53,25 +53,26 @@ impl Beds {
         Ok(Self { low, width, repeats, stacks, racked: 0 })
     }
 
-    /// Shifts the back bed. A fraction puts its needles half way between those of the front bed.
+    /// Shifts the back bed by `rack` needles. Any fraction puts its needles half way between those
+    /// of the front bed.
     pub(super) fn rack(&mut self, rack: f64) {
         let whole = rack.floor();
         self.racked = HALVES * whole as i64 + i64::from(rack > whole);
     }
 
-    /// A needle's place, in half wales.
+    /// The place of a needle, in half wales.
     pub(super) fn place(&self, needle: Needle) -> i64 {
         let racked = if needle.bed == Bed::Back { self.racked } else { 0 };
         HALVES * i64::from(needle.number) + racked
     }
 
-    /// How many half wales a loop is to the left of its needle of repeat 0, which hangs there so
-    /// many repeats further on.
+    /// The width of `repeats` repeats, in half wales. A loop that hangs this number of repeats
+    /// further on lies this far to the left of its needle in repeat 0.
     pub(super) fn shift(&self, repeats: i32) -> i64 {
         HALVES * i64::from(repeats) * i64::from(self.width)
     }
 
-    /// A needle's slot; none outside the beds.
+    /// The slot of a needle; none outside the beds.
     pub(super) fn slot(&self, needle: Needle) -> Option<Slot> {
         let (number, repeat) = if self.repeats {
             (needle.number.rem_euclid(self.width), needle.number.div_euclid(self.width))
@@ -83,19 +84,19 @@ impl Beds {
         Some(Slot { index: row * self.width as usize + number, repeat })
     }
 
-    /// The needle of repeat 0 whose list that is.
+    /// The needle of repeat 0 that the list with this index belongs to.
     pub(super) fn needle(&self, index: usize) -> Needle {
         let width = self.width as usize;
         let bed = if index / width < 2 { Bed::Front } else { Bed::Back };
         Needle { bed, slider: index / width % 2 == 1, number: self.low + (index % width) as i32 }
     }
 
-    /// What hangs on a needle, the loop that came first at the front.
+    /// The loops on a needle, in the order in which they came.
     pub(super) fn stack(&mut self, slot: Slot) -> &mut Vec<Held> {
         &mut self.stacks[slot.index]
     }
 
-    /// All lists.
+    /// The lists of loops of all needles.
     pub(super) fn stacks(&self) -> &[Vec<Held>] {
         &self.stacks
     }
@@ -113,7 +114,7 @@ impl Beds {
         })
     }
 
-    /// Whether loops can go from one needle straight to the other.
+    /// Whether two needles face each other, so that loops can go from one to the other.
     pub(super) fn aligned(&self, one: Needle, other: Needle) -> bool {
         self.place(one) == self.place(other)
     }

@@ -1,23 +1,23 @@
-//! Carriers: which are in, where they wait, and the passes and strands that they lay.
+//! Yarn carriers: whether they are in, where they wait, and the passes and strands that they lay.
 
 use std::collections::BTreeSet;
 
 use super::super::{Direction, Needle, Step, Strand};
 
-/// A run of stitches of the same carriers in one direction.
+/// A run: stitches of the same carriers in one direction.
 #[derive(Debug, Clone, Copy)]
 struct Run {
     direction: Direction,
-    /// Where its last stitch is, in half wales.
+    /// Place of its last stitch, in half wales.
     at: i64,
-    /// The slots of its stitches there, a bit for each row of needles.
+    /// The rows of needles that have stitches at this place: one bit for each row.
     rows: u8,
-    /// Where its last loop is, in half wales.
+    /// Place of its last loop, in half wales.
     looped: Option<i64>,
 }
 
 impl Run {
-    /// Whether a stitch there goes on in the direction of the run.
+    /// Whether a stitch at the place `at` and in `row` goes on in the direction of the run.
     fn goes_on(&self, direction: Direction, at: i64, row: u8) -> bool {
         let further = match direction {
             Direction::Right => at - self.at,
@@ -31,43 +31,44 @@ impl Run {
 #[derive(Debug, Clone, Default)]
 struct Carrier {
     is_in: bool,
-    /// The strand that it lays.
+    /// Index of the strand that it lays.
     strand: Option<usize>,
     run: Option<Run>,
-    /// Its pass, and the set of carriers that makes it.
+    /// Its pass, and the set of carriers that make it.
     pass: Option<(u32, u32)>,
-    /// How many loops it has made since it came in, and the last one's needle if that was empty.
+    /// Number of loops since it came in; and the needle of the last loop, if that needle was empty.
     loops: u64,
     cast_on: Option<(Direction, Needle)>,
-    /// Where it waits, in half wales, and the carrier that has laid its yarn on both sides of it.
+    /// Place where it waits, in half wales; and the carrier that has laid its yarn on both sides of
+    /// it.
     waits: Option<i64>,
     caught_by: Option<u32>,
 }
 
-/// All carriers, and what they have laid.
+/// All carriers, with the passes and strands that they have laid.
 #[derive(Debug, Default)]
 pub(super) struct Carriers {
     carriers: Vec<Carrier>,
     /// The carriers that the hook holds.
     hook: BTreeSet<u32>,
-    /// Where carriers wait.
+    /// The places where carriers wait, each with its carrier.
     waiting: BTreeSet<(i64, u32)>,
-    /// For each pass, the pass before it of its first carrier.
+    /// For each pass, the previous pass of its first carrier.
     pub(super) before: Vec<Option<u32>>,
-    /// The yarns. Courses of floats are still numbers of passes.
+    /// The yarns. Floats still have the number of their pass instead of their course.
     pub(super) strands: Vec<Strand>,
-    /// Where yarns were caught before they went on: the strand, and which of its steps.
+    /// Where yarns were caught before they went on: the index of the strand, and of its step.
     pub(super) caught: Vec<[usize; 2]>,
     repeats: bool,
 }
 
-/// Where a stitch is made.
+/// Place and direction of a stitch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     pub(super) direction: Direction,
-    /// In half wales.
+    /// Its place, in half wales.
     pub(super) at: i64,
-    /// A bit for the bed.
+    /// One bit, for its row of needles.
     pub(super) row: u8,
 }
 
@@ -76,7 +77,7 @@ impl Carriers {
         Self { carriers: vec![Carrier::default(); count], repeats, ..Self::default() }
     }
 
-    /// Brings a carrier in; false if it is in already.
+    /// Brings a carrier in. False if it is already in.
     pub(super) fn bring_in(&mut self, carrier: u32) -> bool {
         let own = &mut self.carriers[carrier as usize];
         if own.is_in {
@@ -88,13 +89,13 @@ impl Carriers {
         true
     }
 
-    /// How many loops a carrier has made since it came in.
+    /// Number of loops that a carrier has made since it came in.
     pub(super) fn loops(&self, carrier: u32) -> u64 {
         self.carriers[carrier as usize].loops
     }
 
-    /// Counts a loop on a needle that may be empty. Answers with the needle next to it, where that
-    /// was empty as well and took the yarn just before, on the same way.
+    /// Counts a loop of a carrier. If the needle is empty, and the needle before it was empty, too,
+    /// and took the yarn just before in the same direction, returns that needle.
     pub(super) fn cast_on(
         &mut self,
         carrier: u32,
@@ -110,7 +111,7 @@ impl Carriers {
         (is_empty && Needle { number: next, ..other } == needle).then_some(other)
     }
 
-    /// Takes a carrier out; false if it is not in.
+    /// Takes a carrier out. False if it is not in.
     pub(super) fn take_out(&mut self, carrier: u32) -> bool {
         let own = std::mem::take(&mut self.carriers[carrier as usize]);
         if let Some(at) = own.waits {
@@ -120,32 +121,32 @@ impl Carriers {
         own.is_in
     }
 
-    /// Another carrier that the hook holds already, where it is to take these.
+    /// A carrier that the hook holds and that is none of `carriers`.
     pub(super) fn hooked_beside(&self, carriers: &[u32]) -> Option<u32> {
         let taken: BTreeSet<_> = carriers.iter().collect();
-        // At most as many as are taken are among these: the search is short however many the hook
-        // holds.
+        // The search skips only carriers that are in `taken`, so that it is short however many the
+        // hook holds.
         self.hook.iter().copied().find(|held| !taken.contains(held))
     }
 
-    /// The hook takes carriers.
+    /// Gives carriers to the hook.
     pub(super) fn hook(&mut self, carriers: &[u32]) {
         self.hook.extend(carriers);
     }
 
-    /// The hook lets go of a carrier; false if it does not hold it.
+    /// Lets the hook release a carrier. False if it does not hold it.
     pub(super) fn let_go(&mut self, carrier: u32) -> bool {
         self.hook.remove(&carrier)
     }
 
-    /// Whether a carrier can make a stitch. In a repeat, those that nothing brings in come from the
-    /// repeat beside.
+    /// Whether a carrier can make a stitch. In a repeat, a carrier that nothing brings in comes
+    /// from the repeat beside it.
     pub(super) fn is_in(&self, carrier: u32) -> bool {
         self.carriers[carrier as usize].is_in || self.repeats
     }
 
-    /// The pass of the next stitch of a set of carriers. `newest` is the latest pass of which the
-    /// needle holds loops.
+    /// The pass of the next stitch of a set of carriers. `newest` is the latest pass that has loops
+    /// on the needle.
     pub(super) fn pass(&mut self, set: u32, carriers: &[u32], spot: Spot, newest: Option<u32>) -> u32 {
         let Some(&first) = carriers.first() else { return 0 };
         let Carrier { run, pass, .. } = self.carriers[first as usize];
@@ -160,7 +161,8 @@ impl Carriers {
         }
     }
 
-    /// Carriers of a set move at once: none of them waits while another one goes past.
+    /// Starts the carriers of a set. They move together: none of them waits while another goes
+    /// past.
     pub(super) fn set_off(&mut self, carriers: &[u32]) {
         for &carrier in carriers {
             if let Some(at) = self.carriers[carrier as usize].waits.take() {
@@ -169,8 +171,8 @@ impl Carriers {
         }
     }
 
-    /// Moves a carrier that has set off to a stitch, which it adds to its yarn. Answers with the
-    /// carrier that its yarn is caught behind.
+    /// Moves a carrier that has set off to a stitch, and adds the stitch to its yarn. Returns the
+    /// carrier whose yarn has caught this one's.
     pub(super) fn lay(&mut self, carrier: u32, [set, pass]: [u32; 2], spot: Spot, step: Step) -> Option<u32> {
         let Spot { direction, at, row } = spot;
         let own = &mut self.carriers[carrier as usize];
@@ -204,8 +206,8 @@ impl Carriers {
         caught
     }
 
-    /// Notes which carriers wait between two loops that `by` has made one after the other. Yarn
-    /// that is carried on from a loop, but makes none there, is drawn back and catches nothing.
+    /// Records the carriers that wait between two consecutive loops of carrier `by`: its yarn
+    /// catches theirs. Yarn that is carried past its last loop is drawn back, and catches nothing.
     fn catch(&mut self, by: u32, [left, right]: [i64; 2]) {
         while let Some(&(place, other)) = self.waiting.range((left + 1, 0)..(right.max(left + 1), 0)).next() {
             self.waiting.remove(&(place, other));

@@ -1,28 +1,28 @@
-//! Which course each pass of a carrier belongs to.
+//! The course of each pass of a carrier.
 
-/// That a pass is drawn through loops of another, made so many rounds of the repeat ago.
+/// A pass that is drawn through loops of another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Above {
-    /// The pass.
+    /// The upper pass.
     pub(super) pass: u32,
-    /// The one that it lies above.
+    /// The pass that it is drawn through.
     pub(super) below: u32,
-    /// Rounds between them; 0 where nothing repeats.
+    /// Rounds of the repeat between them; 0 where nothing repeats.
     pub(super) rounds: u32,
 }
 
-/// How often passes are gone through to see how many courses a round adds.
+/// Sweeps over all passes that show how many courses a round adds.
 const ROUNDS: u32 = 4;
 
-/// How often passes are gone through before a repeat is taken to need another course.
+/// Sweeps over all passes before a repeat is taken to need another height.
 const SWEEPS_MAX: u32 = 64;
 
-/// The course of each pass, and how many courses a repeat has; none where it is no repeat.
+/// The course of each pass, and the number of courses of a repeat; none where nothing repeats.
 ///
-/// A pass lies one course above the highest pass that it is drawn through. One that is drawn
-/// through nothing lies in the course of its carrier's pass before it (`before`), and the first of
-/// all in course 0. `aboves` are ordered by pass. In a repeat the loops of the round before lie as
-/// many courses lower as the repeat has.
+/// A pass lies one course above the highest pass that it is drawn through. A pass that is drawn
+/// through nothing lies in the course of its carrier's previous pass (`before`), and a carrier's
+/// first pass in course 0. In a repeat, loops of the previous round lie lower by the height of the
+/// repeat. `aboves` are ordered by pass.
 pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -> (Vec<u32>, Option<u32>) {
     let mut courses = vec![0; before.len()];
     sweep(before, aboves, &mut courses, 0);
@@ -36,7 +36,7 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
         sweep(before, aboves, &mut courses, 0);
         added = top(&courses) - under;
     }
-    // The last one is always enough: no chain of loops that closes up has more passes.
+    // The last height always suffices: no closed chain of loops has more passes.
     let heights = [added.max(1), added + 1, before.len().max(1) as u32];
     for height in heights {
         courses.fill(0);
@@ -47,8 +47,8 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
     (courses, Some(heights[2]))
 }
 
-/// Raises each pass above those that it is drawn through, where they count `height` courses lower
-/// for each round between. Returns whether any was too low.
+/// Raises each pass above the passes that it is drawn through. These count `height` courses lower
+/// for each round between. Returns whether any pass was too low.
 fn sweep(before: &[Option<u32>], aboves: &[Above], courses: &mut [u32], height: u32) -> bool {
     let (mut changed, mut rest) = (false, aboves);
     for (pass, &previous) in before.iter().enumerate() {

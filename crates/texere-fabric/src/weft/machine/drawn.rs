@@ -1,10 +1,10 @@
-//! Yarn that nothing holds: its carrier draws it back.
+//! Yarn that no loop holds: its carrier draws it back.
 //!
-//! A yarn is held by its loops, and where another one has caught it. From one such place to the
-//! next it is taut, and floats past what lies between them. What it did further out, on its way to
-//! where its carrier was parked, is no cloth; neither is what it did before the first place that
-//! holds it, or after the last one. A loop that was drawn through nothing and fell off its needle
-//! holds no more than a float.
+//! A yarn is held by its loops, and where another yarn has caught it. Between two such places it is
+//! taut, and floats past the needles between them. Anything that it did further out, on the way to
+//! where its carrier was parked, is no part of the cloth. Neither is anything before the first
+//! place that holds it, or after the last one. A loop that was drawn through nothing and fell off
+//! its needle holds its yarn no more than a float does.
 
 use texere_core::OutOfMemory;
 use texere_core::backend::room_for;
@@ -13,7 +13,7 @@ use super::super::{Direction, Fate, LoopRef, Step};
 use super::FaultKind;
 use super::run::Run;
 
-/// Leaves out what nothing holds. A repeat is `width` needles wide.
+/// Removes yarn that nothing holds. A repeat is `width` needles wide.
 ///
 /// **Errors**: [`OutOfMemory`].
 pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMemory> {
@@ -43,7 +43,7 @@ pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMem
         let round = strand.onward.zip(width).map(|([right, _], width)| (right * width) as f32);
         let ends = round.and_then(|round| Some([held.last()?.1 - round, held.first()?.1 + round]));
         match strand.steps.first() {
-            // It lies across all repeats.
+            // A yarn that nothing holds lies straight across all repeats.
             Some(_) if held.is_empty() && round.is_some() => continue,
             Some(&Step::Float { source, .. }) if held.is_empty() => loose.push((strand.carrier, source)),
             _ => {}
@@ -72,8 +72,8 @@ pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMem
     leave_out(run)
 }
 
-/// Of each loop whether it holds its yarn: none does that was drawn through nothing, and that
-/// nothing was drawn through before it fell.
+/// For each loop, whether it holds its yarn. A dropped loop does not, if it was drawn through
+/// nothing and nothing was drawn through it.
 fn holding(run: &Run<'_>) -> Result<Vec<bool>, OutOfMemory> {
     let mut holding = Vec::new();
     room_for(&mut holding, run.loops.len(), "what holds a yarn")?;
@@ -84,14 +84,14 @@ fn holding(run: &Run<'_>) -> Result<Vec<bool>, OutOfMemory> {
     Ok(holding)
 }
 
-/// Leaves out loops that no yarn makes any more. None of them is drawn through another.
+/// Removes loops that no yarn makes any more. None of them is drawn through another.
 fn leave_out(run: &mut Run<'_>) -> Result<(), OutOfMemory> {
     let steps = || run.carriers.strands.iter().flat_map(|strand| &strand.steps);
     let made = steps().filter(|step| matches!(step, Step::Loop { .. })).count();
     if made == run.loops.len() {
         return Ok(());
     }
-    // Their new numbers.
+    // The new numbers of the loops that stay.
     let mut numbers: Vec<Option<u32>> = Vec::new();
     room_for(&mut numbers, run.loops.len(), "numbers of loops")?;
     numbers.resize(run.loops.len(), None);

@@ -1,91 +1,91 @@
-//! What a knitting machine could not do, or a knitter would not want it to.
+//! Faults of a knitting program: what a machine could not do, and what a knitter would not want.
 
 use std::fmt;
 
 use super::super::Needle;
 use texere_core::counted;
 
-/// What is wrong.
+/// A kind of fault, and what the machine does instead.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FaultKind {
-    /// A carrier makes a stitch that is not in. It is taken to be brought in there.
+    /// A carrier that is not in makes a stitch. It counts as brought in there.
     CarrierNotIn,
-    /// A carrier is brought in that is in already. It stays where it is.
+    /// A carrier that is already in is brought in. It stays where it is.
     CarrierIn,
-    /// The hook takes a carrier, in or out, while it still holds another, which is named. It is
-    /// taken to do both.
+    /// The hook takes a carrier, in or out, while it still holds the named one. It counts as
+    /// holding both.
     HookHolds(String),
     /// The hook lets go of a carrier that it does not hold.
     HookWithout,
-    /// A carrier is taken out that is not in.
+    /// A carrier that is not in is taken out.
     OutWithoutIn,
-    /// The beds are racked further than the machine can. They are taken to be racked so all the
-    /// same, if there are such needles.
+    /// The beds are racked further than the machine can. They count as racked so, unless that is
+    /// beyond any needle.
     Racked {
-        /// How far.
+        /// The rack, in needles.
         rack: f64,
-        /// The machine's furthest.
+        /// The furthest rack of the machine, in needles.
         limit: f64,
     },
-    /// Loops go to another needle of the same bed. They are taken to go there.
+    /// Loops go to another needle of the same bed. They count as moved there.
     SameBed(Needle),
-    /// Loops go to a needle that does not lie opposite as the beds are racked. They are taken to go
+    /// Loops go to a needle that does not lie opposite, as the beds are racked. They count as moved
     /// there.
     NotAligned {
         /// The needle that they go to.
         to: Needle,
-        /// How the beds are racked.
+        /// The rack, in needles.
         rack: f64,
     },
-    /// A stitch is made on a slider, which can only hold loops. It is taken to be made there.
+    /// A stitch is made on a slider, which can only hold loops. It counts as made there.
     OnSlider,
     /// In a repeat, a needle holds loops and never knits: they pile up.
     NeverKnits,
-    /// So many loops fall off a needle without being knitted.
+    /// Loops fall off a needle without being knitted; this many.
     Dropped(u32),
-    /// So many loops hang on needles at the end; the needle is the first of them.
+    /// Loops hang on needles at the end; this many. The needle of the fault is the first of them.
     LeftOnNeedles(u32),
     /// A yarn floats past more needles than it should.
     LongFloat {
-        /// Needles that it passes.
+        /// Number of needles that it passes.
         needles: u32,
         /// The most.
         limit: u32,
     },
-    /// A carrier is brought in and laid past needles, but no loop holds its yarn. It is left out of
-    /// the cloth.
+    /// A carrier is brought in and passes needles, but no loop holds its yarn. The yarn is left out
+    /// of the cloth.
     Loose,
-    /// Two needles that hold nothing, next to each other, take a yarn one after the other: until
-    /// the next course it goes straight through their hooks, and may slip off. It is told once for
-    /// a program, of the first such pair.
+    /// Two empty needles next to each other take a yarn one after the other. Until the next course
+    /// the yarn runs straight through their hooks, and may slip off. A program gets this fault
+    /// once, for the first such pair.
     CastOn {
         /// The needle that takes it first.
         beside: Needle,
-        /// How many more such pairs there are.
+        /// Number of further pairs.
         others: u32,
     },
-    /// A carrier is taken out after a single loop, from which its yarn may slip. It is told once
-    /// for a program, of the first such carrier.
+    /// A carrier is taken out after a single loop, from which its yarn may slip. A program gets
+    /// this fault once, for the first such carrier.
     OnlyLoop {
-        /// How often it happens again.
+        /// Number of further times.
         others: u32,
     },
-    /// More loops hang on a needle than it should hold.
+    /// A needle holds more loops than it should.
     Piled {
-        /// How many.
+        /// Number of loops.
         loops: u32,
         /// The most.
         limit: u32,
     },
-    /// A carrier waits between needles while the one that is named lays its yarn on both sides of
-    /// it, and then goes on: its yarn is caught behind the other.
+    /// A carrier waits between needles, while the named one lays its yarn on both sides of it. When
+    /// the waiting carrier goes on, its yarn is caught behind the other yarn.
     Tangled(String),
 }
 
 impl FaultKind {
-    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was
-    /// meant.
+    /// Whether a machine could not do it. Any other fault can be knitted, but the cloth may not be
+    /// what was meant.
     #[must_use]
     pub const fn is_error(&self) -> bool {
         !matches!(
@@ -102,22 +102,23 @@ impl FaultKind {
     }
 }
 
-/// Something wrong in a knitting program, and where. None stops the machine; each kind says what is
-/// done instead.
+/// A fault of a knitting program, and where it is. No fault stops the machine; each kind says what
+/// the machine does instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// What.
+    /// Its kind.
     pub kind: FaultKind,
     /// The operation's [`source`](super::super::Operation::source): a line, or a cell of a chart.
     pub source: u32,
-    /// The needle, where it is one's.
+    /// The needle, if the fault concerns one.
     pub needle: Option<Needle>,
-    /// The carrier's name, where it is one's.
+    /// The name of the carrier, if the fault concerns one.
     pub carrier: Option<String>,
 }
 
 impl fmt::Display for Fault {
-    /// A sentence without where it is: the reader knows whether its sources are lines or cells.
+    /// Writes the fault as a sentence, without its place. Only the reader of the design knows
+    /// whether sources are lines or cells.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let carrier = self.carrier.as_deref().unwrap_or("?");
         let needle = self.needle.map_or_else(String::new, |needle| format!(" {needle}"));
@@ -191,7 +192,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// How many more of a kind there are.
+/// Words for `others` further faults of a kind; empty for none.
 fn more(others: u32, one: &str) -> String {
     if others == 0 { String::new() } else { format!("; {} like that", counted(others, one)) }
 }

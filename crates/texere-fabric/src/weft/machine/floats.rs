@@ -1,16 +1,16 @@
-//! Yarns that float past too many needles.
+//! Long floats: yarns that float past too many needles.
 
 use super::super::Step;
 use super::FaultKind;
 use super::run::Run;
 
-/// Notes floats past more needles than they should. A repeat is `width` needles wide.
+/// Records floats past more than `limit` needles. A repeat is `width` needles wide.
 ///
-/// A yarn that was caught further out than its next loop floats past all needles as far as that.
+/// A yarn may be caught further out than its next loop. It floats past all needles up to there.
 pub(super) fn long(run: &mut Run<'_>, width: Option<i32>, limit: u32) {
     let mut found = Vec::new();
     for strand in &run.carriers.strands {
-        // From the last loop on: how far to the left and to the right the yarn has come.
+        // The leftmost and the rightmost place of the yarn since its last loop.
         let mut reach: Option<[f32; 2]> = None;
         let mut first = None;
         let grown = |[low, high]: [f32; 2], at: f32| [low.min(at), high.max(at)];

@@ -1,4 +1,4 @@
-//! A knitting machine: runs a program, and says which loop is drawn through which.
+//! The knitting machine: it runs a program, and records which loop is drawn through which.
 
 mod beds;
 mod carriers;
@@ -11,7 +11,8 @@ mod run;
 
 pub use fault::{Fault, FaultKind};
 pub(super) use limits::CARRIERS_MAX;
-pub use limits::{FAULTS_LISTED, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};
+use limits::{FAULTS_LISTED, LOOPS_MAX};
+pub use limits::{Machine, NEEDLE_MAX, STACK_MAX};
 
 use super::{Fate, Instruction, Operation, Program, Step, Stitches};
 use crate::FabricError;
@@ -19,30 +20,32 @@ use crate::weft::WeftError;
 use beds::{Beds, Held, Slot};
 use run::Run;
 
-/// How often a repeat is knitted until what hangs on needles at its end is the same each time. Most
-/// take two rounds: loops that go on being transferred without being knitted take longer.
+/// The most rounds in which a repeat is knitted until the same loops hang on needles at the end of
+/// each round. Most programs take two rounds. Loops that are transferred again and again without
+/// being knitted take more.
 const ROUNDS_MAX: u32 = 8;
 
-/// What comes of a program.
+/// The result of a knitting program.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Knit {
-    /// Loops and yarns.
+    /// The loops and yarns of the cloth.
     pub stitches: Stitches,
-    /// What is wrong, in the order of the operations: [`FAULTS_LISTED`] of it at most. In a repeat,
-    /// what is wrong every time.
+    /// Faults of the program in the order of its operations, 1000 at most. For a
+    /// repeat they are the faults of its last round, which come back in every later one.
     pub faults: Vec<Fault>,
-    /// How many more faults there are.
+    /// Number of faults that are not listed.
     pub unlisted: u64,
 }
 
 impl Machine {
     /// Runs a program.
     ///
-    /// A program that is a repeat is run over and over, until what hangs on its needles at the end
-    /// is the same each time; one such round is the cloth. Each pass of a carrier is then a strand
-    /// that goes on in the repeat beside, unless the program itself brings the carrier in.
+    /// A program that is a repeat runs round after round, until the same loops hang on its needles
+    /// at the end of each round. The last round is the cloth. Each pass of a carrier is then a
+    /// strand that goes on in the repeat beside it, unless the program itself brings the carrier
+    /// in.
     ///
-    /// No fault stops the machine: [`FaultKind`] says what is done instead.
+    /// No fault stops the machine. [`FaultKind`] says what the machine does instead.
     ///
     /// **Errors**: [`WeftError::KnitSize`] for too many loops, carriers or loops on one needle,
     /// [`WeftError::KnitNeedle`] for needles beyond [`NEEDLE_MAX`], [`WeftError::KnitCarriers`] for
@@ -59,7 +62,7 @@ impl Machine {
     ///     repeat: Some(1),
     /// };
     /// let stitches = Machine::default().knit(&program)?.stitches;
-    /// // The same loop of the next round is drawn through it.
+    /// // The loop of the next round is drawn through it.
     /// assert_eq!(stitches.loops[0].fate, Fate::Held(LoopRef { number: 0, repeat: [0, 1] }));
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
@@ -84,7 +87,8 @@ impl Machine {
     }
 }
 
-/// What the next round begins with: what hangs where, since how many rounds; rack and loop length.
+/// The state in which the next round begins: the loops on each needle with their age in rounds, the
+/// rack and the loop length.
 fn state(run: &Run<'_>) -> (Vec<(usize, Held)>, f64, Option<f32>) {
     let since = |held: &Held| Held { round: run.round - held.round, ..*held };
     let stacks = run.beds.stacks().iter().enumerate();
@@ -92,7 +96,7 @@ fn state(run: &Run<'_>) -> (Vec<(usize, Held)>, f64, Option<f32>) {
     (hung.collect(), run.rack, run.length_mm)
 }
 
-/// Checks carriers, and counts loops.
+/// Checks the carriers of all operations. Returns the number of loops that the program makes.
 fn check(program: &Program) -> Result<usize, WeftError> {
     let size = |what, count: usize, limit: usize, operation| {
         let (count, limit) = (count as u64, limit as u64);
@@ -106,7 +110,7 @@ fn check(program: &Program) -> Result<usize, WeftError> {
         let none = Vec::new();
         let set = match program.carrier_sets.get(operation.carriers.0 as usize) {
             Some(set) => set,
-            // The first set is the empty one, also where it is not written.
+            // Set 0 is empty, even if the program has no sets.
             None if operation.carriers.0 == 0 => &none,
             None => return Err(unknown),
         };
@@ -122,7 +126,7 @@ fn check(program: &Program) -> Result<usize, WeftError> {
     Ok(loops)
 }
 
-/// The lowest needle, and how many there are up to the highest.
+/// The lowest needle, and the number of needles up to the highest one.
 fn beds_of(program: &Program) -> Result<(i32, i32), WeftError> {
     let (mut low, mut high) = (i32::MAX, i32::MIN);
     for (operation, Operation { instruction, .. }) in (1..).zip(&program.operations) {
@@ -154,7 +158,7 @@ fn beds_of(program: &Program) -> Result<(i32, i32), WeftError> {
     }
 }
 
-/// Puts in what is known at the end: courses, fates and heads, and faults of the whole.
+/// Fills in what only the end of the program shows: courses, fates, heads, and faults of the whole.
 fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, FabricError> {
     left(&mut run, width.is_some());
     let aboves = run.aboves();
@@ -171,7 +175,7 @@ fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, 
         }
     }
     drawn::back(&mut run, width)?;
-    // Carriers that hold no loop lay no yarn.
+    // A carrier whose yarn no loop holds lays no yarn.
     run.carriers.strands.retain(|strand| !strand.steps.is_empty());
     floats::long(&mut run, width, float_max);
     let repeat = width.zip(height).map(|(width, height)| [width.unsigned_abs(), height]);
@@ -182,7 +186,7 @@ fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, 
     Ok(Knit { stitches, faults: run.faults, unlisted: run.unlisted })
 }
 
-/// What still hangs on needles in the end.
+/// Records the loops that hang on needles at the end.
 fn left(run: &mut Run<'_>, repeats: bool) {
     let stacks = run.beds.stacks().iter().enumerate();
     let hung: Vec<(usize, Vec<Held>)> =
@@ -196,7 +200,7 @@ fn left(run: &mut Run<'_>, repeats: bool) {
     }
     for (index, stack) in hung {
         let (needle, slot) = (run.beds.needle(index), Slot { index, repeat: 0 });
-        // The first round may have begun with other needles than the next ones.
+        // The first round may begin with other needles than later rounds do.
         if repeats && stack.iter().any(|held| run.round - held.round + 1 >= ROUNDS_MAX) {
             run.at_source(run.loops[stack[0].number as usize].source);
             run.fault(FaultKind::NeverKnits, Some(needle), None);

@@ -1,4 +1,4 @@
-//! The certificate: surfaces as drawn are measured, and threads are made thinner where they lack
+//! The certificate: surfaces are measured as drawn, and threads made thinner where they lack
 //! clearance.
 
 use std::ops::ControlFlow;
@@ -7,57 +7,58 @@ use texere_contact::{Contact, bends_up_to, clearance_up_to};
 use texere_core::crossings::Set;
 use texere_core::{Origin, Settings, YarnPlace, Yarns};
 
-use super::lay::Lies;
+use super::resting::RestingRepeat;
 use crate::{Drawdown, FabricError, NO_CROSSING, Woven};
 
-/// What every pair of surfaces is brought to.
+/// The clearance that every pair of surfaces is brought to.
 const WANTED: f64 = 0.988;
 
-/// Contacts beyond are not looked for.
+/// The greatest clearance of a contact that is looked for.
 const NEAR: f64 = 0.99;
 
-/// Good enough to end with.
+/// The clearance that is good enough to end with.
 const ENOUGH: f64 = 0.986;
 
-/// What the radius of every bend is brought to, over how far the thread reaches into it.
+/// The radius that every bend is brought to, over how far the thread reaches into it.
 const BENDS_WANTED: f64 = 1.003;
 
 /// The most rounds.
 const ROUNDS: u32 = 10;
 
-/// The most that a half width or a half height loses in a round.
+/// The greatest loss of a half width or a half height in a round, as a share.
 const LOST_MOST: f64 = 0.06;
 
-/// The most that a half height loses in a round for the sake of a bend.
+/// The greatest loss of a half height in a round for the sake of a bend, as a share.
 const BENT_MOST: f64 = 0.25;
 
-/// The least share of a half width or a half height at rest that is left: threads so thin are no
+/// The least share of a half width or a half height at rest that is left. Thinner threads are no
 /// cloth.
 const KEPT_LEAST: f32 = 0.6;
 
-/// At least so many threads beyond a repeat are measured with it, where the cloth has them.
+/// Threads beyond a repeat that are measured with it, where the cloth has them.
 const BEYOND: usize = 4;
 
-/// A round: how clear surfaces are, up to what is enough, and how wide bends, up to what is no
-/// fold; which round it is, and what was drawn.
+/// The result of a round.
 struct Round {
+    /// The clearance, up to what is enough, and the tightest bend, up to what is no fold.
     measured: [f64; 2],
-    /// How clear surfaces are, [`NEAR`] at most.
+    /// The clearance of surfaces, [`NEAR`] at most.
     clearance: f64,
     number: u32,
     drawn: Vec<[[f32; 2]; 2]>,
 }
 
-/// Measures and thins. Gives the clearance before and after, the tightest bend after, and how often
-/// threads were thinned. Where no round makes surfaces clear, threads stay as in the best one.
+/// Measures surfaces and thins threads, in rounds. Returns the clearance before and after, the
+/// tightest bend after, and the number of rounds. Where no round makes surfaces clear, threads stay
+/// as in the best one.
 pub(super) fn certify(
     cloth: &Woven,
-    lies: &mut Lies,
+    resting: &mut RestingRepeat,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<([f64; 2], f64, u32), FabricError> {
-    let (piece, settings) = (crop(cloth, lies.repeat())?, &Settings::default());
-    let mut yarns = lies.yarns(&piece)?;
-    let (mut round, once) = (0, once(&piece, &yarns, lies.repeat()));
+    let (piece, settings) = (crop(cloth, resting.repeat())?, &Settings::default());
+    let mut yarns = resting.yarns(&piece)?;
+    let (mut round, once) = (0, once(&piece, &yarns, resting.repeat()));
     let mut fresh = once.clone();
     let (mut known, mut least) = (Vec::new(), [f64::INFINITY; 2]);
     let mut tight: Vec<(f64, YarnPlace)> = Vec::new();
@@ -66,11 +67,11 @@ pub(super) fn certify(
         let share = f64::from(round) / f64::from(ROUNDS + 1);
         let measured = |done| progress(share + done / f64::from(ROUNDS + 1));
         let found = clearance_up_to(&yarns, settings, [NEAR, WANTED], |point| fresh[point], measured)?;
-        // What has not changed has the contacts that it had.
+        // Intervals that have not changed keep their contacts.
         known.retain(|contact: &Contact| !contact.places.iter().any(|place| fresh[first(&yarns, place)]));
         known.extend(found.worst);
         let now = known.iter().map(|contact| contact.ratio).fold(found.min.min(NEAR), f64::min);
-        // Of contacts that are clear enough only the first round has measured all.
+        // Only the first round has measured all contacts that are clear enough.
         least = if round == 0 { [now; 2] } else { [least[0], now.min(WANTED)] };
         tight.retain(|(_, place)| !fresh[first(&yarns, place)]);
         tight.extend(bends_up_to(&yarns, settings, BENDS_WANTED, |point| fresh[point])?);
@@ -80,14 +81,14 @@ pub(super) fn certify(
         }
         let measured = [now.min(ENOUGH), bends];
         if best.as_ref().is_none_or(|best| best.measured < measured) {
-            best = Some(Round { measured, clearance: now, number: round, drawn: lies.drawn.clone() });
+            best = Some(Round { measured, clearance: now, number: round, drawn: resting.drawn.clone() });
         }
         if let Some(best) = best.take_if(|_| round == ROUNDS) {
-            lies.drawn = best.drawn;
+            resting.drawn = best.drawn;
             return Ok(([least[0], best.clearance], best.measured[1], best.number));
         }
-        thin(lies, &piece, &yarns, &known, &tight);
-        let thinner = lies.yarns(&piece)?;
+        thin(resting, &piece, &yarns, &known, &tight);
+        let thinner = resting.yarns(&piece)?;
         fresh = changed(&yarns, &thinner);
         fresh.iter_mut().zip(&once).for_each(|(fresh, once)| *fresh &= once);
         yarns = thinner;
@@ -100,8 +101,7 @@ fn first(yarns: &Yarns, place: &YarnPlace) -> usize {
     yarns.layout().offsets()[place.yarn] as usize + place.interval
 }
 
-/// Whether the interval from each control point on is another one than before: it is what four
-/// points make of it.
+/// Whether the interval from each control point on has changed. Four control points make it.
 fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     let differs: Vec<bool> =
         before.points().iter().zip(after.points()).map(|(one, two)| one != two).collect();
@@ -109,7 +109,7 @@ fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     (0..differs.len()).map(near).collect()
 }
 
-/// The intervals that are not a repeat of others, by the number of their first control point: those
+/// The intervals that are not copies of others, by the number of their first control point: those
 /// at crossings of the first repeat and some threads more, and of the last threads.
 fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     let [ends, picks] = [piece.warp().len(), piece.weft().len()];
@@ -123,8 +123,8 @@ fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     sources.iter().map(|source| *source == NO_CROSSING || at(source)).collect()
 }
 
-/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges
-/// as they are.
+/// The cloth without whole repeats: one repeat and some more threads are left, with both edges as
+/// they are.
 pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
     let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
@@ -135,12 +135,18 @@ pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricErr
 
 /// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts
 /// at a crossing, and less high where they bend more tightly than they reach.
-fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tight: &[(f64, YarnPlace)]) {
-    let mut shares = vec![[[1.0_f64; 2]; 2]; lies.drawn.len()];
+fn thin(
+    resting: &mut RestingRepeat,
+    piece: &Woven,
+    yarns: &Yarns,
+    contacts: &[Contact],
+    tight: &[(f64, YarnPlace)],
+) {
+    let mut shares = vec![[[1.0_f64; 2]; 2]; resting.drawn.len()];
     let mut keep = |place: &YarnPlace, kept: [f64; 2]| {
         let set = usize::from(!is_end(yarns, place));
         for crossing in crossings(yarns, place, piece.warp().len()) {
-            let share = &mut shares[lies.number(crossing[0], crossing[1])][set];
+            let share = &mut shares[resting.number(crossing[0], crossing[1])][set];
             *share = [share[0].min(kept[0]), share[1].min(kept[1])];
         }
     };
@@ -158,8 +164,7 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
                 (dz / f64::from(point.half_height())).powi(2),
             );
             let (wide, high) = (wide / (wide + high), high / (wide + high));
-            // The least that both lose together, where the one counts so much and the other so
-            // much.
+            // The least loss of both together, where `wide` and `high` are their weights.
             let both = wide * wide + high * high;
             keep(place, [1.0 - lacking * wide / both, 1.0 - lacking * high / both]);
         }
@@ -167,9 +172,9 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
     for (bend, place) in tight {
         keep(place, [1.0, (bend / BENDS_WANTED).max(1.0 - BENT_MOST)]);
     }
-    for ((drawn, rest), shares) in lies.drawn.iter_mut().zip(&lies.rest).zip(shares) {
+    for ((drawn, rest), shares) in resting.drawn.iter_mut().zip(&resting.rest).zip(shares) {
         for (set, share) in Set::BOTH.into_iter().zip(shares) {
-            let (halves, lie) = (&mut drawn[set as usize], rest.lie(set));
+            let (halves, lie) = (&mut drawn[set as usize], rest.thread(set));
             let least = [lie.half_width, lie.half_height].map(|half| KEPT_LEAST * half);
             *halves = [0, 1].map(|half| (halves[half] * share[half] as f32).max(least[half]));
         }

@@ -1,24 +1,24 @@
-//! Bends that would be tighter than a thread is thick.
+//! Easing of bends that would be tighter than a thread is thick.
 
 use glam::DVec2;
 
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// How often points are moved at most.
+/// The most rounds in which points are moved.
 const EASINGS: usize = 40;
 
 /// The share of the way to the straight line between its neighbours that a point is moved by.
 const MOVED: f64 = 0.1;
 
-/// How wide a bend is to be over how far the thread reaches into it.
+/// The least radius of a bend that is aimed at, over how far the thread reaches into it.
 const WIDE: f64 = 1.02;
 
 /// The last stop of a change of sides, at the second crossing.
 const LAST: usize = CHANGE_POINTS + 1;
 
 /// Moves the stops between two crossings up or down where the spline through them would bend more
-/// tightly than the thread is thick. `turns` says whether the thread changes sides before the first
-/// crossing, and after the second one, too: it is then taken to bend there as if mirrored.
+/// tightly than the thread is thick. `turns` says whether the thread also changes sides before the
+/// first crossing, and after the second one: there it is taken to bend as if mirrored.
 pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
     let place = |stop: &Stop| DVec2::new(stop.along, stop.z);
     for _ in 0..EASINGS {

@@ -1,11 +1,10 @@
-//! Woven cloth at rest: its crossings settle on a device, and its yarns are drawn from how they
-//! lie.
+//! Woven cloth at rest: its crossings settle on a device, and its yarns follow from them.
 
 mod certificate;
 mod ease;
-mod lay;
 mod path;
 mod problem;
+mod resting;
 mod stop;
 mod stretch;
 
@@ -17,54 +16,55 @@ use texere_core::crossings::{self, CrossingState, Crossings, CrossingsPlan, Cros
 use texere_core::{Backend, Yarns, check_tension};
 
 use self::certificate::certify;
-use self::lay::Lies;
 use self::problem::Problem;
+use self::resting::RestingRepeat;
 pub use self::stretch::Stretch;
-use crate::{FabricError, Finish, FinishError, Woven};
+use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
-/// The share of the progress at which crossings have settled, and at which surfaces are clear.
+/// The shares of the progress at which crossings have settled, and at which surfaces are clear.
 const SETTLED: f64 = 0.5;
 const CERTIFIED: f64 = 0.95;
 
 /// Woven cloth that has come to rest.
 #[derive(Debug, Clone)]
 pub struct WovenRest {
-    /// Its yarns, as [`Woven::yarns`] orders them.
+    /// Its yarns, in the order of [`Woven::yarns`].
     pub yarns: Yarns,
-    /// Ends and picks of what has settled: the smallest repeat of threads and crossings, or all of
-    /// a cloth that has none.
-    pub repeat: [usize; 2],
-    /// Passes, and what the last one has seen.
+    /// Ends and picks that have settled: the smallest repeat of threads and crossings, or the whole
+    /// cloth where nothing repeats.
+    pub repeat: BySet<usize>,
+    /// Passes of the crossings, and what the last one has seen.
     pub crossings: CrossingsRest,
-    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and
-    /// after: 0.99 at most, contacts beyond are not looked for.
+    /// The least clearance of surfaces, before any thread was made thinner for it and after; 0.99
+    /// at most, contacts beyond are not looked for.
     pub clearance: [f64; 2],
-    /// The least radius of curvature over how far the thread reaches into the bend, 1 at most:
+    /// The least radius of curvature over how far the thread reaches into the bend; 1 at most,
     /// wider bends are not looked for.
     pub bend: f64,
-    /// How many times threads were made thinner where they lacked clearance.
+    /// Rounds in which threads were made thinner where they lacked clearance.
     pub rounds: u32,
-    /// The share of its area that each set keeps, in the mean and at its worst place: warp, then
-    /// weft.
-    pub area: [[f64; 2]; 2],
-    /// What of that was lost for the sake of clearance, in the mean.
-    pub area_lost: [f64; 2],
+    /// The share of its area that each set keeps, in the mean.
+    pub area: BySet<f64>,
+    /// The share of its area that each set keeps at its worst place.
+    pub area_least: BySet<f64>,
+    /// The share of its area that each set lost for the sake of clearance, in the mean.
+    pub area_lost: BySet<f64>,
 }
 
 impl Woven {
-    /// The problem that the cloth's crossings are: of its smallest repeat, or of all of it where it
-    /// has none. The last threads lie beside the first ones, so that something holds every edge.
+    /// The problem of the cloth's crossings: its smallest repeat, or all of it where nothing
+    /// repeats. The last threads lie beside the first ones, so that something holds every edge.
     #[must_use]
     pub fn crossings(&self) -> Crossings {
         Problem::new(self).crossings
     }
 
-    /// Lets the cloth come to rest on `backend` as `finish` has it: threads flatten, shift and
-    /// share the crimp as the energy of their crossings has it ([`texere_core::crossings`]), and
-    /// are drawn along arcs round one another. Where surfaces as drawn, with splines of `tension`
-    /// (from 0 to below 1), lack clearance, threads are made thinner. What a thread is wide over
-    /// its height before ([`Thread::flatness`](crate::Thread)) does not count, nor [`Woven::crimp`]
-    /// and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
+    /// Lets the cloth come to rest on `backend` as `finish` asks. Threads flatten, shift and share
+    /// the crimp so that the energy of their crossings is least ([`texere_core::crossings`]), and
+    /// are drawn along arcs round one another. Threads are made thinner where surfaces lack
+    /// clearance. `tension` is that of the yarns' splines, from 0 to below 1. A thread's given
+    /// [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
+    /// [`Woven::shape`]. `progress` gets the share of the work done; `Break` ends it.
     ///
     /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course,
     /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a
@@ -75,13 +75,13 @@ impl Woven {
     /// use std::ops::ControlFlow;
     /// use texere_core::{Material, Section};
     /// use texere_cpu::SerialBackend;
-    /// use texere_fabric::{Finish, Thread, Weave, Woven};
+    /// use texere_fabric::{BySet, Finish, Thread, Weave, Woven};
     /// // Plain weave at 1.8 diameters, where round threads would pierce one another.
     /// let plain = Weave::parse("plain")?.drawdown(6, 6)?;
     /// let threads = vec![Thread::new(0.36, 0.1); 6];
     /// let cloth = Woven::new(plain, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
     /// let rest = cloth.at_rest(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
-    /// assert_eq!(rest.repeat, [2, 2]);
+    /// assert_eq!(rest.repeat, BySet { warp: 2, weft: 2 });
     /// assert!(rest.crossings.at_rest && rest.clearance[1] > 0.98);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -100,38 +100,39 @@ impl Woven {
         if let Some((asked, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) {
             return Err(FinishError::Woven { asked });
         }
-        let (mut lies, rest) = self.lies(finish, tension, backend, |done| progress(SETTLED * done))?;
-        let repeat = lies.repeat();
-        let at_first = lies.area(self);
+        let (mut resting, rest) = self.resting(finish, tension, backend, |done| progress(SETTLED * done))?;
+        let repeat = resting.repeat();
+        let at_first = resting.area(self);
         let (clearance, bend, rounds) =
-            certify(self, &mut lies, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
-        let (area, yarns) = (lies.area(self), lies.yarns(self)?);
+            certify(self, &mut resting, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
+        let (area, yarns) = (resting.area(self), resting.yarns(self)?);
         if progress(1.0).is_break() {
             return Err(FabricError::Cancelled.into());
         }
         Ok(WovenRest {
             yarns,
-            repeat,
+            repeat: BySet::of(repeat),
             crossings: rest,
             clearance,
             bend,
             rounds,
-            area,
-            area_lost: [0, 1].map(|set| at_first[set][0] - area[set][0]),
+            area: area.map(|[mean, _]| mean),
+            area_least: area.map(|[_, least]| least),
+            area_lost: BySet { warp: at_first.warp[0] - area.warp[0], weft: at_first.weft[0] - area.weft[0] },
         })
     }
 
-    /// How its crossings lie at rest, before surfaces are measured.
-    fn lies(
+    /// The cloth's crossings at rest, before surfaces are measured.
+    fn resting(
         &self,
         finish: &Finish,
         tension: f32,
         backend: &dyn Backend,
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(Lies, CrossingsRest), FinishError> {
+    ) -> Result<(RestingRepeat, CrossingsRest), FinishError> {
         check_tension(tension).map_err(FabricError::from)?;
         let mut problem = Problem::new(self);
-        let [warp, weft] = finish.taut;
+        let BySet { warp, weft } = finish.taut;
         problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
         let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
         let mut settler = backend.crossings_settler(Arc::clone(&plan))?;
@@ -147,6 +148,6 @@ impl Woven {
         }
         let mut all: Vec<CrossingState> = zeroed("crossings", plan.crossings() as u64)?;
         settler.read(&mut all)?;
-        Ok((Lies::new(problem, &plan, all, tension), rest))
+        Ok((RestingRepeat::new(problem, &plan, all, tension), rest))
     }
 }

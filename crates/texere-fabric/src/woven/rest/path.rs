@@ -5,14 +5,14 @@ use texere_core::crossings::StraightPassage;
 use super::ease::ease;
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// Where a float has a control point next to a change of sides, as a share of the way to the next
-/// crossing: steps of the spline grow slowly then, so that it does not swing out.
+/// Place of a float's control point next to a change of sides, as a share of the way to the next
+/// crossing. The steps of the spline then grow slowly, and it does not swing out.
 const FLOAT_STEP: f64 = 0.3;
 
 /// Parts of each arc, and of the straight line between them, whose lengths are added up.
 const PARTS: usize = 8;
 
-/// Halvings until a slope is found.
+/// Halvings of the search for a slope.
 const HALVINGS: usize = 30;
 
 /// A thread at a crossing, mm.
@@ -48,14 +48,14 @@ impl Station {
     }
 }
 
-/// A change of sides between two crossings: along arcs round both crossed threads, and the straight
+/// A change of sides between two crossings, along arcs round both crossed threads and the straight
 /// line that touches both.
 pub(super) struct Change<'a> {
     way: Way<'a>,
     line: [[f64; 2]; LINE],
     /// Whether the thread changes sides before the first crossing, and after the second one.
     turns: [bool; 2],
-    /// From the first crossing to each point of the line.
+    /// Length from the first crossing to each point of the line.
     lengths: [f64; LINE],
 }
 
@@ -80,7 +80,8 @@ impl<'a> Change<'a> {
         self.lengths[LINE - 1]
     }
 
-    /// All points between the two crossings, evenly spaced, but where they would bend too tightly.
+    /// All points between the two crossings, evenly spaced except where they would bend too
+    /// tightly.
     pub(super) fn points(&self) -> impl Iterator<Item = Stop> {
         let mut stops = std::array::from_fn(|point| self.at(self.whole() * point as f64 / STEPS));
         ease(&mut stops, self.turns);
@@ -88,7 +89,7 @@ impl<'a> Change<'a> {
     }
 
     /// The points from the first crossing to where the thread is cut off at `edge`, about as far
-    /// apart.
+    /// apart as in a whole change.
     pub(super) fn until(&self, edge: f64) -> impl Iterator<Item = Stop> {
         let [one, _] = self.way.stations;
         let x = (edge - one.at).abs();
@@ -107,7 +108,7 @@ impl<'a> Change<'a> {
         })
     }
 
-    /// The place so far from the first crossing.
+    /// The place at `length` from the first crossing.
     fn at(&self, length: f64) -> Stop {
         let [one, two] = self.way.stations;
         let part = self.lengths.partition_point(|&to| to < length).clamp(1, LINE - 1);
@@ -127,8 +128,8 @@ impl<'a> Change<'a> {
     }
 }
 
-/// The points between two crossings on one side of which a thread lies, where it changes sides
-/// before the first one or after the second one.
+/// The points between two crossings of a thread that lies on the same side of both and changes
+/// sides before the first or after the second, as `changes` says.
 pub(super) fn float(one: &Station, two: &Station, changes: [bool; 2]) -> impl Iterator<Item = Stop> {
     let at = |share: f64, station: &Station| {
         let along = one.at + share * (two.at - one.at);
@@ -138,8 +139,8 @@ pub(super) fn float(one: &Station, two: &Station, changes: [bool; 2]) -> impl It
     points.into_iter().zip(changes).filter_map(|(point, changes)| changes.then_some(point))
 }
 
-/// The way from one crossed thread to the next, seen from the first one's middle, with the side on
-/// which the thread begins on top.
+/// The way from one crossed thread to the next, seen from the middle of the first. The thread
+/// begins on top.
 struct Way<'a> {
     stations: [&'a Station; 2],
     across: f64,
@@ -156,8 +157,8 @@ impl<'a> Way<'a> {
         way
     }
 
-    /// What is left across a line of that slope between both crossed threads when the thread has
-    /// its own.
+    /// The room that is left across a line of this slope between both crossed threads, beside the
+    /// thread itself.
     fn room(&self, slope: f64) -> f64 {
         let (s, c) = slope.sin_cos();
         let [one, two] =
@@ -165,7 +166,7 @@ impl<'a> Way<'a> {
         self.across * s + self.rise * c - one - two
     }
 
-    /// The least slope at which the thread has room, or that at which it lacks least.
+    /// The least slope at which the thread has room, or else the slope at which it lacks least.
     fn touching(&self) -> f64 {
         let [one, two] = self.stations;
         let halves = [one, two].map(|at| at.crossed.map(|half| half as f32));
@@ -186,7 +187,7 @@ impl<'a> Way<'a> {
     /// The arc round the first thread, the straight line, the arc round the second one.
     fn line(&self) -> [[f64; 2]; LINE] {
         let first = |part: usize| self.arc(self.stations[0], 1.0, part as f64 / PARTS as f64);
-        // As the first one, turned by half a turn.
+        // The second arc is the first one turned by half a turn.
         let second = |part: usize| {
             let [x, y] = self.arc(self.stations[1], -1.0, (PARTS - part) as f64 / PARTS as f64);
             [self.across - x, self.rise - y]
@@ -212,7 +213,7 @@ impl<'a> Way<'a> {
         })
     }
 
-    /// A place on the arc round a crossed thread, from its middle: `share` of the way from the
+    /// A place on the arc round a crossed thread, from its middle, at `share` of the way from the
     /// crossing to the straight line.
     fn arc(&self, at: &Station, sign: f64, share: f64) -> [f64; 2] {
         let (s, c) = (share * self.slope).sin_cos();
@@ -226,14 +227,14 @@ impl<'a> Way<'a> {
         [x + half_height * s, b * b * c / reach + half_height * c]
     }
 
-    /// How far the thread lies off each thread that it crosses: at the crossing itself it may be
-    /// held away from it.
+    /// Distance of the thread from touching each thread that it crosses. At the crossing itself it
+    /// may be held away.
     fn lifts(&self) -> [f64; 2] {
         self.stations.map(|at| at.side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height)
     }
 }
 
-/// What is left of a lift at a share of half the way to the other crossing.
+/// The rest of a lift at a share of half the way to the other crossing.
 fn fading(share: f64) -> f64 {
     let left = (1.0 - share).clamp(0.0, 1.0);
     left * left * (3.0 - 2.0 * left)

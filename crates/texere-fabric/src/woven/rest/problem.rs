@@ -1,4 +1,4 @@
-//! What is asked of the core: the crossings of a cloth's smallest repeat.
+//! The problem that the core settles: the crossings of a cloth's smallest repeat.
 
 use std::collections::HashMap;
 
@@ -8,20 +8,19 @@ use super::super::thread::pitches;
 use crate::reach::Reach;
 use crate::{Drawdown, Thread, Woven};
 
-/// What comes to rest of a cloth: so many ends and picks, from where its threads and their
-/// crossings repeat. A cloth that does not repeat is its own repeat: its last threads lie beside
-/// its first ones, so that something holds its edges.
+/// The part of a cloth that comes to rest: the ends and picks after which its threads and crossings
+/// repeat. A cloth that does not repeat is its own repeat. Its last threads lie beside its first
+/// ones, so that something holds its edges.
 pub(super) struct Problem {
     pub(super) repeat: [usize; 2],
     pub(super) crossings: Crossings,
-    /// Half width and half height of each section's room, in those of the thread that has it,
-    /// thread by thread.
+    /// Half width and half height of each thread's room, in those of the thread.
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The level of each thread of the repeat among its set.
     pub(super) levels: [Vec<u32>; 2],
 }
 
-/// A problem has at least so many threads of either set.
+/// The fewest threads of either set in a problem.
 const THREADS_MIN: usize = 2;
 
 impl Problem {
@@ -53,7 +52,7 @@ impl Problem {
     }
 }
 
-/// Half width and half height of the room that each thread's section takes, in the thread's own.
+/// Half width and half height of the room that each thread's section takes, in those of the thread.
 fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
     let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
     [cloth.warp(), cloth.weft()].map(|threads| {
@@ -63,26 +62,26 @@ fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
 }
 
 impl Woven {
-    /// The levels of so many ends and picks, from where the cloth repeats.
+    /// Levels of the first `across` ends and `along` picks, within which the cloth repeats.
     pub(in crate::woven) fn levels(&self, [across, along]: [usize; 2]) -> [Vec<u32>; 2] {
         let (ends, picks) = (self.warp().len(), self.weft().len());
         Drawdown::from_fn(across, along, |end, pick| self.drawdown().up(end % ends, pick % picks))
-            .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels())
+            .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels().into_array())
     }
 
-    /// After how many ends and picks all threads lie and cross as those before; all of them where
-    /// nothing repeats, two at least.
+    /// Numbers of ends and picks after which threads lie and cross as before; two at least, and all
+    /// of them where nothing repeats.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
         self.period_of(|_| None)
     }
 
-    /// After how many ends and picks all threads weigh what those before do as well: a pattern of
-    /// yarns may be longer than the weave's repeat.
+    /// Numbers of ends and picks after which threads also weigh the same. A pattern of yarns may be
+    /// longer than the weave's repeat.
     pub(in crate::woven) fn repeat_by_weight(&self) -> [usize; 2] {
         self.period_of(|thread| self.materials()[thread.material as usize].tex)
     }
 
-    /// After how many ends and picks threads are as those before in this, too.
+    /// Numbers of ends and picks after which threads are alike in `weight`, too.
     fn period_of(&self, weight: impl Fn(&Thread) -> Option<f32>) -> [usize; 2] {
         let (rooms, drawdown) = (rooms(self), self.drawdown());
         let [ends, picks] = [self.warp().len(), self.weft().len()];
@@ -93,14 +92,15 @@ impl Woven {
     }
 }
 
-/// From each thread to the next one, mm; from the last one to the first of a cloth beside this one.
+/// Distance from each thread to the next one, mm. The last one's is that to the first thread of a
+/// cloth beside this one.
 pub(super) fn gaps(threads: &[Thread]) -> Vec<f64> {
     let ends = [threads.first(), threads.last()].into_iter().flatten();
     let seam = ends.map(|thread| thread.spacing_mm / 2.0).sum();
     pitches(threads).chain([seam]).collect()
 }
 
-/// Numbers for threads that are alike, and that cross alike.
+/// A number for each thread, the same for threads that are alike and cross alike.
 fn kinds(
     threads: &[Thread],
     rooms: &[[f32; 2]],
@@ -129,8 +129,8 @@ fn bits(count: usize, up: impl Fn(usize) -> bool) -> Vec<u64> {
     (0..count).step_by(64).map(word).collect()
 }
 
-/// After how many threads all further ones are as those before, by the longest start of the list
-/// that is its end as well (Knuth, Morris and Pratt).
+/// Number of threads after which all further ones are as those before, by the longest start of the
+/// list that is its end as well (Knuth, Morris and Pratt).
 fn period(kinds: &[usize]) -> usize {
     let mut borders = vec![0; kinds.len()];
     for at in 1..kinds.len() {

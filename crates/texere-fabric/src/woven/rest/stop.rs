@@ -1,9 +1,10 @@
-//! Where a thread's path at rest has its control points.
+//! Control points of a thread's path at rest.
 
 /// Control points between two crossings where a thread changes sides.
 ///
-/// Three leave the cloths of the mills at 0.945 to 0.99 of touching, five at 0.955 to 0.994. Those
-/// of three lose up to 6 % of their area in the certificate, those of five up to 4 %.
+/// Tried: with three the cloths of the mills come to 0.945 to 0.99 of touching, with five to 0.955
+/// to 0.994. Cloths of three lose up to 6 % of their area in the certificate, cloths of five up to
+/// 4 %.
 pub(super) const CHANGE_POINTS: usize = 5;
 
 /// A control point of a thread's path, mm.
@@ -13,7 +14,7 @@ pub(super) struct Stop {
     pub(super) across: f64,
     pub(super) z: f64,
     pub(super) halves: [f64; 2],
-    /// The crossed thread at which, or next to which, it lies; none at a cut end.
+    /// The crossed thread at which, or next to which, the point lies; none at a cut end.
     pub(super) crossing: Option<usize>,
 }
 

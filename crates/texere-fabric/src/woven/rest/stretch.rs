@@ -1,5 +1,4 @@
-//! Cloth that is stretched one way: it gives the other way, since its threads stay as long as they
-//! are.
+//! Cloth that is stretched one way. It gives the other way, since its threads keep their lengths.
 
 use std::ops::ControlFlow;
 
@@ -8,38 +7,38 @@ use texere_core::Backend;
 use texere_core::crossings::Set;
 
 use super::certificate::crop;
-use crate::{Finish, FinishError, Woven};
+use crate::{BySet, Finish, FinishError, Woven};
 
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;
 
-/// How near the crimp of the pulled threads comes to what keeps their length.
+/// How near the crimp of the pulled threads comes to the crimp that keeps their length.
 const NEAR: f64 = 2e-4;
 
-/// How much tauter one set may become over the other one, as a natural logarithm: what
-/// [`Finish::taut`] allows.
+/// The greatest tautness of one set over the other's, as a natural logarithm: what [`Finish::taut`]
+/// allows.
 const TAUTER: f64 = 4.6;
 
-/// Halvings of that, and how often the cloth gives the other way in each.
+/// Halvings of the tautness, and how often the cloth gives the other way in each.
 const HALVINGS: u32 = 16;
 const GIVES: u32 = 3;
 
-/// What is asked of cloth that is pulled.
+/// The stretch that is asked of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// The threads along which it is pulled.
+    /// The set along which it is pulled.
     pub along: Set,
-    /// How many times as long it becomes, 0.5 to 2; less than 1 lets it draw in.
+    /// Factor of its length along that set, 0.5 to 2. Less than 1 lets it draw in.
     pub by: f64,
 }
 
 impl Woven {
-    /// The cloth stretched along one set of its threads, and `finish` with tensions such that all
-    /// threads keep the length that they have where the cloth comes to rest as `finish` has it:
-    /// those that are pulled straighten, those that cross them take their crimp, and the cloth
-    /// becomes narrower. Then [`Woven::at_rest`] lets it come to rest. `tension` is that of the
-    /// yarns' splines, from 0 to below 1; `progress` gets the share of the work that is done, and
-    /// `Break` ends it within one pass.
+    /// The cloth stretched along one set of its threads, with a `finish` whose tensions go with the
+    /// stretch. All threads keep the length that they have where this cloth comes to rest with the
+    /// given `finish`: threads that are pulled straighten, the threads that cross them take their
+    /// crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to rest.
+    /// `tension` is that of the yarns' splines, from 0 to below 1. `progress` gets the share of the
+    /// work done, and `Break` ends it within one pass.
     ///
     /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or
     /// jammed, and those of [`Woven::at_rest`].
@@ -71,9 +70,9 @@ impl Woven {
         mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
-        let [pulled, crossed] = [along as usize, along.other() as usize];
-        // Of each course of settling its own share, so that the first says something, too, and each
-        // pass hears that it is to end.
+        let across = along.other();
+        // Each settling reports its own share of the progress, so that the first one shows, too,
+        // and each pass hears a wish to stop.
         let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
         let mut crimps_of = |cloth: &Self, finish: &Finish| {
             let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));
@@ -81,49 +80,53 @@ impl Woven {
             crimps
         };
         let first = crimps_of(self, finish)?;
-        let wanted = (1.0 + first[pulled]) / by - 1.0;
-        let most = (1.0 + first[pulled]) / (1.0 + STRAIGHT);
-        let refused = || FinishError::Stretch { along: ["warp", "weft"][pulled], by, most };
+        let wanted = (1.0 + first[along]) / by - 1.0;
+        let most = (1.0 + first[along]) / (1.0 + STRAIGHT);
+        let refused = || FinishError::Stretch { along: ["warp", "weft"][along as usize], by, most };
         if !(wanted >= STRAIGHT && (0.5..=2.0).contains(&by)) {
             return Err(refused());
         }
         let (mut narrower, mut range) = (1.0, [-TAUTER, TAUTER]);
         for _ in 0..HALVINGS {
             let tauter = f64::midpoint(range[0], range[1]);
-            let pull = |set: usize, by: f64| (f64::from(finish.taut[set]) * by.exp()).clamp(0.0, 10.0) as f32;
+            let pull = |set: Set, by: f64| (f64::from(finish.taut[set]) * by.exp()).clamp(0.0, 10.0) as f32;
             let mut taut = finish.taut;
-            taut[pulled] = pull(pulled, tauter / 2.0);
-            taut[crossed] = pull(crossed, -tauter / 2.0);
+            taut[along] = pull(along, tauter / 2.0);
+            taut[across] = pull(across, -tauter / 2.0);
             let finish = Finish { taut, ..*finish };
             let (mut cloth, mut crimps) = (self.clone(), first);
             for _ in 0..GIVES {
-                let mut times = [by; 2];
-                times[crossed] = narrower;
-                cloth = self.spaced([times[1], times[0]])?;
+                let mut times = BySet { warp: by, weft: by };
+                times[across] = narrower;
+                // Cloth that is longer along one set has the other set's threads further apart.
+                cloth = self.spaced([times.weft, times.warp])?;
                 crimps = crimps_of(&cloth, &finish)?;
-                narrower = (1.0 + first[crossed]) / (1.0 + crimps[crossed]);
+                narrower = (1.0 + first[across]) / (1.0 + crimps[across]);
             }
-            if (crimps[pulled] - wanted).abs() < NEAR {
+            if (crimps[along] - wanted).abs() < NEAR {
                 return Ok((cloth, finish));
             }
-            range[usize::from(crimps[pulled] < wanted)] = tauter;
+            range[usize::from(crimps[along] < wanted)] = tauter;
         }
         Err(refused())
     }
 
-    /// The crimp of warp and weft where the cloth comes to rest.
+    /// The crimp of the cloth at rest.
     fn crimps(
         &self,
         finish: &Finish,
         tension: f32,
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<[f64; 2], FinishError> {
-        let (lies, _) = self.lies(finish, tension, backend, progress)?;
-        let piece = crop(self, lies.repeat())?;
-        let lengths = lengths_mm(&lies.yarns(&piece)?);
+    ) -> Result<BySet<f64>, FinishError> {
+        let (resting, _) = self.resting(finish, tension, backend, progress)?;
+        let piece = crop(self, resting.repeat())?;
+        let lengths = lengths_mm(&resting.yarns(&piece)?);
         let (size, ends) = (piece.size_mm(), piece.warp().len());
         let [warp, weft]: [f64; 2] = [&lengths[..ends], &lengths[ends..]].map(|lengths| lengths.iter().sum());
-        Ok([warp / (ends as f64 * size[1]) - 1.0, weft / (piece.weft().len() as f64 * size[0]) - 1.0])
+        Ok(BySet {
+            warp: warp / (ends as f64 * size[1]) - 1.0,
+            weft: weft / (piece.weft().len() as f64 * size[0]) - 1.0,
+        })
     }
 }

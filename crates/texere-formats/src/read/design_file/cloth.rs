@@ -3,9 +3,9 @@
 use texere_fabric::{Crimp, Relief, Shape, Woven};
 use toml::Spanned;
 
+use super::any::Any;
 use super::schema::ClothTable;
 use super::source::Source;
-use super::value::Any;
 use crate::read::ReadError;
 
 /// What `[cloth]` says.
@@ -48,7 +48,7 @@ impl Cloth {
     }
 
     /// Gives `woven` its shape, its crimp and its selvedge.
-    pub(super) fn lay(&self, source: &Source<'_>, woven: &mut Woven) -> Result<(), ReadError> {
+    pub(super) fn apply(&self, source: &Source<'_>, woven: &mut Woven) -> Result<(), ReadError> {
         woven.set_shape(self.shape);
         woven.set_selvedge(self.selvedge);
         woven.set_crimp(self.crimp).map_err(|error| source.fabric(error.into()))

@@ -2,13 +2,13 @@
 
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{Finish, Stretch};
+use texere_fabric::{BySet, Finish, Stretch};
 use toml::Spanned;
 
+use super::any::Any;
 use super::limits::{STRETCH, TIMES_MOST};
 use super::schema::FinishTable;
 use super::source::Source;
-use super::value::Any;
 use crate::read::ReadError;
 
 /// The least and the most times its length that a yarn may be given.
@@ -61,7 +61,7 @@ impl FinishTable {
         let [warp, weft, calender, ..] = wovens;
         let mut finish = Finish {
             length: self.length(source)?,
-            taut: [times(warp)?, times(weft)?],
+            taut: BySet { warp: times(warp)?, weft: times(weft)? },
             calender: times(calender)?,
             ..Finish::default()
         };

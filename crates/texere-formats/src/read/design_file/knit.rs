@@ -9,10 +9,11 @@ use toml::Spanned;
 use super::schema::{DesignFile, KnitTable};
 use super::source::Source;
 use super::threads::{Named, YarnTable};
-use super::{colors, laid};
+use super::{colors, knit_keys};
 use crate::read::error::first_few;
 use crate::read::file::file_name;
-use crate::read::knit::{Drawn, Knit};
+use crate::read::knit::Knit;
+use crate::read::knitted_from::Drawn;
 use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
 
@@ -71,6 +72,14 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
+    /// Refuses a knitout file by name, in a build without knitout.
+    #[cfg(not(feature = "knitout"))]
+    fn knitout(&self, _: String, knitout: &Spanned<String>) -> Result<Design, ReadError> {
+        let file = self.source.beside(knitout);
+        Err(ReadError::Feature { file, what: "knitout files", feature: "knitout" }
+            .named(self.source.place("knit.knitout", knitout.span())))
+    }
+
     fn chart(&self, name: String, text: &Spanned<String>) -> Result<Design, ReadError> {
         let table = self.table;
         self.belongs(
@@ -188,9 +197,9 @@ impl Reader<'_> {
     /// All but the program, with these yarns for its carriers.
     pub(super) fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
         let (source, table) = (self.source, self.table);
-        let compression = laid::compression(source, "knit.compression", table.compression.as_ref())?;
-        let copies = laid::copies(source, "knit.repeat", table.repeat.as_ref())?;
-        let cells = laid::cells(source, "knit.cells", table.cells.as_ref())?;
+        let compression = knit_keys::compression(source, "knit.compression", table.compression.as_ref())?;
+        let copies = knit_keys::copies(source, "knit.repeat", table.repeat.as_ref())?;
+        let cells = knit_keys::cells(source, "knit.cells", table.cells.as_ref())?;
         let float_max = table
             .float_max
             .as_ref()

@@ -6,8 +6,8 @@ use toml::Spanned;
 
 use super::knit::{LOOP_MM, Reader};
 use crate::read::error::{first_few, named, shown};
-use crate::read::knit::Drawn;
 use crate::read::knitout::{self, LoopLengths};
+use crate::read::knitted_from::Drawn;
 use crate::read::{Design, ReadError};
 
 impl Reader<'_> {

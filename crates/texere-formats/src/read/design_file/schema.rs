@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use texere_core::Section;
 use toml::Spanned;
 
-use super::value::{Any, Node, Value};
+use super::any::Any;
+use super::value::{Node, Value};
 use crate::read::ReadError;
 use crate::read::point_paper::RowOrder;
 

@@ -7,8 +7,8 @@ use texere_fabric::{FabricError, Weave};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::value::{Any, Node, Value};
-use crate::read::error::{no_hyphen, said, shown};
+use super::any::Any;
+use crate::read::error::{no_hyphen, shown};
 use crate::read::file::Files;
 use crate::read::keys::Keys;
 use crate::read::{FilePlace, ReadError};
@@ -19,7 +19,7 @@ const THREAD_LIMIT: i64 = 1_000_000;
 /// A design file's text, where it came from, and what opens the files that it names.
 pub(super) struct Source<'a> {
     pub(super) path: &'a Path,
-    text: &'a str,
+    pub(super) text: &'a str,
     pub(super) files: &'a Files<'a>,
 }
 
@@ -35,18 +35,6 @@ impl<'a> Source<'a> {
     /// The path of a file that the design names: it lies beside the design.
     pub(super) fn beside(&self, file: &Spanned<String>) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
-    }
-
-    /// What the file says.
-    pub(super) fn parse<T: Value>(&self) -> Result<T, ReadError> {
-        let table = DeTable::parse(self.text).map_err(|error| {
-            let line = self.line(error.span().unwrap_or(0..0));
-            let written = self.text.lines().nth(line - 1).and_then(|line| line.split('#').next());
-            let message = said(error.message()) + &no_hyphen(written.unwrap_or_default());
-            ReadError::Syntax { file: self.path.into(), line, message }
-        })?;
-        let span = table.span();
-        T::read(&Node::root(self, &Spanned::new(span, DeValue::Table(table.into_inner()))))
     }
 
     /// All its keys, as far as it is TOML.
@@ -70,7 +58,7 @@ impl<'a> Source<'a> {
         shown(self.text.get(span).unwrap_or_default().trim_matches(['"', '\'']))
     }
 
-    fn line(&self, span: Range<usize>) -> usize {
+    pub(super) fn line(&self, span: Range<usize>) -> usize {
         self.text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1
     }
 

@@ -7,10 +7,10 @@ use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 
+use super::any::Any;
 use super::limits::{HAIRINESS, LENGTH_MM, TEX, TWIST_PER_M, hairiness_of};
 use super::schema::{ThreadSet, YarnSpec};
 use super::source::Source;
-use super::value::Any;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use toml::Spanned;
-use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
+use super::any::{Any, whole};
 use super::source::Source;
 use crate::read::ReadError;
-use crate::read::error::shown;
+use crate::read::error::{no_hyphen, said, shown};
 
 /// What a key may hold.
 pub(super) trait Value: Sized {
@@ -17,6 +18,20 @@ pub(super) trait Value: Sized {
     }
 
     fn read(node: &Node<'_>) -> Result<Self, ReadError>;
+}
+
+/// What a design file says.
+///
+/// **Errors**: [`ReadError::Syntax`] for what is no TOML, and the errors of the file's keys.
+pub(super) fn parse<T: Value>(source: &Source<'_>) -> Result<T, ReadError> {
+    let table = DeTable::parse(source.text).map_err(|error| {
+        let line = source.line(error.span().unwrap_or(0..0));
+        let written = source.text.lines().nth(line - 1).and_then(|line| line.split('#').next());
+        let message = said(error.message()) + &no_hyphen(written.unwrap_or_default());
+        ReadError::Syntax { file: source.path.into(), line, message }
+    })?;
+    let span = table.span();
+    T::read(&Node::root(source, &Spanned::new(span, DeValue::Table(table.into_inner()))))
 }
 
 /// A value of a design file and the keys that lead to it.
@@ -95,57 +110,6 @@ fn nearest(key: &str, known: &[&str]) -> Option<String> {
         .filter(|(distance, known)| *distance <= most(known))
         .min();
     nearest.map(|(_, known)| (*known).into())
-}
-
-fn whole(number: &DeInteger<'_>) -> Option<i64> {
-    i64::from_str_radix(number.as_str(), number.radix()).ok()
-}
-
-/// A number, unless it is larger than any of 64 bits.
-fn real(number: &DeFloat<'_>) -> Option<f64> {
-    let value: f64 = number.as_str().parse().ok()?;
-    (!value.is_infinite() || number.as_str().contains("inf")).then_some(value)
-}
-
-/// A value of any kind, for keys that say themselves what it should be.
-#[derive(Debug)]
-pub(super) enum Any {
-    Text(String),
-    Number(f64),
-    Truth(bool),
-    List(Vec<Self>),
-    /// A table, a date, or a number that is too large.
-    Other,
-}
-
-impl Any {
-    fn of(value: &DeValue<'_>) -> Self {
-        match value {
-            DeValue::String(text) => Self::Text(text.to_string()),
-            DeValue::Integer(number) => whole(number).map_or(Self::Other, |whole| Self::Number(whole as f64)),
-            DeValue::Float(number) => real(number).map_or(Self::Other, Self::Number),
-            DeValue::Boolean(truth) => Self::Truth(*truth),
-            DeValue::Array(list) => Self::List(list.iter().map(|item| Self::of(item.as_ref())).collect()),
-            DeValue::Datetime(_) | DeValue::Table(_) => Self::Other,
-        }
-    }
-
-    pub(super) fn text(&self) -> Option<&str> {
-        if let Self::Text(text) = self { Some(text) } else { None }
-    }
-
-    /// A number, written with a point or without.
-    pub(super) fn number(&self) -> Option<f64> {
-        if let Self::Number(number) = self { Some(*number) } else { None }
-    }
-
-    pub(super) fn truth(&self) -> Option<bool> {
-        if let Self::Truth(truth) = self { Some(*truth) } else { None }
-    }
-
-    pub(super) fn list(&self) -> Option<&[Self]> {
-        if let Self::List(list) = self { Some(list) } else { None }
-    }
 }
 
 impl Value for Any {

@@ -11,7 +11,7 @@ use super::knit::{PER_CM, PER_INCH, without_weaving};
 use super::schema::{BarTable, DesignFile, WarpKnitTable};
 use super::source::Source;
 use super::threads::YarnTable;
-use super::{colors, laid};
+use super::{colors, knit_keys};
 use crate::read::file::file_name;
 use crate::read::knit::Knit;
 use crate::read::point_paper::PointPaper;
@@ -45,9 +45,9 @@ pub(super) fn read(
     let [wales, courses] =
         size.map(|(key, side)| source.integer(&format!("warp_knit.{key}"), side, 1, SIDE_MAX));
     let gauge = gauge(source, table)?;
-    let copies = laid::copies(source, "warp_knit.repeat", table.repeat.as_ref())?;
-    let compression = laid::compression(source, "warp_knit.compression", table.compression.as_ref())?;
-    let cells = laid::cells(source, "warp_knit.cells", table.cells.as_ref())?;
+    let copies = knit_keys::copies(source, "warp_knit.repeat", table.repeat.as_ref())?;
+    let compression = knit_keys::compression(source, "warp_knit.compression", table.compression.as_ref())?;
+    let cells = knit_keys::cells(source, "warp_knit.cells", table.cells.as_ref())?;
     let threads = reader.threads.iter().map(|(_, thread)| *thread).collect();
     let (knit_yarns, materials, sections) =
         Knit::yarns_of(threads, compression, &yarns.materials, &yarns.sections);

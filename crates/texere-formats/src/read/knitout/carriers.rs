@@ -4,13 +4,10 @@ use std::collections::HashMap;
 
 use texere_fabric::weft::CarrierSet;
 
-use super::CARRIERS_MAX;
+use super::limits::{CARRIERS_MAX, NAME_MAX};
 use super::line::Words;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
-
-/// The longest name of a carrier, in letters: machines number them.
-const NAME_MAX: usize = 40;
 
 /// Whether a carrier may have that name: messages and yarns are called by it.
 pub(super) fn is_name(word: &str) -> bool {

@@ -6,9 +6,11 @@ use texere_core::{Material, Section};
 use texere_fabric::Thread;
 use texere_fabric::weft::{Cells, Gauge};
 
-use super::LoopLengths;
+use super::knitout_file;
+use super::loop_lengths::LoopLengths;
 use crate::read::file::{Files, file_name};
-use crate::read::knit::{Drawn, Knit};
+use crate::read::knit::Knit;
+use crate::read::knitted_from::Drawn;
 use crate::read::{Design, ReadError};
 
 /// Needles to the inch where a file says nothing.
@@ -31,8 +33,8 @@ const COLORS: [[u8; 3]; 8] = [
 ];
 
 /// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
-pub(in crate::read) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
-    let read = super::read(path, files, &LoopLengths::new())?;
+pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    let read = knitout_file::read(path, files, &LoopLengths::new())?;
     let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));
     let materials: Vec<_> = read
         .program

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::iter::Peekable;
 
-use super::CARRIERS_MAX;
 use super::carriers::{NAME, is_name};
+use super::limits::{CARRIERS_MAX, GAUGE, YARN_MAX};
 use super::line::Line;
 use super::warnings::Warnings;
 use crate::read::ReadError;
@@ -12,12 +12,6 @@ use crate::read::error::shown;
 
 /// The version of knitout that is read.
 const VERSION: u32 = 2;
-
-/// Needles to the inch that a header may say.
-const GAUGES: (f64, f64) = (0.1, 100.0);
-
-/// The longest text about a yarn that is kept, in letters.
-const YARN_MAX: usize = 80;
 
 /// Reads the line `;!knitout-2`, where it is there.
 pub(super) fn magic<'a>(
@@ -81,7 +75,8 @@ impl<'a> Header<'a> {
                 self.carriers = Some(carriers).filter(|carriers| !carriers.is_empty());
             }
             "Gauge" => {
-                let gauge = value.parse().ok().filter(|gauge| (GAUGES.0..=GAUGES.1).contains(gauge));
+                let [low, high] = GAUGE;
+                let gauge = value.parse().ok().filter(|gauge| (low..=high).contains(gauge));
                 if gauge.is_none() {
                     let said = format!("Gauge \"{}\" is no number of needles to the inch", shown(value));
                     warnings.once("gauge", line.number, &said);

@@ -5,7 +5,7 @@ use std::str::SplitWhitespace;
 
 use texere_fabric::weft::{Bed, Direction, Needle};
 
-use super::NEEDLE_MAX;
+use super::limits::NEEDLE_MAX;
 use crate::read::ReadError;
 use crate::read::error::{no_hyphen, shown};
 

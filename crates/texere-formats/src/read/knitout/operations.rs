@@ -6,9 +6,10 @@ use texere_core::backend::room_for;
 use texere_fabric::weft::{CarrierSet, Instruction, Operation, Program};
 
 use super::carriers::Carriers;
+use super::limits::OPERATIONS_MAX;
 use super::line::{Line, Words};
+use super::loop_lengths::{LoopLengths, size_of_numbers};
 use super::warnings::Warnings;
-use super::{LoopLengths, OPERATIONS_MAX, size_of_numbers};
 use crate::read::ReadError;
 use crate::read::error::shown;
 

@@ -7,8 +7,9 @@ use texere_core::{BackendError, Origin, SettlingError};
 use texere_fabric::weft::{CarrierSet, Direction, Instruction, Needle, WeftError};
 use texere_fabric::{FabricError, FinishError, ThreadError};
 
+use super::knitout_file::{KnitoutFile, parse};
+use super::loop_lengths::LoopLengths;
 use super::warnings::WARNINGS_MAX;
-use super::{Knitout, LoopLengths, parse};
 use crate::read::ReadError;
 use Direction::{Left, Right};
 use Instruction::{
@@ -17,7 +18,7 @@ use Instruction::{
 
 const HEAD: &str = ";!knitout-2\n;;Carriers: 1 2 3\n";
 
-fn read(text: impl AsRef<[u8]>) -> Result<Knitout, ReadError> {
+fn read(text: impl AsRef<[u8]>) -> Result<KnitoutFile, ReadError> {
     parse(Path::new("a.k"), text.as_ref(), &LoopLengths::new())
 }
 
@@ -78,7 +79,7 @@ fn each_operation() {
 fn sources_are_lines_and_sets_are_shared() {
     let text = "\u{feff};!knitout-2\n\n; free\n;;Machine: SWGN2\n;;Gauge: 15\n;;Carriers: A B\n;;Yarn-B: 50-50 Rust\n\
                 ;;Position: Keep\n\tinhook A;;\n knit + f1 A ; out of it\nrack 0.25;\nknit + f2 A\nknit + f3 B A";
-    let Knitout { program, gauge, yarns, warnings, .. } = read(text).unwrap();
+    let KnitoutFile { program, gauge, yarns, warnings, .. } = read(text).unwrap();
     assert!(warnings.is_empty(), "{warnings:?}");
     assert_eq!((gauge, &yarns[..]), (Some(15.0), &[None, Some("50-50 Rust".into())][..]));
     assert_eq!((&program.carriers[..], program.repeat), (&["A".into(), "B".into()][..], None));
@@ -92,7 +93,7 @@ fn sources_are_lines_and_sets_are_shared() {
 #[test]
 fn half_a_rack_is_what_the_machine_means_by_it() {
     let rack = |machine: &str, rack: &str| {
-        let Knitout { program, warnings, .. } =
+        let KnitoutFile { program, warnings, .. } =
             read(format!("{HEAD}{machine}rack {rack}\nrack {rack}")).unwrap();
         let Rack(rack) = program.operations[0].instruction else { panic!("no rack") };
         (rack, warnings.len())

@@ -4,11 +4,9 @@ use texere_core::backend::filled;
 use texere_core::counted;
 
 use super::ini::{Entry, Ini};
+use super::limits::LOOM_MAX;
 use crate::read::error::shown;
 use crate::read::{FilePlace, ReadError};
-
-/// Most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.
-pub(crate) const LOOM_LIMIT: u32 = 100_000;
 
 /// Where an entry stands, as WIF writes it: `[WARP COLORS] 3`.
 pub(super) fn place(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> FilePlace {
@@ -54,7 +52,7 @@ pub(super) fn list(
 }
 
 /// A section of `number=list` lines as one list for each of 1 to `count`, each number in it once; 0
-/// stands for none, numbers above `limit`, which is [`LOOM_LIMIT`] at most, are refused. Lines
+/// stands for none, numbers above `limit`, which is [`LOOM_MAX`] at most, are refused. Lines
 /// beyond `count` are left out with a warning.
 pub(super) fn lists(
     ini: &Ini<'_>,
@@ -65,7 +63,7 @@ pub(super) fn lists(
 ) -> Result<Vec<Vec<u32>>, ReadError> {
     let mut lists = filled("a draft", count as usize, Vec::new())?;
     // The line that last had each number.
-    let mut had = vec![0; LOOM_LIMIT as usize + 1];
+    let mut had = vec![0; LOOM_MAX as usize + 1];
     for (number, entry) in numbered(ini, section, count, warnings)? {
         let key = number.to_string();
         for value in list(ini, section, &key, &entry) {

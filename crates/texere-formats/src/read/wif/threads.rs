@@ -4,17 +4,15 @@ use texere_core::backend::{filled, room};
 use texere_core::{Material, Section, counted};
 use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 
-use super::PROGRAM;
 use super::colors::{NO_COLOR, Palette};
 use super::ini::Ini;
+use super::limits::LENGTH_MM;
 use super::numbers::{bad, length, numbered};
+use super::program::is_ours;
 use crate::read::ReadError;
 
 /// Spacing where the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;
-
-/// The least and the widest spacing or thickness that is taken, mm: as in a design file.
-pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
 
 /// The units of the standard, in mm. A decipoint is a tenth of a point, of which 72 make an inch.
 pub(crate) const UNITS_MM: [(&str, f64); 3] =
@@ -70,11 +68,6 @@ pub(super) fn read(
     Ok((threads, drawn == [false; 2] && missing != [true; 2]))
 }
 
-/// Whether texere has written the draft.
-pub(super) fn is_ours(ini: &Ini<'_>) -> bool {
-    ini.get("wif", "source program").is_some_and(|program| program.value == PROGRAM)
-}
-
 /// A cloth of `threads`, all of them thinned by one factor where some need it to cross: for a file
 /// that does not say how thick they are.
 ///
@@ -93,7 +86,7 @@ pub(super) fn roomy(
     warnings: &mut Vec<String>,
 ) -> Result<Woven, FabricError> {
     let woven = Woven::new(drawdown, warp, weft, materials, sections)?;
-    let sets = woven.pitches();
+    let sets = woven.pitches().into_array();
     let even = sets.iter().all(|set| are_alike(set.iter().map(|pitch| pitch.pitch_mm)))
         && [woven.warp(), woven.weft()]
             .iter()

@@ -20,8 +20,8 @@ impl Finished {
         let Finish { length, press_mm, passes, record, taut, calender } = design.finish;
         let usual = Finish::default();
         let times = [
-            ("warp_tension", taut[0], usual.taut[0]),
-            ("weft_tension", taut[1], usual.taut[1]),
+            ("warp_tension", taut.warp, usual.taut.warp),
+            ("weft_tension", taut.weft, usual.taut.weft),
             ("calender", calender, usual.calender),
         ];
         let times = times.into_iter().filter(|(_, value, usual)| value != usual);

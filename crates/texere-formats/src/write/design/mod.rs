@@ -1,12 +1,16 @@
 //! Designs to files that are read again: WIF drafts, and texere's own design file.
 
 mod cloth;
+mod format;
 mod interlacing;
 mod text;
 #[cfg(feature = "toml")]
 mod toml;
+#[cfg(feature = "toml")]
+mod toml_text;
 mod wif;
 mod wif_threads;
+mod woven;
 #[cfg(feature = "toml")]
 mod yarns;
 
@@ -106,16 +110,4 @@ pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErr
     let file = TomlFile::new(design)?;
     file.write(Target::straight(out))?.done()?;
     Ok(file.left_out)
-}
-
-/// The woven design in a design.
-fn woven<'a>(format: &'static str, design: &'a Design) -> Result<&'a texere_fabric::WovenDesign, WriteError> {
-    use texere_fabric::Structure;
-    let what = match &design.structure {
-        Structure::Woven(woven) => return Ok(woven),
-        Structure::Weft(_) => "a weft knit, whose chart or program is not kept",
-        Structure::Warp(_) => "a warp knit",
-        _ => "a structure of this kind",
-    };
-    Err(WriteError::Unheld { format, what: what.into() })
 }

@@ -1,6 +1,5 @@
 //! A woven design as texere's own design file.
 
-use std::fmt::Write as _;
 use std::io::Write;
 
 use texere_fabric::{Drawdown, Relief, Woven};
@@ -8,15 +7,14 @@ use texere_fabric::{Drawdown, Relief, Woven};
 use super::super::WriteError;
 use super::super::target::Target;
 use super::cloth::{Finished, cloth_keys};
+use super::format::DESIGN_FILE as FORMAT;
 use super::interlacing::Interlacing;
 use super::text::{Text, nearest, within};
-use super::woven;
+use super::toml_text::quoted;
+use super::woven::woven;
 use super::yarns::Yarns;
 use crate::Design;
 use crate::read::limits;
-
-/// The format's name in errors.
-pub(super) const FORMAT: &str = "a design file";
 
 /// A design file, all of it checked.
 pub(super) struct TomlFile<'a> {
@@ -110,20 +108,4 @@ fn finish_keys(design: &Design, left_out: &mut Vec<String>) -> Result<Vec<String
 /// A table of these keys, or nothing where there are none.
 fn table(name: &str, keys: &[String]) -> String {
     if keys.is_empty() { String::new() } else { format!("\n[{name}]\n{}\n", keys.join("\n")) }
-}
-
-/// A text as TOML quotes it.
-pub(super) fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for letter in text.chars() {
-        match letter {
-            '"' | '\\' => quoted.extend(['\\', letter]),
-            letter if letter.is_control() => {
-                // Strings take whatever is written to them.
-                let _ = write!(quoted, "\\u{:04x}", u32::from(letter));
-            }
-            letter => quoted.push(letter),
-        }
-    }
-    quoted + "\""
 }

@@ -10,15 +10,13 @@ use texere_fabric::{Draft, Shedding};
 use super::super::WriteError;
 use super::super::target::Target;
 use super::cloth::beyond_wif;
+use super::format::WIF_DRAFT as FORMAT;
 use super::interlacing::Interlacing;
 use super::text::{Text, within};
 use super::wif_threads::{Colors, Set};
-use super::woven;
+use super::woven::woven;
 use crate::Design;
-use crate::read::{LOOM_LIMIT, WIF_BYTES_MAX, WIF_PROGRAM};
-
-/// The format's name in errors.
-pub(super) const FORMAT: &str = "a WIF draft";
+use crate::read::{LOOM_MAX, WIF_BYTES_MAX, WIF_PROGRAM};
 
 /// A WIF file, all of it checked.
 pub(super) struct WifFile<'a> {
@@ -49,7 +47,7 @@ impl<'a> WifFile<'a> {
         };
         let (shafts, treadles) = loom(&draft);
         for (field, count) in [("[WEAVING] Shafts", shafts), ("[WEAVING] Treadles", treadles)] {
-            within(FORMAT, || field.into(), count.into(), [0.0, LOOM_LIMIT.into()])?;
+            within(FORMAT, || field.into(), count.into(), [0.0, LOOM_MAX.into()])?;
         }
         let title = title(&design.name);
         if title != design.name || title.is_empty() {

@@ -7,9 +7,9 @@ use texere_core::Material;
 use texere_fabric::{Thread, Woven};
 
 use super::super::WriteError;
+use super::format::WIF_DRAFT as FORMAT;
 use super::interlacing::Kinds;
 use super::text::{Text, nearest, within};
-use super::wif::FORMAT;
 use crate::read::{WIF_LENGTH_MM, WIF_UNITS_MM};
 
 /// The highest number of a colour that is kept: the table has all numbers up to it.

@@ -6,9 +6,10 @@ use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::{COTTON_DENSITY, Thread, Woven, diameter_mm, turns_per_m, twist_from_turns_per_m};
 
 use super::super::WriteError;
+use super::format::DESIGN_FILE as FORMAT;
 use super::interlacing::{Kinds, period};
 use super::text::{nearest, shortest, within};
-use super::toml::{FORMAT, quoted};
+use super::toml_text::quoted;
 use crate::read::limits;
 
 /// The yarns of a cloth.

@@ -17,8 +17,9 @@ use texere_fabric::warp::{Lap, LapKind, WarpKnitted};
 use super::super::picture::png;
 use super::super::{Output, WriteError};
 use super::canvas::{Canvas, on_paper};
+use super::limits::SIDE_MAX;
 use super::sheet::{Block, INK, PAPER, Rgb, Sheet};
-use super::{SIDE_MAX, Side};
+use super::side::Side;
 
 /// Pixels from needle to needle, and from course to course.
 const PITCH: f64 = 28.0;

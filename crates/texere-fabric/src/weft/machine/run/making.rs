@@ -1,4 +1,4 @@
-//! Loops that are made, and yarn that is laid.
+//! Making loops and laying yarn.
 
 use texere_core::backend::room_for;
 
@@ -13,7 +13,7 @@ use super::Run;
 use crate::FabricError;
 use crate::weft::WeftError;
 
-/// A stitch that is to be made.
+/// A stitch to be made.
 #[derive(Debug, Clone, Copy)]
 struct Order {
     kind: LoopKind,
@@ -89,16 +89,17 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Puts new loops on top of what hangs on a needle.
+    /// Puts new loops on a needle, on top of the loops that it holds.
     fn place(&mut self, mut held: Vec<Held>, first: u32, count: usize, slot: Slot) {
-        // The needle lies in this repeat of the program: its own needle in repeat 0 holds the loop
-        // of one further back.
+        // The needle lies in the repeat of `slot`. The list of the slot is that of repeat 0, where
+        // the same loop belongs to a repeat further back.
         let new = Held { number: 0, round: self.round, repeat: -slot.repeat, moved: 0, split: None };
         held.extend((first..).take(count).map(|number| Held { number, ..new }));
         *self.beds.stack(slot) = held;
     }
 
-    /// A loop that is drawn through one that hangs on a needle, as seen from that one.
+    /// A reference to the loop `number`, as seen from a loop on the needle that it is drawn
+    /// through.
     fn child(&self, number: u32, held: &Held, slot: Slot) -> LoopRef {
         let repeat = [-held.repeat.saturating_add(slot.repeat), (self.round - held.round) as i32];
         LoopRef { number, repeat }
@@ -109,7 +110,7 @@ impl Run<'_> {
         Spot { direction, at: self.beds.place(needle), row }
     }
 
-    /// Makes a loop of each carrier; the number of the first.
+    /// Makes a loop of each carrier. Returns the number of the first one.
     fn make(&mut self, set: u32, carriers: &[u32], order: Order, held: &[Held]) -> Result<u32, FabricError> {
         let Order { kind, direction, needle, slot } = order;
         self.check_in(carriers, needle);
@@ -175,7 +176,8 @@ impl Run<'_> {
         Ok(first)
     }
 
-    /// Notes needles that are cast on next to each other. In a repeat nothing is cast on.
+    /// Records neighbouring needles that are cast on one after the other. In a repeat nothing is
+    /// cast on.
     fn cast_on(&mut self, carriers: &[u32], direction: Direction, needle: Needle, is_empty: bool) {
         let mut found = None;
         for &carrier in carriers {
@@ -195,7 +197,7 @@ impl Run<'_> {
         }
     }
 
-    /// Brings in carriers that make a stitch and are not in, which is a fault.
+    /// Brings in carriers that are about to make a stitch and are not in; each is a fault.
     fn check_in(&mut self, carriers: &[u32], needle: Needle) {
         for &carrier in carriers {
             if !self.carriers.is_in(carrier) {

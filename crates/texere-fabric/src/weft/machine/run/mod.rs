@@ -1,4 +1,4 @@
-//! One operation after the other.
+//! Running a program: one operation after the other.
 
 mod making;
 
@@ -15,10 +15,10 @@ use super::{FAULTS_LISTED, Fault, FaultKind, Machine, NEEDLE_MAX, STACK_MAX};
 use crate::FabricError;
 use crate::weft::WeftError;
 
-/// What a loop has come to, and how its head hangs then.
+/// The fate of a loop, and how its head hangs then.
 pub(super) type End = (Fate, Head);
 
-/// A machine at work.
+/// The state of a machine that runs a program.
 #[derive(Debug)]
 pub(super) struct Run<'a> {
     machine: Machine,
@@ -29,24 +29,26 @@ pub(super) struct Run<'a> {
     pub(super) carriers: Carriers,
     /// The round of the repeat, from 0.
     pub(super) round: u32,
-    /// Transfers in this round.
+    /// Number of transfers in this round.
     moved: u32,
-    /// The loops made in this round. Their courses are still numbers of passes.
+    /// The loops made in this round. They still have the number of their pass instead of their
+    /// course.
     pub(super) loops: Vec<Stitch>,
     pub(super) parents: Vec<LoopRef>,
-    /// What has become in this round of loops, whenever they were made.
+    /// The fates that loops have met in this round, by their number. The loop may be one of an
+    /// earlier round.
     pub(super) ends: Vec<Option<End>>,
     /// The pass of each loop.
     passes: Vec<u32>,
-    /// Which passes lie above which loops: of the passes of earlier rounds, the numbers may have
-    /// been others.
+    /// Passes, with the loops that they are drawn through. Until the end they refer to loops,
+    /// because passes of earlier rounds may have had other numbers.
     aboves: Vec<Above>,
     pub(super) faults: Vec<Fault>,
     pub(super) unlisted: u64,
-    /// Of what is told once, the first time, with how often it came again.
+    /// Faults that a program gets once: the first one, with the number of further ones.
     pub(super) cast_on: Option<Fault>,
     pub(super) only_loop: Option<Fault>,
-    /// The operation that is done.
+    /// Source and number of the current operation.
     source: u32,
     operation: u64,
 }
@@ -87,8 +89,7 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Does all operations once. What the round before made is forgotten but for what hangs on
-    /// needles.
+    /// Runs all operations once. Of the previous round, only the loops on needles are kept.
     pub(super) fn all(&mut self) -> Result<(), FabricError> {
         let loops = self.passes.len();
         self.carriers = Carriers::new(self.program.carriers.len(), self.program.repeat.is_some());
@@ -108,7 +109,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Which passes lie above which others, in order.
+    /// Pairs of passes of which one is drawn through the other, in order.
     pub(super) fn aboves(&mut self) -> Vec<Above> {
         let mut aboves = std::mem::take(&mut self.aboves);
         for above in &mut aboves {
@@ -128,7 +129,7 @@ impl<'a> Run<'a> {
         self.faults.push(Fault { kind, source: self.source, needle, carrier });
     }
 
-    /// Says of which operation faults are from here on.
+    /// Sets the source of the faults that follow.
     pub(super) fn at_source(&mut self, source: u32) {
         self.source = source;
     }
@@ -172,7 +173,7 @@ impl<'a> Run<'a> {
             Instruction::Drop(needle) => self.drop(needle)?,
             Instruction::Split(_, from, to) if carriers.is_empty() => self.transfer(from, to)?,
             Instruction::Transfer(from, to) => self.transfer(from, to)?,
-            // Nothing is laid: the needle only pulls at its loops.
+            // Without a carrier no yarn is laid, and the needle only pulls at its loops.
             Instruction::Tuck(..) | Instruction::Miss(..) if carriers.is_empty() => {}
             Instruction::Knit(direction, needle) => {
                 self.knit(set, carriers, LoopKind::Knit, direction, needle)?;
@@ -190,7 +191,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Notes a carrier that is taken out after its only loop.
+    /// Records a carrier that is taken out after its only loop.
     fn only_loop(&mut self, carrier: u32) {
         match &mut self.only_loop {
             Some(Fault { kind: FaultKind::OnlyLoop { others }, .. }) => *others += 1,
@@ -204,7 +205,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// A fault if the hook is to take carriers while it holds another.
+    /// Records a fault if the hook takes carriers while it holds another.
     fn free_hook(&mut self, carriers: &[u32]) {
         if let (Some(held), Some(&carrier)) = (self.carriers.hooked_beside(carriers), carriers.first()) {
             self.fault(FaultKind::HookHolds(self.name(held)), None, Some(carrier));
@@ -254,10 +255,10 @@ impl<'a> Run<'a> {
 
     /// Moves all loops of a needle.
     ///
-    /// They keep their order from the front of the machine to its back. Needles of both beds point
-    /// at each other, so the loop that lay nearest to the tip of one needle lies nearest to the
-    /// stem of the other: their order on the needle turns over. All lie nearer to its tip than
-    /// those that hang there.
+    /// Loops keep their order from the front of the machine to its back. The needles of both beds
+    /// point at each other: the loop nearest to the tip of one needle comes nearest to the stem of
+    /// the other. The order of the loops on the needle is thus reversed. All of them lie nearer to
+    /// the tip than the loops that already hang there.
     fn transfer(&mut self, from: Needle, to: Needle) -> Result<(), FabricError> {
         let (start, end) = (self.slot(from)?, self.slot(to)?);
         self.aim(from, to);
@@ -268,7 +269,7 @@ impl<'a> Run<'a> {
         self.hang(held, start, (to, end))
     }
 
-    /// Faults of loops that go from one needle to the other.
+    /// Records faults of a transfer from one needle to the other.
     fn aim(&mut self, from: Needle, to: Needle) {
         if from.bed == to.bed {
             self.fault(FaultKind::SameBed(to), Some(from), None);
@@ -277,7 +278,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Hangs loops that hung elsewhere on a needle.
+    /// Hangs loops of another needle on the needle `to`.
     fn hang(&mut self, held: Vec<Held>, start: Slot, (to, end): (Needle, Slot)) -> Result<(), FabricError> {
         if held.is_empty() {
             return Ok(());
@@ -290,7 +291,8 @@ impl<'a> Run<'a> {
         self.piled(to, end, count)
     }
 
-    /// A fault or an error if a needle holds too many loops, of which `added` are new.
+    /// Records a fault, or returns an error, if a needle holds too many loops. `added` of them are
+    /// new.
     fn piled(&mut self, needle: Needle, slot: Slot, added: usize) -> Result<(), FabricError> {
         let (loops, limit) = (self.beds.stack(slot).len(), self.machine.pile_max);
         if loops > STACK_MAX {
@@ -303,7 +305,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// How the head of a loop hangs on a needle.
+    /// The head of a loop on a needle, with `layer` loops before it.
     pub(super) fn head(&self, held: &Held, needle: Needle, slot: Slot, layer: usize) -> Head {
         let place = self.beds.place(needle) - self.beds.shift(held.repeat.saturating_add(slot.repeat));
         let at = place as f32 / HALVES as f32;

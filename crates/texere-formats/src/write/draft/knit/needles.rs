@@ -3,8 +3,9 @@
 
 use texere_fabric::weft::{Bed, Direction, Knitted, LoopKind, Step, Stitches, Strand};
 
-use super::super::canvas::{Canvas, on_paper};
-use super::super::sheet::{INK, Rgb};
+use super::yarn_color::yarn_color;
+use crate::write::draft::canvas::{Canvas, on_paper};
+use crate::write::draft::sheet::{INK, Rgb};
 
 /// Pixels from needle to needle of a bed.
 const PITCH: i64 = 24;
@@ -96,7 +97,8 @@ impl Needles {
         };
         let middle = middle as f64;
         let side = |bed: Bed| if bed == Bed::Front { 1.0 } else { -1.0 };
-        let yarn = yarn(cloth, pass.carrier);
+        // Dark enough for paper.
+        let yarn = on_paper(yarn_color(cloth, pass.carrier));
         let mut before: Option<f64> = None;
         for step in pass.steps {
             let visit = stitches.visit(step);
@@ -146,9 +148,4 @@ impl Needles {
             self.canvas.line(to, [to[0] + back[0], to[1] + back[1]], MOVED);
         }
     }
-}
-
-/// The colour of a carrier's yarn, dark enough for paper.
-fn yarn(cloth: &Knitted, carrier: u32) -> Rgb {
-    on_paper(super::yarn(cloth, carrier))
 }

@@ -4,8 +4,10 @@
 use std::io::{self, Read, SeekFrom};
 use std::path::Path;
 
-use super::ReadError;
-use super::image_file::{Bytes, check_size, no_color, packed_numbers, undecodable};
+use super::bytes::{Bytes, packed_numbers};
+use super::limits::check_size;
+use super::refused::{no_color, undecodable};
+use crate::read::ReadError;
 
 /// Values of biCompression (MS-WMF, Compression enumeration).
 const PLAIN: u32 = 0;

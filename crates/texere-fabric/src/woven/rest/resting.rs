@@ -12,24 +12,25 @@ use super::problem::{Problem, gaps};
 use super::stop::{CHANGE_POINTS, Stop};
 use crate::woven::selvedge::{self, TURN_POINTS};
 use crate::woven::yarns::{Pass, Pen};
-use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
+use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
-/// Crossings of a repeat at rest, mm.
-pub(super) struct Lies {
+/// A repeat's crossings at rest, mm.
+pub(super) struct RestingRepeat {
     repeat: [usize; 2],
     pub(super) rest: Vec<CrossingState>,
-    /// As they are drawn: half width and half height of the end, then of the pick.
+    /// Sizes that are drawn at each crossing: half width and half height of the end, then of the
+    /// pick.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
-    /// The layer of each thread of the repeat, 0 for the lowest one. All have 0 where warp and weft
-    /// have not as many levels.
+    /// The layer of each thread of the repeat, 0 for the lowest. All are 0 where warp and weft have
+    /// different numbers of levels.
     layers: [Vec<u32>; 2],
     /// Tension of the yarns' splines.
     tension: f32,
 }
 
-impl Lies {
-    /// `rest` is in the plan's unit.
+impl RestingRepeat {
+    /// The crossings `rest`, in the plan's unit.
     pub(super) fn new(
         problem: Problem,
         plan: &CrossingsPlan,
@@ -38,8 +39,9 @@ impl Lies {
     ) -> Self {
         let mm: &mut [f32] = bytemuck::cast_slice_mut(&mut rest);
         mm.iter_mut().for_each(|value| *value *= plan.unit());
-        let drawn =
-            rest.iter().map(|at| Set::BOTH.map(|set| [at.lie(set).half_width, at.lie(set).half_height]));
+        let drawn = rest
+            .iter()
+            .map(|at| Set::BOTH.map(|set| [at.thread(set).half_width, at.thread(set).half_height]));
         let [warp, weft] = &problem.levels;
         let layers = if warp.iter().max() == weft.iter().max() {
             problem.levels
@@ -54,9 +56,9 @@ impl Lies {
         self.repeat
     }
 
-    /// The share of its area that each set keeps, in the mean and at its worst place.
-    pub(super) fn area(&self, cloth: &Woven) -> [[f64; 2]; 2] {
-        [0, 1].map(|set| {
+    /// The shares of its area that each set keeps: the mean, and the least.
+    pub(super) fn area(&self, cloth: &Woven) -> BySet<[f64; 2]> {
+        BySet { warp: 0, weft: 1 }.map(|set: usize| {
             let threads = [cloth.warp(), cloth.weft()][set];
             let keeps = self.drawn.iter().enumerate().map(|(number, drawn)| {
                 let thread = [number % self.repeat[0], number / self.repeat[0]][set] % threads.len();
@@ -69,16 +71,16 @@ impl Lies {
         })
     }
 
-    /// The number of a crossing of the cloth within the repeat.
+    /// Number, within the repeat, of a crossing of the cloth.
     pub(super) const fn number(&self, end: usize, pick: usize) -> usize {
         pick % self.repeat[1] * self.repeat[0] + end % self.repeat[0]
     }
 
-    /// The yarns of a cloth that has these crossings, as [`Woven::yarns`] lays them.
+    /// The yarns of a cloth with these crossings, in the order of [`Woven::yarns`].
     pub(super) fn yarns(&self, cloth: &Woven) -> Result<Yarns, FabricError> {
-        let loom = Loom::new(self, cloth);
+        let placing = Placing::new(self, cloth);
         let passes = cloth.passes();
-        let counts: Vec<usize> = passes.par_iter().map(|pass| loom.count(*pass)).collect();
+        let counts: Vec<usize> = passes.par_iter().map(|pass| placing.count(*pass)).collect();
         let (mut table, mut offsets, mut total) = (Vec::new(), Vec::new(), 0);
         for (pass, &count) in passes.iter().zip(&counts) {
             if let Some(yarn) = cloth.yarn(pass) {
@@ -96,27 +98,27 @@ impl Lies {
         let mut sources: Vec<u32> = zeroed("sources", total)?;
         let pens = Pen::all(&mut points, &mut sources, counts);
         passes.into_par_iter().zip(pens).for_each(|(pass, mut pen)| {
-            loom.lay(pass, &mut |point, source| pen.write(point, source));
+            placing.lay(pass, &mut |point, source| pen.write(point, source));
         });
         let layout = Layout::new(table, offsets, cloth.sections().to_vec())?.with_tension(self.tension)?;
         Ok(Yarns::new(layout, cloth.materials().to_vec(), points)?.with_sources(sources)?)
     }
 }
 
-/// So many threads beyond either edge are where the repeat goes on. A thread bends round the next
-/// one that it meets there.
+/// Threads beyond either edge, where the repeat goes on. A thread bends round the next one that it
+/// meets there.
 const BEYOND: usize = 8;
 
 /// One set of threads, measured.
 struct Threads {
-    /// Where they lie, mm, and those beyond both edges.
+    /// Middles of its threads and of those beyond both edges, mm.
     at: Vec<f64>,
     extent: f64,
 }
 
-/// A cloth's threads and how they lie.
-struct Loom<'a> {
-    lies: &'a Lies,
+/// A cloth's threads on their way from crossings to control points.
+struct Placing<'a> {
+    resting: &'a RestingRepeat,
     cloth: &'a Woven,
     sets: [Threads; 2],
 }
@@ -124,12 +126,12 @@ struct Loom<'a> {
 /// A thread: its set, 0 or 1, and its number.
 type Of = (usize, usize);
 
-impl<'a> Loom<'a> {
-    fn new(lies: &'a Lies, cloth: &'a Woven) -> Self {
-        let (middles, size) = (cloth.middles_mm(), cloth.size_mm());
+impl<'a> Placing<'a> {
+    fn new(resting: &'a RestingRepeat, cloth: &'a Woven) -> Self {
+        let (middles, size) = (cloth.middles_mm().into_array(), cloth.size_mm());
         let sets = [0, 1].map(|set| {
             let gaps = gaps([cloth.warp(), cloth.weft()][set]);
-            let (count, repeat) = (middles[set].len(), lies.repeat[set]);
+            let (count, repeat) = (middles[set].len(), resting.repeat[set]);
             let gap = |thread: usize| gaps[thread % repeat % count];
             let mut at = middles[set].clone();
             for beyond in 0..BEYOND {
@@ -138,20 +140,20 @@ impl<'a> Loom<'a> {
             }
             Threads { at, extent: size[set] }
         });
-        Self { lies, cloth, sets }
+        Self { resting, cloth, sets }
     }
 
-    /// A thread where it crosses another. Crossed threads count from the first one beyond the edge,
-    /// [`BEYOND`] of them.
+    /// A thread where it crosses another. Crossed threads count from the first of the [`BEYOND`]
+    /// ones beyond the edge.
     fn station(&self, (set, thread): Of, crossed: usize) -> Station {
         let other = 1 - set;
-        let repeat = self.lies.repeat[other];
+        let repeat = self.resting.repeat[other];
         let within = (crossed + BEYOND * (repeat - 1)) % repeat;
         let number =
-            if set == 0 { self.lies.number(thread, within) } else { self.lies.number(within, thread) };
-        let (rest, drawn) = (&self.lies.rest[number], &self.lies.drawn[number]);
+            if set == 0 { self.resting.number(thread, within) } else { self.resting.number(within, thread) };
+        let (rest, drawn) = (&self.resting.rest[number], &self.resting.drawn[number]);
         let [own, under] = if set == 0 { [&rest.warp, &rest.weft] } else { [&rest.weft, &rest.warp] };
-        let room = self.lies.rooms[set][thread];
+        let room = self.resting.rooms[set][thread];
         Station {
             number: crossed.wrapping_sub(BEYOND),
             at: self.sets[other].at[crossed] + f64::from(under.shift),
@@ -167,12 +169,12 @@ impl<'a> Loom<'a> {
 
     /// Whether the end lies on top at a crossing of the repeat.
     fn up(&self, number: usize) -> bool {
-        let (end, pick) = (number % self.lies.repeat[0], number / self.lies.repeat[0]);
+        let (end, pick) = (number % self.resting.repeat[0], number / self.resting.repeat[0]);
         self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
     }
 
-    /// A pass's thread, where it is cut off, whether it runs against the order of the threads that
-    /// it crosses, and how many these are.
+    /// A pass's thread, whether each end of the pass is cut off, whether it runs against the order
+    /// of the threads that it crosses, and their number.
     fn order(&self, pass: Pass) -> (Of, [bool; 2], bool, usize) {
         match pass {
             Pass::End(end) => ((0, end), [true; 2], false, self.cloth.weft().len()),
@@ -183,12 +185,13 @@ impl<'a> Loom<'a> {
         }
     }
 
-    /// Whether a thread bends round one that it crosses. A thread of a layer passes those of
-    /// another one that lie above or below it as their layers do.
+    /// Whether a thread bends round a thread that it crosses. Threads of different layers pass one
+    /// another where the higher one lies on top.
     fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
-        let [own, others] = [set, 1 - set].map(|set| &self.lies.layers[set]);
+        let [own, others] = [set, 1 - set].map(|set| &self.resting.layers[set]);
         let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
-        let number = if set == 0 { self.lies.number(thread, other) } else { self.lies.number(other, thread) };
+        let number =
+            if set == 0 { self.resting.number(thread, other) } else { self.resting.number(other, thread) };
         match own[thread % own.len()].cmp(&others[other]) {
             Ordering::Equal => true,
             apart => (self.up(number) == (set == 0)) != apart.is_gt(),
@@ -263,8 +266,8 @@ impl<'a> Loom<'a> {
         }
     }
 
-    /// The points from a thread's outermost crossing, at its upper end or its lower one, to where
-    /// it is cut off.
+    /// Calls `stop` with the points from a thread's outermost crossing, at its upper end or its
+    /// lower one, to where it is cut off.
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
@@ -279,7 +282,8 @@ impl<'a> Loom<'a> {
         }
     }
 
-    /// The turn from the pick before to `pick`, as far beyond the edge end as both are wide.
+    /// The turn from the pick before to `pick`, which stands out beyond the edge end by the widths
+    /// of both.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let right = selvedge::runs_left(pick, self.cloth.selvedge());
         let ends = self.cloth.warp().len();

@@ -4,14 +4,16 @@
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
+use ::tiff::TiffError;
+use ::tiff::decoder::{Decoder, Limits};
+use ::tiff::tags::{ByteOrder, Tag};
 use texere_core::backend::filled;
-use tiff::TiffError;
-use tiff::decoder::{Decoder, Limits};
-use tiff::tags::{ByteOrder, Tag};
 
-use super::ReadError;
-use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, undecodable};
-use super::point_paper::{Image, Orientation};
+use super::bytes::Bytes;
+use super::image::{Image, Orientation};
+use super::limits::{ASIDE_MAX, check_size};
+use super::refused::{no_color, undecodable};
+use crate::read::ReadError;
 
 /// Values of PhotometricInterpretation, TIFF 6.0, pages 37, 69.
 const WHITE_IS_ZERO: u16 = 0;

@@ -1,26 +1,22 @@
-//! Device memory, and pinned host memory that results are read through.
+//! Device memory.
 
 use std::ffi::c_void;
-use std::ops::ControlFlow;
 use std::ptr;
 use std::sync::Arc;
 
 use bytemuck::Pod;
 use opencl3::command_queue::{
-    CL_BLOCKING, CL_NON_BLOCKING, enqueue_copy_buffer, enqueue_fill_buffer, enqueue_read_buffer,
-    enqueue_write_buffer, flush,
+    CL_BLOCKING, enqueue_copy_buffer, enqueue_fill_buffer, enqueue_read_buffer, enqueue_write_buffer,
 };
-use opencl3::event::wait_for_events;
-use opencl3::memory::{CL_MAP_READ, CL_MEM_READ_WRITE, create_buffer};
+use opencl3::memory::{CL_MEM_READ_WRITE, create_buffer};
 use texere_core::{BackendError, OutOfMemory};
 
 use crate::clock::{Clock, Stage};
 use crate::faults::not_allocated;
 use crate::handles::Handle;
 use crate::opened::Opened;
-use crate::pinned::Pinned;
 
-/// Device memory, which may be none.
+/// A buffer in device memory. An empty one takes none.
 #[derive(Debug, Default)]
 pub(crate) struct Buffer {
     memory: Option<Handle>,
@@ -28,7 +24,7 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// `bytes` of memory for `what`. Its first word is 0, the rest whatever was there.
+    /// Takes `bytes` of memory for `what`. The first word is 0, the rest undefined.
     pub(crate) fn new(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
         if bytes == 0 {
             return Ok(Self::default());
@@ -40,9 +36,9 @@ impl Buffer {
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
-        // Drivers may allocate at the first use only: a write makes them report now that there is
-        // no memory. Not clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads
-        // call that on one queue. SAFETY: a blocking write.
+        // Some drivers allocate only at the first use. This write makes them report now that there
+        // is no memory. clEnqueueMigrateMemObjects was tried for it: NVIDIA's driver (580) dies
+        // where two threads call that on one queue. SAFETY: a blocking write.
         let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
         claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)
@@ -55,7 +51,7 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// Makes all of it zeros, after what is in the queue of the kernels.
+    /// Fills it with zeros, after what is in the queue of the kernels.
     pub(crate) fn clear(&mut self, opened: &Opened) -> Result<(), BackendError> {
         if self.bytes > 0 {
             let zero = 0u32;
@@ -70,8 +66,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Takes on what `other`, another buffer of the same size, holds after what is in the queue of
-    /// the kernels.
+    /// Copies `other`, a buffer of the same size, after what is in the queue of the kernels.
     pub(crate) fn copy(&mut self, opened: &Opened, other: &Self) -> Result<(), BackendError> {
         debug_assert_eq!(self.bytes, other.bytes, "a copy of all of it");
         if self.bytes > 0 {
@@ -85,8 +80,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Reads from byte `offset` into `out`, after what is in the queue of the kernels, which is
-    /// waited for.
+    /// Waits for what is in the queue of the kernels, and reads from byte `offset` into `out`.
     pub(crate) fn read_now<T: Pod>(
         &self,
         opened: &Opened,
@@ -103,7 +97,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// `data` in memory of its own.
+    /// A buffer that holds `data`.
     pub(crate) fn holding<T: Pod>(
         opened: &Opened,
         what: &'static str,
@@ -114,8 +108,8 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// At least `bytes`, for a chunk that is larger than those before; what the buffer held is lost
-    /// then. Commands that still use the smaller memory keep it until they end.
+    /// Makes it at least `bytes` long. What it held is lost where it has to grow. Commands that
+    /// still use the smaller memory keep that until they end.
     pub(crate) fn reserve(
         &mut self,
         opened: &Opened,
@@ -123,7 +117,7 @@ impl Buffer {
         bytes: u64,
     ) -> Result<(), BackendError> {
         if bytes > self.bytes {
-            // First the old one goes, so that the two never need room together.
+            // The old memory goes first, so that the two never need room together.
             *self = Self::default();
             *self = Self::new(opened, what, bytes)?;
         }
@@ -140,7 +134,7 @@ impl Buffer {
     }
 
     /// Sends `data` to byte `offset` through `queue`, after `after`, and waits until `data` may
-    /// change again. None where there is nothing to send.
+    /// change again. Returns the event; none where there is nothing to send.
     pub(crate) fn write<T: Pod>(
         &mut self,
         opened: &Opened,
@@ -158,11 +152,12 @@ impl Buffer {
         Ok(Some(Arc::new(event.map_err(opened.failed("clEnqueueWriteBuffer"))?)))
     }
 
-    /// As [`Buffer::write`], waiting where `blocking`, with OpenCL's status for an error.
+    /// [`Buffer::write`], which waits only where `blocking`, and returns OpenCL's status as its
+    /// error.
     ///
     /// # Safety
     ///
-    /// Nobody writes to `data` until the command has ended.
+    /// `data` does not change until the command has ended.
     pub(crate) unsafe fn enqueue_write<T: Pod>(
         &mut self,
         queue: &Handle,
@@ -189,7 +184,7 @@ impl Buffer {
         })
     }
 
-    /// Reads from the start into `out`, after `after`.
+    /// Reads from the buffer's start into `out`, after `after`, and waits for it.
     pub(crate) fn read_into<T: Pod>(
         &self,
         opened: &Opened,
@@ -222,7 +217,7 @@ impl Buffer {
     /// `out` points at `bytes` bytes of writable memory, which nothing else touches until the
     /// command has ended.
     #[allow(clippy::too_many_arguments, reason = "as many as clEnqueueReadBuffer has")]
-    unsafe fn enqueue_read(
+    pub(crate) unsafe fn enqueue_read(
         &self,
         opened: &Opened,
         queue: &Handle,
@@ -240,82 +235,4 @@ impl Buffer {
         };
         Ok(Arc::new(Handle::event(event).map_err(opened.failed("clEnqueueReadBuffer"))?))
     }
-}
-
-/// Bytes of a piece that a sink is lent: whole vertices (24 bytes) and rings (32), large enough
-/// that the transfer's start does not matter.
-const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
-
-/// Two pieces of pinned memory: while the sink has one, the other is filled.
-#[derive(Debug, Default)]
-pub(crate) struct Staging {
-    pieces: [Option<Pinned>; 2],
-}
-
-/// Takes values; the number is that of the first.
-pub(crate) type Sink<'a, T> = &'a mut dyn FnMut(u32, &[T]) -> ControlFlow<()>;
-
-impl Staging {
-    /// Reads `count` values from the start of `buffer`, after `after`, and lends them piece by
-    /// piece.
-    pub(crate) fn read<T: Pod>(
-        &mut self,
-        opened: &Arc<Opened>,
-        buffer: &Buffer,
-        count: u32,
-        after: Option<&Handle>,
-        clock: &mut Clock,
-        sink: Sink<'_, T>,
-    ) -> Result<ControlFlow<()>, BackendError> {
-        let (count, each) = (count as usize, size_of::<T>());
-        let per_piece = PIECE_BYTES / each;
-        let mut launch = |pieces: &mut [Option<Pinned>; 2], first: usize| {
-            let here = per_piece.min(count - first);
-            let piece = &mut pieces[first / per_piece % 2];
-            let pinned = match piece.take().filter(|pinned| pinned.bytes() >= here * each) {
-                Some(pinned) => pinned,
-                None => Pinned::new(opened, "reading results back", CL_MAP_READ, here * each)?,
-            };
-            let start = pinned.start();
-            *piece = Some(pinned);
-            // SAFETY: the pinned memory is large enough and, in order on the queue, not written by
-            // another command; it is not looked at before this command has ended.
-            let event = unsafe {
-                buffer.enqueue_read(
-                    opened,
-                    &opened.transfers,
-                    CL_NON_BLOCKING,
-                    first * each,
-                    here * each,
-                    start,
-                    after,
-                )
-            }?;
-            clock.note(Stage::Readback, &event);
-            flush(opened.transfers.raw()).map_err(opened.failed("clFlush"))?;
-            Ok::<_, BackendError>(event)
-        };
-        let mut running = if count > 0 { Some(launch(&mut self.pieces, 0)?) } else { None };
-        let mut first = 0;
-        while let Some(event) = running {
-            let next = first + per_piece;
-            running = if next < count { Some(launch(&mut self.pieces, next)?) } else { None };
-            wait(opened, &event)?;
-            if let Some(pinned) = &self.pieces[first / per_piece % 2] {
-                // SAFETY: the command that wrote this piece has ended, and the one that is running
-                // writes the other.
-                let values = unsafe { pinned.values(per_piece.min(count - first)) }?;
-                if sink(first as u32, values).is_break() {
-                    return Ok(ControlFlow::Break(()));
-                }
-            }
-            first = next;
-        }
-        Ok(ControlFlow::Continue(()))
-    }
-}
-
-/// Waits until `event`'s command has ended.
-pub(crate) fn wait(opened: &Opened, event: &Handle) -> Result<(), BackendError> {
-    wait_for_events(&[event.raw()]).map_err(opened.failed("clWaitForEvents"))
 }

@@ -3,11 +3,13 @@
 use std::io::{self, SeekFrom};
 use std::path::Path;
 
-use png::{ColorType, Decoder, DecodingError, Limits};
+use ::png::{ColorType, Decoder, DecodingError, Limits};
 use texere_core::backend::filled;
 
-use super::ReadError;
-use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, packed_numbers, undecodable};
+use super::bytes::{Bytes, packed_numbers};
+use super::limits::{ASIDE_MAX, check_size};
+use super::refused::{no_color, undecodable};
+use crate::read::ReadError;
 
 /// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and
 /// each is eight pixels of one bit. So a short file takes no memory for pixels that it can't have.

@@ -1,0 +1,37 @@
+//! The settings of a pass: the growth of threads, and the hardness of penalties.
+
+/// The passes in which threads grow and penalties harden.
+pub(super) const GROWING: u32 = 50;
+
+/// The share of their area that threads have at first.
+const THIN: f64 = 0.4;
+
+/// The weights of penalties at first and in the end.
+const PENALTIES: [f64; 2] = [30.0, 1000.0];
+
+/// The settings of one pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrossingsPass {
+    /// The weight of the terms that keep threads apart.
+    pub penalty: f32,
+    /// The share of its area that a thread tends to.
+    pub area: f32,
+}
+
+impl CrossingsPass {
+    /// The settings of pass number `number`, from 0.
+    ///
+    /// ```
+    /// use texere_core::crossings::CrossingsPass;
+    /// assert_eq!(CrossingsPass::of(200), CrossingsPass { penalty: 1000.0, area: 1.0 });
+    /// ```
+    #[must_use]
+    pub fn of(number: u32) -> Self {
+        let grown = (f64::from(number) / f64::from(GROWING)).min(1.0);
+        let [soft, hard] = PENALTIES;
+        Self {
+            penalty: (soft * (hard / soft).powf(grown)) as f32,
+            area: (THIN + (1.0 - THIN) * grown) as f32,
+        }
+    }
+}

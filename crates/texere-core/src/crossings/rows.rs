@@ -1,0 +1,95 @@
+//! The rows of a plan, one for each thread, and the sites of crossings.
+
+use super::{CrossingThread, CrossingsError, Set};
+use crate::backend::room;
+
+/// The largest distance, in threads, of neighbours of one level.
+const BESIDE_MAX: i32 = 16;
+
+/// The largest shift sideways: a quarter of a unit, and two fifths of the way to a neighbour.
+/// Without bounds threads tunnel through one another or the steps stop short.
+const SIDEWAYS: [f32; 2] = [0.25, 0.4];
+
+/// A thread, in units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// The distance to the next thread.
+    pub gap: f32,
+    /// Its radius.
+    pub radius: f32,
+    /// Its stiffness against bending, 1 for cotton.
+    pub stiffness: f32,
+    /// The largest shift, either way.
+    pub freedom: f32,
+    /// The largest height, up or down.
+    pub height: f32,
+    /// Its level.
+    pub level: i32,
+    /// The distances, in threads, to the nearest thread of its level before and after it. 0 if none
+    /// is near enough to touch.
+    pub beside: [i32; 2],
+}
+
+/// A crossing, given by its end and its pick, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Site {
+    /// The end.
+    pub end: usize,
+    /// The pick.
+    pub pick: usize,
+}
+
+impl Site {
+    /// The number of the crossing's thread of a set.
+    #[must_use]
+    pub const fn thread(self, set: Set) -> usize {
+        match set {
+            Set::Warp => self.end,
+            Set::Weft => self.pick,
+        }
+    }
+}
+
+/// `at` moved on by `by` among `count`. After the last one follows the first if they repeat;
+/// otherwise there is none.
+pub(super) fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
+    let to = at.wrapping_add_signed(by as isize);
+    if to < count {
+        return Some(to);
+    }
+    // A number before the first has wrapped round.
+    repeats.then(|| if by < 0 { to.wrapping_add(count) } else { to - count })
+}
+
+/// The rows of a set's threads, with lengths in units.
+pub(super) fn rows(
+    threads: &[CrossingThread],
+    unit: f32,
+    height: f32,
+    repeat: bool,
+) -> Result<Vec<Row>, CrossingsError> {
+    let mut rows = room("threads", threads.len())?;
+    let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
+    for (number, thread) in threads.iter().enumerate() {
+        let beside = |step: i32| {
+            let is_level = |steps: &i32| {
+                let other = further(number, step * steps, threads.len(), repeat);
+                other.is_some_and(|other| threads[other].level == thread.level)
+            };
+            (1..=BESIDE_MAX.min(threads.len() as i32)).find(is_level).unwrap_or(0)
+        };
+        let gap = thread.pitch / unit;
+        let [most, share] = SIDEWAYS;
+        rows.push(Row {
+            gap,
+            radius: 0.5 * thread.diameter / unit,
+            stiffness: thread.stiffness,
+            freedom: most.min(share * gap.min(before)),
+            height,
+            level: thread.level as i32,
+            beside: [beside(-1), beside(1)],
+        });
+        before = gap;
+    }
+    Ok(rows)
+}

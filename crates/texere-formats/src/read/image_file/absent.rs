@@ -1,0 +1,12 @@
+//! What a build without images says of an image file.
+
+use std::path::Path;
+
+use super::image::Image;
+use crate::read::ReadError;
+use crate::read::file::Files;
+
+/// Refuses an image file by name.
+pub(crate) fn decode(path: &Path, _: &Files<'_>) -> Result<Image, ReadError> {
+    Err(ReadError::Feature { file: path.into(), what: "images", feature: "images" })
+}

@@ -1,0 +1,31 @@
+//! The limits of images.
+
+use std::path::Path;
+
+use texere_fabric::THREADS_MAX;
+
+use crate::read::ReadError;
+
+/// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
+const PIXELS_MAX: u64 = 1 << 28;
+
+/// The most memory for an image's pixels, bytes: four for each.
+pub(super) const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
+
+/// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of pixels,
+/// and what the file says of its picture. Colour profiles have a few MiB at most. The limit is
+/// needed because a profile is compressed: one of a gigabyte fits a small file.
+pub(super) const ASIDE_MAX: u64 = 1 << 25;
+
+/// The largest image file that is read, bytes: one that is not compressed.
+pub(super) const FILE_MAX: u64 = MEMORY_MAX + ASIDE_MAX;
+
+/// Refuses an image of more pixels than a cloth may have crossings.
+pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), ReadError> {
+    let side_limit = THREADS_MAX as u32;
+    if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {
+        let file = path.into();
+        return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
+    }
+    Ok(())
+}

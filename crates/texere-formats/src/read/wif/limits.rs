@@ -1,0 +1,14 @@
+//! The limits of WIF drafts, which their writer keeps, too.
+
+/// The largest WIF file that is read, bytes. A lift plan of 10,000 picks by 5,000 hooks takes half
+/// as much.
+pub(crate) const FILE_MAX: u64 = 1 << 28;
+
+/// The most threads of a warp or weft.
+pub(super) const THREADS_MAX: u32 = 1_000_000;
+
+/// The most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.
+pub(crate) const LOOM_MAX: u32 = 100_000;
+
+/// The least and the widest spacing or thickness that is taken, mm: as in a design file.
+pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];

@@ -1,0 +1,221 @@
+//! A WIF draft: threading, shedding and threads of a cloth.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use texere_core::Section;
+use texere_fabric::{Draft, Drawdown, Relief, Shedding, Structure, Woven, WovenDesign};
+
+use super::colors::Palette;
+use super::ini::{self, Ini};
+use super::limits::{FILE_MAX, LOOM_MAX, THREADS_MAX};
+use super::numbers::{self, integer, lists};
+use super::program::is_ours;
+use super::threads;
+use crate::read::file::{Files, bytes_of, file_name};
+use crate::read::keys::Keys;
+use crate::read::threads::only_used;
+use crate::read::{Design, ReadError};
+
+/// A WIF file, read.
+#[derive(Debug)]
+pub(crate) struct WifDraft {
+    pub(crate) name: String,
+    pub(crate) woven: Woven,
+    pub(crate) draft: Draft,
+    pub(crate) warnings: Vec<String>,
+    pub(crate) keys: Keys,
+}
+
+/// The design of a draft alone. It says nothing of a finish.
+pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    let wif = read(path, files)?;
+    let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
+    let woven = wif.keys.placed(woven.map_err(|source| ReadError::fabric(path, source)))?;
+    Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left().keyed(wif.keys))
+}
+
+pub(crate) fn read(path: &Path, files: &Files<'_>) -> Result<WifDraft, ReadError> {
+    let bytes = bytes_of(files, path, FILE_MAX)?;
+    let text = ini::decode(&bytes);
+    let ini = Ini::parse(path, &text);
+    let keys = ini.keys();
+    let wif = keys.placed(drafted(&ini))?;
+    Ok(WifDraft { keys, ..wif })
+}
+
+fn drafted(ini: &Ini<'_>) -> Result<WifDraft, ReadError> {
+    let path = ini.file;
+    let mut warnings = Vec::new();
+
+    let ends = thread_count(ini, "warp", "WARP")?;
+    let picks = thread_count(ini, "weft", "WEFT")?;
+    let (draft, drawdown) = draft(ini, ends, picks, &mut warnings)?;
+    let mut palette = Palette::read(ini, &mut warnings)?;
+    let (mut threads, stated) = threads::read(ini, [ends, picks], &mut palette, &mut warnings)?;
+    let [warp, weft] = &mut threads;
+    let (materials, sections) = only_used([warp, weft], &palette.into_materials(), &[Section::Circle]);
+    let woven = if stated {
+        let [warp, weft] = threads;
+        Woven::new(drawdown, warp, weft, materials, sections)
+    } else {
+        threads::roomy(drawdown, threads, materials, sections, &mut warnings)
+    };
+    let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
+    let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.into());
+    Ok(WifDraft { name, woven, draft, warnings, keys: Keys::default() })
+}
+
+fn thread_count(ini: &Ini<'_>, section: &str, name: &str) -> Result<u32, ReadError> {
+    integer(ini, section, "threads", 1, THREADS_MAX)?.ok_or_else(|| ReadError::MissingKey {
+        file: ini.file.into(),
+        field: format!("[{name}] Threads"),
+        needed_for: "it says how many threads there are",
+    })
+}
+
+fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> ReadError {
+    ReadError::MissingSection { file: ini.file.into(), section, needed_for }
+}
+
+/// The draft, of threading and tie-up with treadling or lift plan, and its drawdown. Where a file
+/// has both and they differ, the tie-up stands, and a warning says so.
+fn draft(
+    ini: &Ini<'_>,
+    ends: u32,
+    picks: u32,
+    warnings: &mut Vec<String>,
+) -> Result<(Draft, Drawdown), ReadError> {
+    if !ini.has("threading") {
+        return Err(missing(ini, "THREADING", "it says which shaft each end is on"));
+    }
+    let threading = lists(ini, "threading", ends, LOOM_MAX, warnings)?;
+    let highest = threading.iter().flatten().max().copied().unwrap_or(0);
+    counted_from_1(ini, &threading, highest, warnings)?;
+    let shafts = on_loom(ini, "Shafts", highest, "THREADING", warnings)?.unwrap_or(LOOM_MAX);
+    let rising_shed = rising_shed(ini)?;
+    let lift_plan =
+        ini.has("liftplan").then(|| lists(ini, "liftplan", picks, shafts, warnings)).transpose()?;
+    let treadled = if lift_plan.is_some() && has_no_treadles(ini, warnings)? {
+        None
+    } else {
+        treadled(ini, picks, shafts, warnings)?
+    };
+    let (shedding, other) = match (treadled, lift_plan) {
+        (Some(treadled), Some(lift_plan)) => (treadled, Some(Shedding::LiftPlan(lift_plan))),
+        (Some(shedding), None) => (shedding, None),
+        (None, Some(lift_plan)) => (Shedding::LiftPlan(lift_plan), None),
+        (None, None) if ini.has("treadling") => {
+            return Err(missing(ini, "TIEUP", "it says what each treadle of TREADLING lifts"));
+        }
+        (None, None) if ini.has("tieup") => {
+            return Err(missing(ini, "TREADLING", "it says which treadles of TIEUP each pick uses"));
+        }
+        (None, None) => {
+            return Err(missing(ini, "LIFTPLAN", "without TIEUP and TREADLING it says what each pick lifts"));
+        }
+    };
+    let fabric = |source| ReadError::fabric(ini.file, source);
+    let mut draft = Draft { threading, shedding, rising_shed };
+    let drawdown = draft.drawdown().map_err(fabric)?;
+    if let Some(other) = other {
+        let stands = std::mem::replace(&mut draft.shedding, other);
+        if drawdown != draft.drawdown().map_err(fabric)? {
+            warnings.push("lift plan and treadling give different cloths; the treadling is taken".into());
+        }
+        draft.shedding = stands;
+    }
+    Ok((draft, drawdown))
+}
+
+/// Refuses a draft that counts shafts from 0: some ends are on shaft 0, others on every further one
+/// but the last; some lifts name shaft 0, and none the last. Where both name shaft 0, but not all
+/// of that is so, there is a warning. A draft of ours counts from 1.
+fn counted_from_1(
+    ini: &Ini<'_>,
+    threading: &[Vec<u32>],
+    highest: u32,
+    warnings: &mut Vec<String>,
+) -> Result<(), ReadError> {
+    let first = (1..).zip(threading).find_map(|(end, shafts)| {
+        let (key, empty) = (u32::to_string(&end), shafts.is_empty());
+        let entry = ini.get("threading", &key).filter(|_| empty)?;
+        Some((key, entry))
+    });
+    let Some((key, entry)) = first else { return Ok(()) };
+    let lifts = ["tieup", "liftplan"].into_iter().flat_map(|section| {
+        ini.entries(section).flat_map(move |(key, entry)| numbers::list(ini, section, key, entry).flatten())
+    });
+    let lifts: BTreeSet<_> = lifts.collect();
+    if highest == 0 || !lifts.contains(&0) || is_ours(ini) {
+        return Ok(());
+    }
+    let declared = integer(ini, "weaving", "shafts", 0, LOOM_MAX)?;
+    let used: BTreeSet<_> = threading.iter().flatten().collect();
+    let is_last_lifted = lifts.last().is_some_and(|shaft| *shaft > i64::from(highest));
+    if declared == Some(highest + 1) && used.len() == highest as usize && !is_last_lifted {
+        let expected = "a shaft from 1: shafts are counted from 1 in WIF, in this file from 0";
+        return Err(numbers::bad(ini, "threading", &key, entry, expected));
+    }
+    warnings.push(format!(
+        "[THREADING] {key} is shaft 0, which some lifts name, too; 0 stands for no shaft, for WIF counts them from 1"
+    ));
+    Ok(())
+}
+
+/// Whether the file says that the loom has no treadles. What it says of treadles then counts for
+/// nothing.
+fn has_no_treadles(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<bool, ReadError> {
+    let none = integer(ini, "weaving", "treadles", 0, LOOM_MAX)? == Some(0);
+    if none && (ini.has("tieup") || ini.has("treadling")) {
+        warnings.push("[WEAVING] Treadles is 0; the lift plan is taken, without TIEUP and TREADLING".into());
+    }
+    Ok(none)
+}
+
+/// Tie-up and treadling, where both are there.
+fn treadled(
+    ini: &Ini<'_>,
+    picks: u32,
+    shafts: u32,
+    warnings: &mut Vec<String>,
+) -> Result<Option<Shedding>, ReadError> {
+    if !ini.has("tieup") || !ini.has("treadling") {
+        return Ok(None);
+    }
+    let rows = ini.entries("tieup").filter_map(|(key, _)| key.parse().ok());
+    let highest = rows.filter(|row| *row <= LOOM_MAX).max().unwrap_or(0);
+    let treadles = on_loom(ini, "Treadles", highest, "TIEUP", warnings)?;
+    let tie_up = lists(ini, "tieup", treadles.unwrap_or(highest), shafts, warnings)?;
+    let treadling = lists(ini, "treadling", picks, treadles.unwrap_or(LOOM_MAX), warnings)?;
+    Ok(Some(Shedding::TieUp { tie_up, treadling }))
+}
+
+/// How many shafts or treadles the loom has: as many as `[WEAVING]` says under `key`, or `highest`,
+/// the number that `section` goes up to, where that is more. None where nothing is declared.
+fn on_loom(
+    ini: &Ini<'_>,
+    key: &str,
+    highest: u32,
+    section: &str,
+    warnings: &mut Vec<String>,
+) -> Result<Option<u32>, ReadError> {
+    let Some(declared) = integer(ini, "weaving", &key.to_lowercase(), 0, LOOM_MAX)? else {
+        return Ok(None);
+    };
+    if highest > declared {
+        warnings.push(format!(
+            "[WEAVING] {key} is {declared}, but [{section}] goes up to {highest}; so many are taken"
+        ));
+    }
+    Ok(Some(declared.max(highest)))
+}
+
+fn rising_shed(ini: &Ini<'_>) -> Result<bool, ReadError> {
+    let Some(entry) = ini.get("weaving", "rising shed") else { return Ok(true) };
+    match entry.value.to_lowercase().as_str() {
+        "true" | "yes" | "on" | "1" => Ok(true),
+        "false" | "no" | "off" | "0" => Ok(false),
+        _ => Err(numbers::bad(ini, "weaving", "rising shed", entry, "true or false")),
+    }
+}

@@ -1,0 +1,19 @@
+//! Which designs can be written.
+
+use texere_fabric::{Structure, WovenDesign};
+
+use crate::Design;
+use crate::write::WriteError;
+
+/// The woven design in a design, for a writer of `format`.
+///
+/// **Errors**: [`WriteError::Unheld`] for a knit.
+pub(super) fn woven<'a>(format: &'static str, design: &'a Design) -> Result<&'a WovenDesign, WriteError> {
+    let what = match &design.structure {
+        Structure::Woven(woven) => return Ok(woven),
+        Structure::Weft(_) => "a weft knit, whose chart or program is not kept",
+        Structure::Warp(_) => "a warp knit",
+        _ => "a structure of this kind",
+    };
+    Err(WriteError::Unheld { format, what: what.into() })
+}

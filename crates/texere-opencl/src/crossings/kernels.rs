@@ -1,0 +1,48 @@
+//! The kernels that bring crossings to rest.
+
+use bytemuck::bytes_of;
+use texere_core::BackendError;
+use texere_gpu::CrossingsParams;
+use texere_kernels::{CROSSINGS_MOVE, CROSSINGS_SEEN};
+
+use super::memory::Memory;
+use crate::kernel::{Arg, Kernel, in_memory, start};
+use crate::opened::Opened;
+
+/// The two kernels of a pass.
+#[derive(Debug)]
+pub(super) struct CrossingsKernels {
+    step: Kernel,
+    seen: Kernel,
+}
+
+impl CrossingsKernels {
+    /// **Errors**: [`BackendError::Compile`].
+    pub(super) fn new(opened: &Opened) -> Result<Self, BackendError> {
+        let program = opened.crossings()?;
+        Ok(Self {
+            step: Kernel::of(opened, program, CROSSINGS_MOVE)?,
+            seen: Kernel::of(opened, program, CROSSINGS_SEEN)?,
+        })
+    }
+
+    /// Starts the pass that `params` describe.
+    pub(super) fn start(
+        &mut self,
+        opened: &Opened,
+        params: &CrossingsParams,
+        memory: &Memory,
+    ) -> Result<(), BackendError> {
+        let value = [Arg::Value(bytes_of(params))];
+        let Memory { threads, ups, crossings, found, next, group_rows, pass_rows } = memory;
+        let args = [&value[..], &in_memory([threads, ups, found, crossings, next, group_rows])].concat();
+        // SAFETY: the arguments are those of `crossings_move`; a lane reads its threads' rows, its
+        // bit of the drawdown and its crossing, and the same of sites beside it that the plan has,
+        // and writes its crossing; a group writes its row.
+        unsafe { start(&mut self.step, opened, &args, params.crossings) }?;
+        let args = [&value[..], &in_memory([group_rows, pass_rows])].concat();
+        // SAFETY: the arguments are those of `crossings_seen`; the only group reads all rows of
+        // groups, and writes that of the pass, of which there are `CROSSINGS_PASSES`.
+        unsafe { start(&mut self.seen, opened, &args, 1) }
+    }
+}

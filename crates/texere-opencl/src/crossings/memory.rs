@@ -1,0 +1,44 @@
+//! The memory of crossings.
+
+use texere_core::crossings::{CrossingState, CrossingsPlan};
+use texere_core::{BackendError, Limits};
+use texere_gpu::{CROSSINGS_PASSES, CrossingsSeenRow, ThreadRow, crossings_ups};
+use texere_kernels::CROSSINGS_MOVE;
+
+use crate::buffer::Buffer;
+use crate::opened::Opened;
+use crate::room::Room;
+
+/// The buffers that the kernels read and write.
+#[derive(Debug)]
+pub(super) struct Memory {
+    pub(super) threads: Buffer,
+    pub(super) ups: Buffer,
+    /// The crossings as they are.
+    pub(super) crossings: Buffer,
+    /// The crossings as others find them: in the next pass, and in the one after it.
+    pub(super) found: Buffer,
+    pub(super) next: Buffer,
+    /// What workgroups have seen, and what each pass since the last wait has seen.
+    pub(super) group_rows: Buffer,
+    pub(super) pass_rows: Buffer,
+}
+
+impl Memory {
+    pub(super) fn new(opened: &Opened, limits: &Limits, plan: &CrossingsPlan) -> Result<Self, BackendError> {
+        let mut room = Room::new(limits);
+        let rows = |count: u64| size_of::<CrossingsSeenRow>() as u64 * count;
+        let crossings = plan.crossings() as u64;
+        let bytes = size_of::<CrossingState>() as u64 * crossings;
+        let groups = crossings.div_ceil(CROSSINGS_MOVE.group as u64);
+        Ok(Self {
+            threads: room.holding(opened, "the thread table", &ThreadRow::all(plan))?,
+            ups: room.holding(opened, "the drawdown", &crossings_ups(plan))?,
+            crossings: room.zeroed(opened, "crossings", bytes)?,
+            found: room.zeroed(opened, "crossings as others find them", bytes)?,
+            next: room.zeroed(opened, "crossings as others will find them", bytes)?,
+            group_rows: room.zeroed(opened, "what groups have seen", rows(groups))?,
+            pass_rows: room.zeroed(opened, "what was seen", rows(CROSSINGS_PASSES.into()))?,
+        })
+    }
+}

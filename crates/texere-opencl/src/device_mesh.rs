@@ -1,0 +1,41 @@
+//! A mesh where it lies on the device.
+
+use std::ffi::c_void;
+use std::marker::PhantomData;
+use std::ptr;
+
+use crate::chunk_memory::ChunkMemory;
+use crate::handles::Handle;
+
+/// A chunk's mesh in device memory. Its handles are valid while it is borrowed: until the session's
+/// next call.
+#[derive(Debug)]
+pub struct DeviceMesh<'a> {
+    /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
+    pub vertices: *mut c_void,
+    /// A `cl_mem` with the chunk's `u32` indices from its start; null where it has none.
+    pub indices: *mut c_void,
+    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where
+    /// none were made.
+    pub attributes: *mut c_void,
+    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start;
+    /// null where none were made.
+    pub packed: *mut c_void,
+    /// The `cl_event` of the last command that writes these buffers. Wait for it, on the host or in
+    /// a queue.
+    pub ready: *mut c_void,
+    memory: PhantomData<&'a ChunkMemory>,
+}
+
+impl<'a> DeviceMesh<'a> {
+    pub(crate) fn new(memory: &'a ChunkMemory) -> Self {
+        Self {
+            vertices: memory.vertices.raw(),
+            indices: memory.indices.raw(),
+            attributes: memory.attributes.raw(),
+            packed: memory.packed.raw(),
+            ready: memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
+            memory: PhantomData,
+        }
+    }
+}

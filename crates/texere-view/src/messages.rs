@@ -1,0 +1,58 @@
+//! What the window and the workshop send one another: orders one way, cloth and news the other.
+
+use std::sync::{Arc, Mutex};
+
+use texere::mesh::Undersampled;
+use texere::picture::{Extent, Scene};
+use texere::{Design, Settings, Yarns};
+
+use crate::Event;
+
+/// What the window asks for.
+#[derive(Debug)]
+pub(crate) enum Order {
+    /// Sets whether the warp is up at a crossing, end and pick from 0.
+    Lift { end: usize, pick: usize, up: bool },
+    /// Takes back the last lift.
+    Undo,
+    /// Gives a material, from 0, another sRGB colour.
+    Color { material: usize, srgb: [u8; 3] },
+    /// Draws with other settings.
+    Settings(Settings),
+    /// Gives the yarns' splines another tension.
+    Tension(f32),
+    /// Whether yarns settle.
+    Settle(bool),
+    /// Saves a copy of the design as it is now.
+    Save,
+}
+
+/// A cloth on the device, and what it is made from.
+#[derive(Debug)]
+pub(crate) struct Cloth {
+    pub(crate) design: Arc<Design>,
+    pub(crate) yarns: Arc<Yarns>,
+    pub(crate) settings: Settings,
+    /// Held while a picture is made.
+    pub(crate) scene: Arc<Mutex<Scene>>,
+    pub(crate) extent: Extent,
+    pub(crate) triangles: u64,
+    /// Whether its yarns have settled.
+    pub(crate) is_settled: bool,
+    /// Whether lifts can be taken back.
+    pub(crate) is_edited: bool,
+    /// Warnings that the cloth does not hang together.
+    pub(crate) apart: Vec<String>,
+    /// The twist that the mesh does not show, if any.
+    pub(crate) undersampled: Option<Undersampled>,
+}
+
+/// What the workshop reports to the window.
+#[derive(Debug)]
+pub(crate) enum News {
+    Cloth(Box<Cloth>),
+    /// Yarns settle; the share of the work that is done.
+    Settling(f64),
+    Settled(String),
+    Event(Event),
+}

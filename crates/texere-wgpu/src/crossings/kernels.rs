@@ -1,0 +1,23 @@
+//! The kernels that bring crossings to rest.
+
+use texere_core::BackendError;
+use texere_shaders::crossings;
+
+use crate::gpu::Gpu;
+use crate::kernel::Kernel;
+
+/// The two shaders of a pass, compiled.
+#[derive(Debug)]
+pub(crate) struct CrossingsKernels {
+    pub(super) step: Kernel,
+    pub(super) seen: Kernel,
+}
+
+impl CrossingsKernels {
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
+        // All yarns of crossings are flattened.
+        let kernel = |shader| Kernel::new(gpu, shader, true);
+        Ok(Self { step: kernel(&crossings::MOVE)?, seen: kernel(&crossings::SEEN)? })
+    }
+}

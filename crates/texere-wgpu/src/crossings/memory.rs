@@ -1,0 +1,77 @@
+//! The memory of crossings.
+
+use texere_core::crossings::{CrossingState, CrossingsPlan};
+use texere_core::{BackendError, Limits};
+use texere_gpu::{CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_ups};
+use texere_shaders::{Resource, crossings};
+use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
+
+use crate::gpu::Gpu;
+use crate::room::Room;
+
+/// Bytes from the parameters of a pass to those of the next: every device can bind uniforms at
+/// multiples of this.
+pub(super) const PARAMS_STEP: u64 = 256;
+
+/// The buffers that the shaders read and write.
+#[derive(Debug)]
+pub(super) struct Memory {
+    /// The parameters of each pass between two waits.
+    pub(super) params: wgpu::Buffer,
+    threads: wgpu::Buffer,
+    ups: wgpu::Buffer,
+    /// The crossings as they are.
+    pub(super) crossings: wgpu::Buffer,
+    /// The crossings as others find them: in the next pass, and in the one after it.
+    pub(super) found: wgpu::Buffer,
+    pub(super) next: wgpu::Buffer,
+    /// What workgroups have seen, and what each pass since the last wait has seen.
+    group_rows: wgpu::Buffer,
+    pub(super) pass_rows: wgpu::Buffer,
+}
+
+impl Memory {
+    pub(super) fn new(gpu: &Gpu, limits: &Limits, plan: &CrossingsPlan) -> Result<Self, BackendError> {
+        let mut room = Room::new(gpu, limits);
+        let (passes, rows) = (u64::from(CROSSINGS_PASSES), size_of::<CrossingsSeenRow>() as u64);
+        let crossings = plan.crossings() as u64;
+        let bytes = size_of::<CrossingState>() as u64 * crossings;
+        let groups = crossings.div_ceil(crossings::MOVE.workgroup.into());
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        Ok(Self {
+            params: gpu.buffer("parameters", PARAMS_STEP * passes, uniform)?,
+            threads: room.holding(gpu, "the thread table", &ThreadRow::all(plan))?,
+            ups: room.holding(gpu, "the drawdown", &crossings_ups(plan))?,
+            crossings: room.take(gpu, "crossings", bytes)?,
+            found: room.take(gpu, "crossings as others find them", bytes)?,
+            next: room.take(gpu, "crossings as others will find them", bytes)?,
+            group_rows: room.take(gpu, "what groups have seen", rows * groups)?,
+            pass_rows: room.take(gpu, "what was seen", rows * passes)?,
+        })
+    }
+
+    /// The binding of `resource` in pass number `number` since the last wait. Passes take turns
+    /// with two buffers: each finds what the one before it has written.
+    pub(super) fn resource(&self, resource: Resource, number: u32) -> Option<BindingResource<'_>> {
+        let [found, next] =
+            if number.is_multiple_of(2) { [&self.found, &self.next] } else { [&self.next, &self.found] };
+        let buffer = match resource {
+            Resource::CrossingsParams => {
+                return Some(BindingResource::Buffer(BufferBinding {
+                    buffer: &self.params,
+                    offset: PARAMS_STEP * u64::from(number),
+                    size: BufferSize::new(size_of::<CrossingsParams>() as u64),
+                }));
+            }
+            Resource::ThreadRows => &self.threads,
+            Resource::Ups => &self.ups,
+            Resource::FoundCrossings => found,
+            Resource::Crossings => &self.crossings,
+            Resource::NextCrossings => next,
+            Resource::CrossingsGroupRows => &self.group_rows,
+            Resource::CrossingsPassRows => &self.pass_rows,
+            _ => return None,
+        };
+        Some(buffer.as_entire_binding())
+    }
+}

@@ -24,5 +24,7 @@ mod tests;
 mod warnings;
 
 pub(super) use design::design;
+#[cfg(feature = "toml")]
 pub(super) use knitout_file::read;
+#[cfg(feature = "toml")]
 pub(super) use loop_lengths::{LoopLengths, size};

@@ -25,4 +25,6 @@ mod wif_draft;
 pub(crate) use limits::{FILE_MAX, LENGTH_MM, LOOM_MAX};
 pub(crate) use program::PROGRAM;
 pub(crate) use threads::UNITS_MM;
-pub(super) use wif_draft::{design, read};
+pub(super) use wif_draft::design;
+#[cfg(feature = "toml")]
+pub(super) use wif_draft::read;

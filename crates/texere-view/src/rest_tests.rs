@@ -41,7 +41,7 @@ const PATIENCE: Duration = Duration::from_secs(300);
 
 /// The cloths that a window of `view` is sent until one is at rest. The workshop is a thread, as in
 /// the window, and the window is closed once the cloth has come.
-fn shown(view: &View) -> Vec<Box<Cloth>> {
+fn shown(view: &View) -> Vec<Cloth> {
     let (orders, taken) = channel();
     let (news, told) = channel();
     let is_closing = Arc::new(AtomicBool::new(false));
@@ -60,10 +60,10 @@ fn shown(view: &View) -> Vec<Box<Cloth>> {
         yarns: None,
     };
     let workshop = thread::spawn(move || workshop.run());
-    let mut cloths: Vec<Box<Cloth>> = Vec::new();
+    let mut cloths: Vec<Cloth> = Vec::new();
     while cloths.last().is_none_or(|cloth| !cloth.is_settled) {
         match told.recv_timeout(PATIENCE).unwrap() {
-            News::Cloth(cloth) => cloths.push(cloth),
+            News::Cloth(cloth) => cloths.push(*cloth),
             News::Event(Event::Failed(why)) => panic!("{why}"),
             _ => {}
         }

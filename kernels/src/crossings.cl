@@ -36,7 +36,7 @@ typedef struct {
 // A lie (Rust: Lie) is a float4: shift, height, half width, half height. A crossing is two of them,
 // its end's and its pick's.
 
-// What every lane reads.
+// The input of all lanes.
 typedef struct {
     const CrossingsParams *params;
     __global const ThreadRow *threads;

@@ -1,8 +1,9 @@
 // What the kernels of a settling share: tables, places, intervals and chords.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
-// and settling.wgsl is the twin of this file. OpenCL C 1.2, no extension. Constants are the core's;
-// texere-gpu writes them before this file, and FLATTENED: false where all yarns are round.
+// and settling.wgsl is the twin of this file. OpenCL C 1.2, no extension. texere-gpu writes two
+// things before this file: the core's constants, and FLATTENED, which is false where all yarns are
+// round.
 
 #pragma OPENCL FP_CONTRACT OFF
 

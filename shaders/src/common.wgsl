@@ -2,8 +2,8 @@
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
 // spline.rs, sampling.rs, frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no
-// feature required. Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before
-// this file, and FLATTENED: false where all yarns are round, as wide as high everywhere.
+// feature required. texere-gpu writes two things before this file: the core's constants, such as
+// BLOCK_RINGS, and FLATTENED, which is false where all yarns are round.
 
 // Rust: texere_core::Block, 32 bytes.
 struct Block {

@@ -2,8 +2,9 @@
 // them.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
-// and settling.cl is the twin of this file. Core WGSL, no feature required. Constants are the
-// core's; texere-gpu writes them before this file, and FLATTENED: false where all yarns are round.
+// and settling.cl is the twin of this file. Core WGSL, no feature required. texere-gpu writes two
+// things before this file: the core's constants, and FLATTENED, which is false where all yarns are
+// round.
 
 // Rust: texere_gpu::PlaceRow, 16 bytes.
 struct PlaceRow {

@@ -15,7 +15,7 @@ use texere_core::{
     Vertex, Yarn, YarnError, Yarns,
 };
 use texere_cpu::{ParallelBackend, Picker, SerialBackend};
-use texere_fabric::{Finish, Thread, Weave, Woven};
+use texere_fabric::{Thread, Weave, Woven};
 
 /// A plain weave of flat threads that lie close, in `section`.
 fn cloth(section: Section, twist: f32) -> Yarns {
@@ -93,9 +93,8 @@ fn a_cloth_on_a_cylinder_or_a_saddle_keeps_its_clearance() {
 /// The poplin of the example designs, at rest. Its threads are flattened and lie close.
 #[test]
 fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
-    let (device, go_on) = (ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(()));
-    let finished = design("poplin.toml").structure.settle(&Finish::default(), 0.0, &device, go_on).unwrap();
-    let flat = finished.yarns();
+    let cloth = design("poplin.toml").rest(&ParallelBackend::open().unwrap()).run().unwrap();
+    let flat = cloth.yarns();
     let before = least(flat);
     assert!(before > 0.98 && flat.points().iter().any(|point| !point.is_round()), "{before}");
     for degrees in [30.0_f64, 60.0, 90.0] {

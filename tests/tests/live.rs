@@ -8,11 +8,12 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use texere::backend::Plan;
 use texere::mesh::{Frame, LiveError, MeshPiece, Ray};
-use texere::rest::Finish;
 use texere::weft::{Beds, Cell, Chart, Gauge, KnitYarn, Knitted, Machine};
 use texere::woven::{Drawdown, Relief, Thread, Woven, WovenDesign};
 use texere::yarn::{Material, Section, YarnError};
-use texere::{Backend, ControlPoint, Live, Picker, Pipeline, Settings, Structure, Vertex, Yarn, Yarns};
+use texere::{
+    Backend, ControlPoint, Design, Live, Picker, Pipeline, Settings, Structure, Vertex, Yarn, Yarns,
+};
 use texere_conformance::editing_devices;
 
 const ENDS: usize = 23;
@@ -380,7 +381,7 @@ fn cloth_at_rest_keeps_its_weave() {
     let settings = Settings::default();
     let device: Arc<dyn Backend> = Arc::from(texere::open("cpu").unwrap());
     let mut live = Live::new(device.clone(), &structure, settings).unwrap();
-    let rest = structure.settle(&Finish::default(), 0.0, &*device, |_| ControlFlow::Continue(())).unwrap();
+    let rest = Design::of("Plain weave", structure).rest(&*device).run().unwrap();
     live.set_rest(rest.yarns()).unwrap();
     live.update().unwrap();
     assert!(triangles(&mut live) == fresh(rest.yarns(), settings, &*device));

@@ -60,7 +60,7 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     let (moved, off) = (apart(&whole.yarns, &piece(&garter(4)).yarns), apart(&whole.yarns, &copied));
     assert!(moved > 0.5 && off < 0.05, "moved {moved} mm, {off} mm apart");
     // Lengths are equal, up to the tolerance of either.
-    let lengths = [&copied, &whole.yarns].map(|yarns| length_mm(yarns));
+    let lengths = [&copied, &whole.yarns].map(length_mm);
     assert!((lengths[0] / lengths[1] - 1.0).abs() < 0.01, "{lengths:?}");
     // At the seams nothing comes nearer than in the repeat.
     let found = clearance(&copied, &Settings::default()).expect("clearance");

@@ -148,6 +148,7 @@ fn features(steps: &mut Steps) {
 /// The checks that run no tests.
 fn check(steps: &mut Steps) {
     steps.cargo("format", &["fmt", "--all", "--check"], &[]);
+    sources::run(steps);
     steps.cargo(
         "lints",
         &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],

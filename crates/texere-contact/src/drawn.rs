@@ -86,7 +86,7 @@ impl Drawn {
 /// mesh of `yarns` is [sound](Drawn::is_sound), and the mesh's measures. Each number that is tried
 /// halves the steps. None where no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
 ///
-/// **Errors**: those of [`drawn`].
+/// **Errors**: the errors of [`drawn`].
 pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, ContactError> {
     let mut subdivisions = settings.subdivisions;
     while subdivisions < TWIST_SUBDIVISIONS_MAX {

@@ -207,8 +207,7 @@ impl<'a> Pipeline<'a> {
     }
 
     /// The settings of the mesh, with subdivisions that follow twist unless others were chosen.
-    #[must_use]
-    pub fn chosen(&self) -> Settings {
+    fn chosen(&self) -> Settings {
         if self.follows_twist { self.settings.following(self.yarns) } else { self.settings }
     }
 

@@ -81,7 +81,7 @@ impl Structure {
     /// it has none. Woven cloth settles by its crossings instead: its piece is the whole cloth, cut
     /// off at its edges and held there, for use with [`settle`](crate::settle).
     ///
-    /// **Errors**: those of [`Structure::yarns`].
+    /// **Errors**: the errors of [`Structure::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
         match self {
             Self::Woven(design) => Ok(Repeat { piece: Piece::cut(design.cloth().yarns()?), copies: [1, 1] }),
@@ -93,7 +93,7 @@ impl Structure {
     /// The fabric's yarns, made of those of its `repeat`, settled or not. Copies lie side by side
     /// and are cut off as [`Structure::settle`] cuts them.
     ///
-    /// **Errors**: those of [`Repeat::placed`].
+    /// **Errors**: the errors of [`Repeat::placed`].
     pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(_) => repeat.placed(yarns),
@@ -156,8 +156,8 @@ impl Structure {
     /// [`Woven::stretched`](crate::Woven::stretched). Returns `finish` with the tensions that go
     /// with the stretch, for [`Structure::settle`]. A knit stays as it is.
     ///
-    /// **Errors**: those of [`Woven::stretched`](crate::Woven::stretched); the cloth is then as it
-    /// was.
+    /// **Errors**: the errors of [`Woven::stretched`](crate::Woven::stretched); the cloth is then
+    /// as it was.
     pub fn stretch(
         &mut self,
         finish: &Finish,
@@ -256,7 +256,8 @@ impl Structure {
     /// How near yarns come to one another and how tightly they bend, at places in a designer's
     /// terms: see [`Woven::clearance`](crate::Woven::clearance).
     ///
-    /// **Errors**: those of [`clearance_with_progress`](texere_contact::clearance_with_progress).
+    /// **Errors**: the errors of
+    /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
     pub fn clearance(
         &self,
         yarns: &Yarns,
@@ -294,7 +295,7 @@ impl Structure {
 
     /// Faults of the fabric before it settles: see [`Woven::diagnose`](crate::Woven::diagnose).
     ///
-    /// **Errors**: those of [`Structure::yarns`] and of [`Structure::clearance`].
+    /// **Errors**: the errors of [`Structure::yarns`] and of [`Structure::clearance`].
     pub fn diagnose(
         &self,
         touching: f64,
@@ -314,7 +315,7 @@ impl Structure {
     /// that lack room show it in their clearance. Contacts of a ratio below `touching` pierce;
     /// [`Finished::verdict`] takes [`CLEAR`](texere_contact::CLEAR).
     ///
-    /// **Errors**: those of [`Structure::clearance`].
+    /// **Errors**: the errors of [`Structure::clearance`].
     pub fn diagnose_finished(
         &self,
         finished: &Finished,

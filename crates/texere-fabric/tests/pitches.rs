@@ -1,7 +1,7 @@
 //! Threads that bend around one another stay clear at every pitch, by the clearance report.
 //!
-//! `contacts.rs` holds the report against brute force, and `clearance.rs` does so with some of these
-//! cloths.
+//! `contacts.rs` holds the report against brute force, and `clearance.rs` does so with some of
+//! these cloths.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 

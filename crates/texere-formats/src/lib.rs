@@ -1,10 +1,10 @@
 //! Readers and writers of texere: design files in, mesh files and designs out.
 //!
 //! [`write`](mod@write) turns a mesh into a GLB or PLY file, whole or piece by piece as a device
-//! makes it, and a woven design into a WIF draft or a design file.
+//! makes it. It also turns a woven design into a WIF draft or a design file.
 
-// What formats share is there in builds without some of them, too. A build with all of them has
-// nothing that is not used.
+// A build that leaves formats out still compiles what formats share, and does not use all of it. A
+// build with all formats has no unused code.
 #![cfg_attr(
     not(all(feature = "glb", feature = "knitout", feature = "ply", feature = "toml")),
     allow(dead_code, unused_variables, reason = "formats are left out that it is for")

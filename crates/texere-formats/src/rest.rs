@@ -1,5 +1,5 @@
-//! From a design to its cloth: its yarns are placed as its structure says, and come to rest as its
-//! finish says.
+//! The one way from a design to its cloth. Yarns are placed where the structure puts them, then
+//! come to rest as the finish asks.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -9,31 +9,31 @@ use texere_fabric::{FinishError, Finished};
 
 use crate::{Design, Refusal};
 
-/// The share of the progress at which cloth that is stretched has been, and begins to come to rest.
+/// The share of the progress that stretching takes. The rest of it is for coming to rest.
 const STRETCHED: f64 = 0.5;
 
-/// A cloth: a design and its yarns, at rest or as near to it as they came. [`Design::rest`] makes
-/// it.
+/// A design and its yarns. The yarns are at rest, or as near to rest as they came. [`Design::rest`]
+/// makes a cloth.
 #[derive(Debug)]
 pub struct Cloth {
     design: Design,
     report: RestReport,
 }
 
-/// What became of the yarns of a [`Cloth`].
+/// The yarns of a [`Cloth`], and whether they came to rest.
 #[derive(Debug)]
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "a cloth has one")]
 pub enum RestReport {
-    /// Yarns are as the structure places them: the design does not ask for more.
+    /// The yarns are where the structure places them. The design asks for no more.
     Placed(Yarns),
-    /// Yarns came to rest, or as near to it as [`Finished::verdict`] says.
+    /// The yarns came to rest, or as near to it as [`Finished::verdict`] says.
     Finished(Finished),
-    /// Yarns are as the structure places them, for they can't come to rest.
+    /// The yarns are where the structure places them, because they can't come to rest.
     Refused {
         /// The yarns.
         yarns: Yarns,
-        /// Why, with the place in the design that asks for it.
+        /// The reason, with the place in the design that asks for it.
         reason: Refusal,
     },
 }
@@ -49,7 +49,7 @@ impl fmt::Display for RestReport {
 }
 
 impl RestReport {
-    /// What the finish asks for and did not reach.
+    /// One line for each thing that the finish asks for and the cloth did not reach.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         match self {
@@ -60,8 +60,8 @@ impl RestReport {
 }
 
 impl Cloth {
-    /// The design. Once its cloth was stretched the structure is the stretched one,
-    /// [`Design::stretch`] is none, and [`Design::finish`] has the tensions that go with it.
+    /// The design. After a stretch its structure is the stretched one, [`Design::stretch`] is none,
+    /// and [`Design::finish`] has the tensions that hold the stretch.
     #[must_use]
     pub const fn design(&self) -> &Design {
         &self.design
@@ -76,7 +76,7 @@ impl Cloth {
         }
     }
 
-    /// What became of the yarns.
+    /// The report on the yarns: whether they came to rest.
     #[must_use]
     pub const fn report(&self) -> &RestReport {
         &self.report
@@ -92,9 +92,9 @@ impl Cloth {
         (self.design, yarns)
     }
 
-    /// What a designer should know of the cloth: the reader's [remarks](Design::remarks), what the
-    /// structure lacked before where the yarns are not at rest, and what the finish asks for and
-    /// did not reach.
+    /// What a designer should know of the cloth: the reader's [remarks](Design::remarks), and what
+    /// the finish asks for and the cloth did not reach. Where the yarns are not at rest, the faults
+    /// of the structure as placed are in the list.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let before = match &self.report {
@@ -122,8 +122,9 @@ impl fmt::Debug for Resting<'_> {
 }
 
 impl Design {
-    /// The cloth of the design, for [`Resting::run`] to make on `device`: its yarns are placed,
-    /// stretched, and come to rest, as its `settle`, `stretch` and `finish` say.
+    /// Starts from the design to its cloth. [`Resting::run`] makes the cloth on `device`: it places
+    /// the yarns, stretches the cloth and lets it come to rest, as the design's `settle`, `stretch`
+    /// and `finish` say.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -145,9 +146,9 @@ impl Design {
         Resting { design: self, device, tension: 0.0, progress }
     }
 
-    /// The cloth of the design with its yarns as the structure places them, whatever the design
-    /// asks for. No device is needed. The tension of their splines is 0: [`Yarns::with_tension`]
-    /// gives them another.
+    /// The cloth of the design with its yarns where the structure places them, even if the design
+    /// asks for cloth at rest. No device is needed. The tension of the splines is 0;
+    /// [`Yarns::with_tension`] changes it.
     ///
     /// **Errors**: where the structure can't be made.
     pub fn placed(self) -> Result<Cloth, Refusal> {
@@ -164,13 +165,13 @@ impl<'a> Resting<'a> {
         Self { tension, ..self }
     }
 
-    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends it
+    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends the work
     /// within one pass.
     pub fn progress(self, progress: impl FnMut(f64) -> ControlFlow<()> + Send + 'a) -> Self {
         Self { progress: Box::new(progress), ..self }
     }
 
-    /// Makes the cloth. Where yarns can't come to rest they are as the structure places them, and
+    /// Makes the cloth. Yarns that can't come to rest stay where the structure places them, and
     /// [`Cloth::report`] says why.
     ///
     /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish

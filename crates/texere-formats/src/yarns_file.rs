@@ -1,30 +1,30 @@
-//! Files of yarns: what their writer and their reader share. `docs/FORMATS.md` says what each byte
-//! means.
+//! The layout of `.yarns` files, which their writer and their reader share. `docs/FORMATS.md` says
+//! what each byte means.
 
 use texere_core::Yarns;
 
-/// What the name of a file of yarns ends in, without its dot.
+/// The extension of a file of yarns, without its dot.
 pub(crate) const ENDING: &str = "yarns";
 
-/// The first bytes. No text begins with the first of them, and a transfer that changes line ends
-/// changes the last two.
+/// The first bytes. No text begins with the first one. A transfer that changes line ends changes
+/// the last two.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89YARNS\r\n";
 
-/// The version that is written, and the only one that is read.
+/// The version of the format. No other version is read.
 pub(crate) const VERSION: u32 = 1;
 
-/// The most bytes that a file may have: room for half a billion control points. A reader holds all
-/// of a file in memory.
+/// The largest file, bytes. It has room for half a billion control points. The limit is needed
+/// because a reader holds all of a file in memory.
 pub(crate) const BYTES_MAX: u64 = 1 << 34;
 
-/// Bits of the header that say what follows the control points.
+/// Bits of the header. Each says that a list follows the control points.
 pub(crate) const HAS_UPS: u32 = 1;
 pub(crate) const HAS_SOURCES: u32 = 2;
 
 pub(crate) const HEADER_BYTES: u64 = 60;
-/// A material without the letters of its name.
+/// Bytes of a material, without the letters of its name.
 pub(crate) const MATERIAL_BYTES: u64 = 20;
-/// A section without the corners of a polygon.
+/// Bytes of a section, without the corners of a polygon.
 pub(crate) const SECTION_BYTES: u64 = 12;
 pub(crate) const CORNER_BYTES: u64 = 8;
 pub(crate) const YARN_BYTES: u64 = 44;
@@ -33,7 +33,7 @@ pub(crate) const UP_BYTES: u64 = 12;
 pub(crate) const SOURCE_BYTES: u64 = 4;
 pub(crate) const CHECKSUM_BYTES: u64 = 4;
 
-/// Numbers of the kinds of sections.
+/// Numbers that stand for kinds of sections.
 pub(crate) mod section {
     pub(crate) const CIRCLE: u32 = 0;
     pub(crate) const ELLIPSE: u32 = 1;
@@ -43,14 +43,14 @@ pub(crate) mod section {
     pub(crate) const POLYGON: u32 = 5;
 }
 
-/// Numbers of the ways in which a yarn ends.
+/// Numbers that stand for the ends of a yarn.
 pub(crate) mod ends {
     pub(crate) const OPEN: u32 = 0;
     pub(crate) const CLOSED: u32 = 1;
     pub(crate) const REPEATS: u32 = 2;
 }
 
-/// Numbers of the kinds of origins.
+/// Numbers that stand for kinds of origins.
 pub(crate) mod origin {
     pub(crate) const UNKNOWN: u32 = 0;
     pub(crate) const END: u32 = 1;
@@ -60,14 +60,15 @@ pub(crate) mod origin {
     pub(crate) const GUIDE: u32 = 5;
 }
 
-/// What the header's bits are for `yarns`.
+/// The bits of the header for `yarns`.
 pub(crate) fn flags(yarns: &Yarns) -> u32 {
     let ups = if yarns.ups().is_some() { HAS_UPS } else { 0 };
     let sources = if yarns.sources().is_some() { HAS_SOURCES } else { 0 };
     ups | sources
 }
 
-/// Bytes of a control point with what the header's bits say that it has.
+/// Bytes of a control point, its up direction and its source included where the header's bits
+/// announce them.
 pub(crate) const fn bytes_per_point(flags: u32) -> u64 {
     let ups = if flags & HAS_UPS != 0 { UP_BYTES } else { 0 };
     let sources = if flags & HAS_SOURCES != 0 { SOURCE_BYTES } else { 0 };

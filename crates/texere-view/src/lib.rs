@@ -16,6 +16,8 @@ mod event;
 mod messages;
 mod orbit;
 mod panel;
+#[cfg(test)]
+mod rest_tests;
 mod view;
 mod watch;
 mod window;

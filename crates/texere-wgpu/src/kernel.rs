@@ -130,11 +130,11 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     };
     // SAFETY: the source is one of texere-shaders' own. It does nothing that a check would stop.
     // In the shaders of meshes, attributes and packed vertices:
-    // - Indices into buffers come from the block and cap tables and from the plan's own tables. Only
-    //   a plan makes chunks, and a session takes those of its own plan alone. The plan's tables are
-    //   bound whole, and every output is at least as long as the chunk says. Lengths along yarns
-    //   have one value for each of the plan's blocks, attributes and packed vertices one for each of
-    //   the chunk's vertices.
+    // - Indices into buffers come from the block and cap tables and from the plan's own tables.
+    //   Only a plan makes chunks, and a session takes those of its own plan alone. The plan's
+    //   tables are bound whole, and every output is at least as long as the chunk says. Lengths
+    //   along yarns have one value for each of the plan's blocks, attributes and packed vertices
+    //   one for each of the chunk's vertices.
     // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at
     //   most BLOCK_RINGS rings.
     // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they
@@ -154,8 +154,8 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     //   at least 1, and a repeat where there is one.
     // In the shaders of crossings:
     // - A site beside another is one of the plan's, or is not read: its end is below the ends, its
-    //   pick below the picks. The plan's tables are bound whole, as is every buffer with a value for
-    //   each crossing. There are as many rows of passes as the host counts passes to.
+    //   pick below the picks. The plan's tables are bound whole, as is every buffer with a value
+    //   for each crossing. There are as many rows of passes as the host counts passes to.
     // - Whole numbers are divided by the ends, at least 2, and by constants.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

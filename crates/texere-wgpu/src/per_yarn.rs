@@ -6,7 +6,8 @@ use texere_shaders::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 use crate::gpu::Gpu;
 use crate::kernel::Kernel;
 
-/// The most rounds of all loops of a lane on a software device. llvmpipe ends longer loops silently.
+/// The most rounds of all loops of a lane on a software device. llvmpipe ends longer loops
+/// silently.
 const SOFTWARE_ROUNDS: u32 = 65_535;
 
 /// The compiled shaders of the schedule.

@@ -49,8 +49,8 @@ fn use_all(design: &Design, device: &Arc<dyn Backend>) {
     let settings = Settings { frame: Frame::RotationMinimizing, caps: true, ..Settings::default() };
     let on = |_| ControlFlow::Continue(());
     let (structure, before) = (&design.structure, design.yarns().unwrap());
-    let finished = structure.settle(&design.finish, 0.0, &**device, on).unwrap();
-    let yarns = finished.yarns();
+    let cloth = design.clone().rest(&**device).run().unwrap();
+    let yarns = cloth.yarns();
 
     clearance(yarns, &settings).unwrap();
     linking(yarns, yarns, &Boundary::without_repeat(yarns.layout())).unwrap();

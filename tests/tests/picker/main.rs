@@ -122,6 +122,7 @@ fn yarns_that_are_edited_are_hit_where_they_are() {
             picker.set_yarn(Arc::new(plan), yarn, points).unwrap();
         }
         let mut edited = Yarns::builder();
+        edited.tension(yarns.tension());
         for section in yarns.layout().sections() {
             edited.section(section.clone());
         }

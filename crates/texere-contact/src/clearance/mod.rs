@@ -124,7 +124,8 @@ pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, Contac
 /// [`clearance()`] that calls `progress` with the share of the work done, from 0 to 1, from any
 /// thread. `Break` ends the measurement.
 ///
-/// **Errors**: those of [`clearance`]; [`ContactError::Cancelled`] where `progress` asked to stop.
+/// **Errors**: the errors of [`clearance`]; [`ContactError::Cancelled`] where `progress` asked to
+/// stop.
 ///
 /// ```
 /// use std::ops::ControlFlow;

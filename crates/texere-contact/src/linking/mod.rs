@@ -96,7 +96,8 @@ pub fn linking(before: &Yarns, after: &Yarns, boundary: &Boundary) -> Result<Lin
 /// [`linking()`] that calls `progress` with the share of the work done, from 0 to 1, from any
 /// thread. `Break` ends the comparison.
 ///
-/// **Errors**: those of [`linking()`]; [`ContactError::Cancelled`] where `progress` asked to stop.
+/// **Errors**: the errors of [`linking()`]; [`ContactError::Cancelled`] where `progress` asked to
+/// stop.
 ///
 /// ```
 /// use std::ops::ControlFlow;

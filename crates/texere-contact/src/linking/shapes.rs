@@ -48,7 +48,7 @@ impl Motion {
     }
 }
 
-/// The same yarns in two shapes. An interval's number is that of the control point that it starts
+/// Yarns in two shapes. An interval's number is that of the control point that it starts
 /// from, counted over the fabric.
 #[derive(Debug)]
 pub(super) struct Shapes<'a> {

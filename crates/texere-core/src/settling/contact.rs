@@ -79,22 +79,22 @@ pub const MARGIN: f32 = 1.002;
 
 /// The nearest places of two intervals.
 #[derive(Debug, Clone, Copy)]
-pub struct Approach {
+pub(super) struct Approach {
     /// The parameters of the places on both intervals.
-    pub at: [f32; 2],
+    pub(super) at: [f32; 2],
     /// The vector from the first interval's place to the second's, mm.
-    pub way: Vec3,
+    pub(super) way: Vec3,
     /// The length of that vector, mm.
-    pub distance: f32,
+    pub(super) distance: f32,
 }
 
 /// Two intervals. The second begins `way` from the start of the first.
 #[derive(Debug, Clone, Copy)]
-pub struct Pair<'a> {
+pub(super) struct Pair<'a> {
     /// Both intervals.
-    pub intervals: [&'a Interval; 2],
+    pub(super) intervals: [&'a Interval; 2],
     /// The vector from the first one's start to the second one's, mm.
-    pub way: Vec3,
+    pub(super) way: Vec3,
 }
 
 impl Pair<'_> {
@@ -111,7 +111,7 @@ impl Pair<'_> {
     /// the splines have 0.92.
     #[must_use]
     #[inline]
-    pub fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Approach {
+    pub(super) fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Approach {
         let start = self.at(at);
         let [one, other] = self.intervals;
         let velocities = [one.velocity(at[0]), other.velocity(at[1])];
@@ -136,7 +136,7 @@ impl Approach {
     /// at right angles to both yarns; the second interval then sees the opposite direction.
     #[must_use]
     #[inline]
-    pub fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {
+    pub(super) fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {
         let square = velocities[0].cross(velocities[1]);
         let way = if self.distance > ONE_PLACE { self.way } else { square };
         let length = way.length_squared();

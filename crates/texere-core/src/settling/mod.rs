@@ -3,7 +3,7 @@
 //!
 //! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] does the
 //! passes on a device, and [`settle`] drives it. The definitions that all devices share are here:
-//! [`Interval`], [`Chord`], [`Pair`], [`Pull`].
+//! [`Interval`], [`Chord`], [`Pull`].
 
 mod check;
 mod contact;
@@ -19,7 +19,7 @@ mod run;
 mod settler;
 mod strand;
 
-pub use contact::{Approach, Chord, MARGIN, NEAR, ONE_PLACE, PARALLEL, Pair, SHORT, SKEW, STIFF};
+pub use contact::{Chord, MARGIN, NEAR, ONE_PLACE, PARALLEL, SHORT, SKEW, STIFF};
 use error::SettlingError;
 pub use interval::{GAUSS, GAUSS_WEIGHTS, Interval, bends};
 pub use length::{FREE_LEAST, FREE_MOST, FREED, Length, freed};

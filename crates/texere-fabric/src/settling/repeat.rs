@@ -68,7 +68,7 @@ impl Repeat {
     /// for `beyond` control points more at its beginning and at its end. All of it within the
     /// copies then bends as in the repeat.
     ///
-    /// **Errors**: those of [`Repeat::placed`].
+    /// **Errors**: the errors of [`Repeat::placed`].
     pub fn placed_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
         self.placed_as(yarns, beyond, |origin, _| origin, |source, _| source)
     }

@@ -97,8 +97,8 @@ impl WovenDesign {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth, and those of [`Woven::relieve`];
-    /// the design is then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth, and the errors of
+    /// [`Woven::relieve`]; the design is then as it was.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
         let mut changed = self.as_given().clone();
         changed.drawdown_mut().set(end, pick, up)?;
@@ -120,7 +120,7 @@ impl WovenDesign {
     /// Gives all threads of the cloth as it was given one section, and relieves it again.
     ///
     /// **Errors**: [`ThreadError::Section`](crate::ThreadError::Section) where its numbers are not
-    /// sound, and those of [`Woven::relieve`]; the design is then as it was.
+    /// sound, and the errors of [`Woven::relieve`]; the design is then as it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         let mut changed = self.given.as_ref().unwrap_or(&self.cloth).clone();
         changed.set_section(section)?;

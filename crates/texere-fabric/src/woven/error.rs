@@ -71,7 +71,7 @@ pub enum WovenError {
     Notation {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// What should have stood there.
         expected: &'static str,
@@ -84,7 +84,7 @@ pub enum WovenError {
     NoWeave {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// A name that is spelt nearly so.
         near: Option<&'static str>,
@@ -94,7 +94,7 @@ pub enum WovenError {
     Hyphen {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// What it is: `an en dash (U+2013)`.
         sign: &'static str,
@@ -104,7 +104,7 @@ pub enum WovenError {
     Slash {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// What it is: `a fraction slash (U+2044)`.
         sign: &'static str,
@@ -116,7 +116,7 @@ pub enum WovenError {
     SatinMove {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// The move.
         step: i64,
@@ -130,7 +130,7 @@ pub enum WovenError {
     NoSatin {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// Ends asked for.
         ends: usize,
@@ -140,7 +140,7 @@ pub enum WovenError {
     TwillMove {
         /// The text, cut short where it is long.
         text: String,
-        /// Which character, from 1.
+        /// Number of the character, from 1.
         position: usize,
         /// The move.
         step: i64,
@@ -182,7 +182,7 @@ pub enum WovenError {
     /// A stiffness outside its limits, or not a number.
     #[error("{thread} has a stiffness of {stiffness}, outside {low} to {high}")]
     Stiffness {
-        /// Which end or pick.
+        /// The thread.
         thread: Origin,
         /// Its stiffness, in that of cotton.
         stiffness: f32,
@@ -194,7 +194,7 @@ pub enum WovenError {
     /// A flatness outside its limits, or not a number.
     #[error("{thread} has a flatness of {flatness}, outside {low} to {high}")]
     Flatness {
-        /// Which thread.
+        /// The thread.
         thread: Origin,
         /// Its flatness: width over height.
         flatness: f32,
@@ -206,7 +206,7 @@ pub enum WovenError {
     /// A thread that flattening makes too thin or too wide.
     #[error("{thread} has half a {side} of {half_mm} mm once it is flattened, outside {low} to {high} mm")]
     Half {
-        /// Which thread.
+        /// The thread.
         thread: Origin,
         /// `width` or `height`.
         side: &'static str,

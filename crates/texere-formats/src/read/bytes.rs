@@ -1,5 +1,5 @@
-//! A binary file from its first byte to its last. Nothing is taken for granted of it: what is not
-//! there is refused with its place.
+//! Reads a binary file from its first byte to its last. Missing bytes and values out of range are
+//! refused with their place.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -9,7 +9,7 @@ use texere_core::OutOfMemory;
 use super::ReadError;
 use super::error::{said, shown};
 
-/// The bytes of a file that are still to be read.
+/// A binary file, and its bytes that are still to be read.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bytes<'a> {
     file: &'a Path,
@@ -22,12 +22,12 @@ impl<'a> Bytes<'a> {
         Self { file, whole: bytes, left: bytes }
     }
 
-    /// The place of the next byte in the file, from 0.
+    /// The place of the next byte in the file, counted from 0.
     pub(super) const fn at(&self) -> u64 {
         (self.whole.len() - self.left.len()) as u64
     }
 
-    /// The error for a `field` at byte `at` that is no such thing.
+    /// The refusal of the `value` of a `field` at byte `at`.
     pub(super) fn refused(
         &self,
         at: u64,
@@ -70,7 +70,7 @@ impl<'a> Bytes<'a> {
         self.take(field).map(f32::from_le_bytes)
     }
 
-    /// Four bytes that say nothing, and so have to be 0.
+    /// Passes by four unused bytes, which have to be 0.
     pub(super) fn unused(&mut self, field: &'static str) -> Result<(), ReadError> {
         let at = self.at();
         match self.word(field)? {
@@ -79,7 +79,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// A text of so many bytes.
+    /// A UTF-8 text of `bytes` bytes.
     pub(super) fn text(&mut self, field: &'static str, bytes: usize) -> Result<String, ReadError> {
         let at = self.at();
         let Some((text, left)) = self.left.split_at_checked(bytes) else {
@@ -96,15 +96,15 @@ impl<'a> Bytes<'a> {
         Ok(name)
     }
 
-    /// A number of things that take `each` bytes at least: no more than the bytes left have room
-    /// for.
+    /// A count of things that take `each` bytes at least. It is refused where the bytes left have
+    /// no room for them.
     pub(super) fn count(&mut self, field: &'static str, each: u64) -> Result<usize, ReadError> {
         let at = self.at();
         let count = self.long(field)?;
         self.room_for(at, field, count, each)
     }
 
-    /// Checks that the bytes left have room for `count` things of `each` bytes at least. The number
+    /// Checks that the bytes left have room for `count` things of `each` bytes at least. The count
     /// stands at byte `at`.
     pub(super) fn room_for(
         &self,
@@ -118,11 +118,11 @@ impl<'a> Bytes<'a> {
             let expected = format_args!("{most} at most, for which there are bytes");
             return Err(self.refused(at, field, count, expected));
         }
-        // At most as many as there are bytes in memory.
+        // The count fits, for it is at most the number of bytes in memory.
         Ok(count as usize)
     }
 
-    /// Reads the file's length and checks it.
+    /// Reads the length that the file states, and checks it.
     pub(super) fn check_length(&mut self, field: &'static str) -> Result<(), ReadError> {
         let at = self.at();
         let (length, is) = (self.long(field)?, self.whole.len() as u64);
@@ -133,8 +133,8 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Checks the CRC-32 that the file ends with, four bytes over all that stand before, and takes
-    /// it off what is left.
+    /// Checks the CRC-32 in the last four bytes, which is over all bytes before it, and takes these
+    /// four bytes off the bytes left.
     pub(super) fn check_sum(&mut self, field: &'static str) -> Result<(), ReadError> {
         let Some((left, stated)) = self.left.split_last_chunk() else {
             return Err(self.cut_short(field, 4));

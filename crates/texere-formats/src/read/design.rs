@@ -14,8 +14,8 @@ use super::named_place::NamedPlace;
 use super::program_place::ProgramPlace;
 use super::refusal::Refusal;
 
-/// The most control points among which the place that is too crowded to settle is looked for: a
-/// second's work.
+/// The most control points of cloth in which the most crowded place is looked for. The search then
+/// takes up to a second.
 const CROWDED_POINTS: usize = 1 << 18;
 
 /// A design, read and checked.
@@ -27,14 +27,14 @@ const CROWDED_POINTS: usize = 1 << 18;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Design {
-    /// Its title, or else the name of its file.
+    /// The title of the design, or else the name of its file.
     pub name: String,
-    /// What it describes.
+    /// The structure that the design describes.
     pub structure: Structure,
-    /// Whether its yarns come to rest ([`Design::rest`]) before they are used. [`Design::yarns`]
-    /// are as they are before.
+    /// Whether the yarns come to rest ([`Design::rest`]) before they are used. [`Design::yarns`]
+    /// gives them as they are placed.
     pub settle: bool,
-    /// How they settle.
+    /// How the yarns settle.
     pub finish: Finish,
     /// How woven cloth is stretched before it comes to rest: [`Structure::stretch`].
     pub stretch: Option<Stretch>,
@@ -82,37 +82,36 @@ impl Design {
         }
     }
 
-    /// The same design with what it says about how its yarns settle.
+    /// The design with the settings of its `[finish]`.
     pub(super) fn finished(self, settle: Option<bool>, finish: Finish, stretch: Option<Stretch>) -> Self {
         Self { settle: settle.unwrap_or(self.settle), finish, stretch, ..self }
     }
 
-    /// The same design, left as it is woven unless somebody asks for more.
+    /// The design with its yarns left where the structure places them.
     pub(super) fn left(self) -> Self {
         Self { settle: false, ..self }
     }
 
-    /// The same design with more remarks.
+    /// The design with more remarks.
     pub(super) fn remarking(mut self, remarks: Vec<String>) -> Self {
         self.remarks.extend(remarks);
         self
     }
 
-    /// The same design with the program that it is knitted from, and what a machine says of it.
+    /// The design with the program that it is knitted from, and that program's faults.
     pub(super) fn knitted(self, from: KnittedFrom, faults: Vec<MachineFault>) -> Self {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
-    /// The same design with the keys of its file. Those that it has already are of the draft that
-    /// this file names.
+    /// The design with the keys of its file. If it has keys already, these are the keys of a draft
+    /// that the file names.
     pub(super) fn keyed(self, keys: Keys) -> Self {
         let named = (!self.keys.lines.is_empty()).then(|| Box::new(self.keys));
         Self { keys: Keys { named, ..keys }, ..self }
     }
 
-    /// An error of its structure, or of how that comes to rest, with the file, line and key that
-    /// ask for it: what [`Structure`]'s methods and [`Design::yarns`] give back knows threads and
-    /// bars alone.
+    /// Adds the file, line and key to an error of the structure, or of its coming to rest. Errors
+    /// of [`Structure`]'s methods and of [`Design::yarns`] name threads and bars only.
     ///
     /// ```no_run
     /// let design = texere_formats::read("designs/jersey.toml")?;
@@ -137,7 +136,7 @@ impl Design {
         }
     }
 
-    /// The line of a knitout file whose yarn lies where it is most crowded.
+    /// The line of a knitout file that makes the yarn in the most crowded place.
     fn crowded(&self) -> Option<FilePlace> {
         let (from, yarns) = (self.knitted_from.as_ref()?, self.yarns().ok()?);
         if yarns.points().len() > CROWDED_POINTS {
@@ -148,7 +147,7 @@ impl Design {
         from.line(found.crowd.map(|crowd| crowd.place).or_else(nearest)?.source?)
     }
 
-    /// The name of a thread's yarn.
+    /// The name of the yarn of a thread.
     fn yarn_of(&self, thread: Origin) -> Option<String> {
         let number = |number: u32| number.checked_sub(1).map(|number| number as usize);
         let (materials, material) = match (&self.structure, thread) {
@@ -170,24 +169,25 @@ impl Design {
         materials.get(material as usize).map(|material| material.name.clone())
     }
 
-    /// The same design with the files that it was read from.
+    /// The design with the files that it was read from.
     pub(super) fn read_from(self, files: &[PathBuf]) -> Self {
-        // A program may change its folder. Where the present one is not known, the path stays as it
-        // is.
+        // Paths become absolute, because a program may change its folder later. Where the present
+        // folder is not known, a path stays as it is.
         let absolute = |file: &PathBuf| path::absolute(file).unwrap_or_else(|_| file.clone());
         Self { files: files.iter().map(absolute).collect(), ..self }
     }
 
-    /// The files that it was read from: the design's own, and the images, WIF draft or knitting
-    /// program that it names; none where it was read [from memory](super::read_from).
-    /// [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
+    /// The files that the design was read from: its own file, and the images, WIF draft or knitting
+    /// program that it names. The list is empty for a design that was read [from
+    /// memory](super::read_from). [`Output::sparing`](crate::write::Output::sparing) keeps a writer
+    /// from replacing them.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 
-    /// What is wrong with the program of a knit; these are among the [`remarks`](Design::remarks),
-    /// too.
+    /// The faults of the program of a weft knit. The [`remarks`](Design::remarks) have them as
+    /// well.
     #[must_use]
     pub fn faults(&self) -> &[MachineFault] {
         &self.faults
@@ -200,10 +200,10 @@ impl Design {
         self.knitted_from.as_ref().map(|from| from.program_place(source))
     }
 
-    /// A place on one of `yarns`, the design's own, settled or not, in a designer's words: thread
-    /// and crossing or stitch, yarn, and what told a machine to make it.
+    /// A place on one of `yarns` in a designer's words: thread, crossing or stitch, material, and
+    /// place in the knitting program. `yarns` are the design's own, settled or not.
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** where `place` is past the last yarn.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -235,21 +235,21 @@ impl Design {
         }
     }
 
-    /// What the reader had to assume or leave out.
+    /// Remarks of the reader: what it had to assume or leave out.
     #[must_use]
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }
 
-    /// What a designer should know: the reader's [`remarks`](Design::remarks), and what the fabric
-    /// lacks as its structure puts its yarns ([`Structure::warnings`]).
+    /// What a designer should know: the reader's [`remarks`](Design::remarks), and the faults of
+    /// the structure as placed ([`Structure::warnings`]).
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.structure.warnings();
         self.remarks.iter().cloned().chain(warnings.iter().map(ToString::to_string)).collect()
     }
 
-    /// The yarns of the fabric: [`Structure::yarns`].
+    /// The yarns of the structure as it places them: [`Structure::yarns`].
     ///
     /// **Errors**: [`FabricError`] where the structure can't be made.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {

@@ -1,4 +1,4 @@
-//! What can be wrong with a design.
+//! Errors of reading designs and saved yarns.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -26,17 +26,17 @@ impl FilePlace {
     }
 }
 
-/// Characters of a text from a file that an error shows.
+/// The most characters of a file's text that an error shows.
 const SHOWN: usize = 60;
 
-/// Characters of what a parser or decoder says that an error shows.
+/// The most characters of a parser's or decoder's message that an error shows.
 const SAID: usize = 160;
 
-/// Characters of a path that an error shows.
+/// The most characters of a path that an error shows.
 const PATH_SHOWN: usize = 160;
 
-/// A file's text as errors show it: on one line, without codes that would steer a terminal, cut
-/// where it is long.
+/// A file's text as errors show it: on one line, without codes that steer a terminal, cut where it
+/// is long.
 pub(super) fn shown(text: &str) -> String {
     cut(text, SHOWN)
 }
@@ -48,13 +48,13 @@ fn cut(text: &str, most: usize) -> String {
     plain(text) + if rest.is_empty() { "" } else { "…" }
 }
 
-/// What a parser or decoder says, as errors show it: on one line, cut where it is long.
+/// A parser's or decoder's message as errors show it: on one line, cut where it is long.
 pub(super) fn said(message: &str) -> String {
     let words = message.split_whitespace().collect::<Vec<_>>().join(" ");
     cut(&plain(&words), SAID)
 }
 
-/// A path as errors show it; of a long one the end, which says most.
+/// A path as errors show it. A long path is cut at its start, because its end says most.
 pub(super) fn named(path: &Path) -> String {
     let path = path.to_string_lossy();
     let start = path.char_indices().rev().nth(PATH_SHOWN).map_or(0, |(start, _)| start);
@@ -75,7 +75,8 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// What an error adds where a text has a sign that looks like a hyphen or a minus and is none.
+/// A note for errors about a text with a sign that looks like a hyphen or a minus and is neither.
+/// Empty for other texts.
 pub(super) fn no_hyphen(text: &str) -> String {
     let sign = hyphen_look_alike(text);
     sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
@@ -89,12 +90,12 @@ pub(super) fn first_few(names: impl ExactSizeIterator<Item = String>) -> String 
     if more > 0 { format!("{few} and {more} more") } else { few }
 }
 
-/// A word in quotes; that there is none, where it is empty.
+/// A word in quotes, or a note that the line ends where the word is empty.
 fn quoted(word: &str) -> String {
     if word.is_empty() { "the line ends".into() } else { format!("\"{word}\"") }
 }
 
-/// A number as a person writes it: with an exponent where it would have many zeros.
+/// A number as people write it: with an exponent where it would have many zeros.
 struct Short(f64);
 
 impl fmt::Display for Short {
@@ -123,7 +124,7 @@ pub enum ReadError {
     Feature {
         /// The file.
         file: PathBuf,
-        /// What the file is.
+        /// The kind of file.
         what: &'static str,
         /// The feature that reads it.
         feature: &'static str,
@@ -133,18 +134,18 @@ pub enum ReadError {
     Io {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: std::io::Error,
     },
-    /// It is no regular file, but a folder, a pipe or a device. Nothing was read from it.
+    /// The path is no regular file, but a folder, a pipe or a device. Nothing was read from it.
     #[error("{} is {kind}, not a file", named(.file))]
     NotAFile {
         /// The path.
         file: PathBuf,
-        /// What it is.
+        /// The kind of file at the path.
         kind: &'static str,
     },
-    /// Memory could not be had.
+    /// There was too little memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
     /// The file is larger than any design of its kind.
@@ -152,17 +153,17 @@ pub enum ReadError {
     TooLarge {
         /// The file.
         file: PathBuf,
-        /// Its size.
+        /// The size of the file, bytes.
         bytes: u64,
-        /// Most bytes taken.
+        /// The most bytes that are taken.
         limit: u64,
     },
-    /// The file's ending is none that texere knows.
+    /// texere does not know the file's ending.
     #[error("{} is of no known kind; known endings: {known}", named(.file))]
     UnknownKind {
         /// The file.
         file: PathBuf,
-        /// Endings that would do.
+        /// The endings that texere knows.
         known: &'static str,
     },
     /// A section that the design needs is missing or empty.
@@ -185,37 +186,37 @@ pub enum ReadError {
         /// Why it is needed.
         needed_for: &'static str,
     },
-    /// A value that is not of the kind expected.
+    /// A value that is not of the expected kind.
     #[error("{place} is \"{value}\", expected {expected}")]
     BadValue {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// What it is.
+        /// The value.
         value: String,
-        /// What it should be.
+        /// What the value should be.
         expected: String,
     },
     /// A number outside its limits.
     #[error("{place} is {}, outside {} to {}", Short(*.value), Short(*.low), Short(*.high))]
     OutOfRange {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// What it is.
+        /// The value.
         value: f64,
-        /// Least allowed.
+        /// The least allowed value.
         low: f64,
-        /// Most allowed.
+        /// The greatest allowed value.
         high: f64,
     },
     /// A key that texere does not know.
     #[error("{place} is not known{}", .nearest.as_ref().map(|key| format!("; did you mean \"{key}\"?")).unwrap_or_default())]
     UnknownKey {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
         /// The known key nearest to it in spelling.
         nearest: Option<String>,
     },
-    /// Two keys of which only one can be meant, or none of those of which one is needed.
+    /// A design has to have exactly one of some keys, and has none of them or several.
     #[error("{}: give exactly one of {keys}", named(.file))]
     ExactlyOne {
         /// The file.
@@ -230,10 +231,10 @@ pub enum ReadError {
         file: PathBuf,
         /// The line, from 1.
         line: usize,
-        /// What the parser says.
+        /// The message of the parser.
         message: String,
     },
-    /// A word of a line that the file's format does not allow there.
+    /// A word that the file's format does not allow at its place in a line.
     #[error("{}, line {line}, column {column}: {}, expected {expected}", named(.file), quoted(.value))]
     Word {
         /// The file.
@@ -244,63 +245,63 @@ pub enum ReadError {
         column: usize,
         /// The word; empty where the line ends too early.
         value: String,
-        /// What should stand there.
+        /// What the format allows there.
         expected: String,
     },
-    /// A value that the file's format does not allow there.
+    /// A value that the file's format does not allow for its key.
     #[error("{place}: {message}")]
     Value {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// What the parser says.
+        /// The message of the parser.
         message: String,
     },
-    /// A key that says nothing without another one.
+    /// A key that has no meaning without another one.
     #[error("{place} is given without {needs}, which it belongs to")]
     Without {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// The key that it belongs to.
+        /// The key that it needs.
         needs: &'static str,
     },
-    /// A weave that is none.
+    /// A notation that stands for no weave.
     #[error("{place} is no weave")]
     Weave {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// Why.
+        /// The reason.
         source: WovenError,
     },
     /// A chart that can't be knitted.
     #[error("{place} is no chart")]
     Chart {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// Why.
+        /// The reason.
         source: ChartError,
     },
     /// An operation of a knitting program that no machine takes.
     #[error("{place} can't be knitted")]
     Operation {
-        /// Where: a line of a file, or a cell of a chart.
+        /// The place: a line of a file, or a cell of a chart.
         place: String,
-        /// Why.
+        /// The reason.
         source: FabricError,
     },
     /// A chain of a guide bar that can't be read.
     #[error("{place} is no chain")]
     Chain {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// Why, with the column.
+        /// The reason, with the column.
         source: ChainError,
     },
-    /// A file that the design names can't be taken.
+    /// A file that the design names is refused.
     #[error("{place} can't be taken")]
     Named {
-        /// Where it is named.
+        /// The key that names the file.
         place: FilePlace,
-        /// What is wrong with it.
+        /// The error of the file.
         source: Box<ReadError>,
     },
     /// A file that can't be decoded as an image.
@@ -308,10 +309,10 @@ pub enum ReadError {
     Image {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// An image larger than any cloth that is taken. No memory was taken for it.
+    /// An image larger than the largest cloth. No memory was taken for it.
     #[error(
         "{} is {width} × {height} pixels; each side may have {side_limit} at most, and both together {limit}",
         named(.file)
@@ -328,7 +329,7 @@ pub enum ReadError {
         /// Most pixels of the image.
         limit: u64,
     },
-    /// A pixel of a colour that stands for nothing.
+    /// A pixel of a colour without a meaning.
     #[error("{}, column {column}, row {row} from the top left: colour {color}, expected {expected}", named(.file))]
     Pixel {
         /// The image.
@@ -337,26 +338,26 @@ pub enum ReadError {
         column: usize,
         /// Its row, from 1 at the top.
         row: usize,
-        /// Its colour: #rrggbb, and how far it is transparent where it is not opaque.
+        /// Its colour: #rrggbb, and its opacity where it is not opaque.
         color: String,
-        /// What would do.
+        /// What the pixel should be.
         expected: String,
     },
-    /// A corner of a polygon at which its outline faces nowhere: it is too small for its edges to
-    /// have a direction, or its two edges point opposite ways.
+    /// A corner of a polygon at which the outline faces nowhere. The corner's edges are too short
+    /// to have a direction, or they point opposite ways.
     #[error("{place}: the outline faces nowhere at corner {corner}; it is too small or too sharp there")]
     Corner {
-        /// Where the polygon stands.
+        /// The place of the polygon in the file.
         place: FilePlace,
         /// The corner, from 1.
         corner: usize,
     },
-    /// A section whose numbers are not sound.
+    /// A section with numbers out of range.
     #[error("{place} is no section")]
     Section {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// Why.
+        /// The reason.
         source: SectionError,
     },
     /// The cloth that a key of the design asks for can't be made.
@@ -364,44 +365,44 @@ pub enum ReadError {
     Cloth {
         /// The key.
         place: FilePlace,
-        /// Why.
+        /// The reason.
         source: FabricError,
     },
-    /// Yarns that were saved without the design that they are of, where a design is needed.
-    /// [`read::yarns`](fn@crate::read::yarns) reads them.
+    /// A file of saved yarns where a design is needed. [`read::yarns`](fn@crate::read::yarns) reads
+    /// it.
     #[error("{} holds saved yarns alone, and this needs the design that they are of", named(.file))]
     WithoutDesign {
         /// The file.
         file: PathBuf,
     },
-    /// A value of a binary file that its format does not have there.
+    /// A value that the format of a binary file does not allow at its place.
     #[error("{}, byte {at}: {field} is {value}, expected {expected}", named(.file))]
     Bytes {
         /// The file.
         file: PathBuf,
         /// The byte at which the value begins, from 0.
         at: u64,
-        /// What stands there.
+        /// The field of the format.
         field: &'static str,
-        /// What it is.
+        /// The value.
         value: String,
-        /// What it should be.
+        /// What the value should be.
         expected: String,
     },
-    /// Saved yarns that no yarns can be.
+    /// Saved yarns with values that yarns can't have.
     #[error("{} holds no sound yarns", named(.file))]
     Yarns {
         /// The file.
         file: PathBuf,
-        /// Why, with the yarn, the point, the value and its limits.
+        /// The reason, with the yarn, the point, the value and its limits.
         source: YarnError,
     },
-    /// Saved yarns that go on as no yarns can.
+    /// Saved yarns with a boundary that yarns can't have.
     #[error("{} holds no sound boundary", named(.file))]
     Boundary {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: BoundaryError,
     },
     /// The structure that the design describes can't be made.
@@ -409,14 +410,13 @@ pub enum ReadError {
     Fabric {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: FabricError,
     },
 }
 
 impl ReadError {
-    /// What is wrong at the bottom of it: the error of the file that a design names, or else this
-    /// one.
+    /// The error at the root: the error of the file that a design names, or else this one.
     ///
     /// ```
     /// use texere_formats::{ReadError, read};
@@ -431,8 +431,8 @@ impl ReadError {
         }
     }
 
-    /// What a fabric refused of the design in `file`. Memory that is short has nothing to do with
-    /// the design.
+    /// The refusal of the design in `file` by its structure. A lack of memory stays
+    /// [`ReadError::OutOfMemory`], for the design is not at fault.
     pub(super) fn fabric(file: &Path, source: FabricError) -> Self {
         match source {
             FabricError::OutOfMemory(error) => Self::OutOfMemory(error),
@@ -440,8 +440,8 @@ impl ReadError {
         }
     }
 
-    /// This error of a file that the design names at `place`. Memory that is short has nothing to
-    /// do with the file.
+    /// Adds the `place` in the design that names the file of this error. A lack of memory stays
+    /// [`ReadError::OutOfMemory`], for the file is not at fault.
     pub(super) fn named(self, place: FilePlace) -> Self {
         match self {
             Self::OutOfMemory(_) => self,

@@ -1,5 +1,5 @@
-//! Files as readers get them: regular ones of a disk, or bytes that a program has. None is larger
-//! than any design of its kind.
+//! Files as readers get them: regular files on a disk, or bytes that a program has in memory. Each
+//! kind of file has a largest size.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::Read;
@@ -9,25 +9,25 @@ use texere_core::OutOfMemory;
 
 use super::ReadError;
 
-/// A file of a design, from its start on.
+/// A file of a design, to be read from its start.
 #[derive(Debug)]
 pub(super) enum Opened {
-    /// One of a disk.
+    /// A file on a disk.
     File(File),
-    /// One that a program has in memory.
+    /// The bytes of a file that a program has in memory.
     Bytes(Vec<u8>),
 }
 
-/// What opens the file of a path, which may have so many bytes at most. The first that it is asked
-/// for is the design's own, all others are those that the design names.
+/// Opens the file at a path. The number is the most bytes that the file may have. The first call is
+/// for the design's own file, all others are for files that the design names.
 pub(super) type Files<'a> = dyn Fn(&Path, u64) -> Result<Opened, ReadError> + 'a;
 
-/// Opens a regular file of at most `limit` bytes. Reading a pipe that nothing writes to would never
-/// return, and a device has no end.
+/// Opens a regular file of at most `limit` bytes. Other kinds of files are refused: a pipe that
+/// nothing writes to would block for ever, and a device has no end.
 pub(super) fn open(path: &Path, limit: u64) -> Result<Opened, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
-    // Before it is opened, as opening alone can do something to a device. After it, as the name may
-    // stand for another file by then.
+    // The check comes before the open, because opening alone can act on a device. It comes again
+    // after the open, because the name may stand for another file by then.
     regular(path, &std::fs::metadata(path).map_err(io)?, limit)?;
     let file = options().open(path).map_err(io)?;
     regular(path, &file.metadata().map_err(io)?, limit)?;
@@ -47,7 +47,7 @@ pub(super) fn bytes_of(files: &Files<'_>, path: &Path, limit: u64) -> Result<Vec
         Opened::File(file) => file,
     };
     let mut bytes = Vec::new();
-    // One byte more than the limit shows that the file has grown since.
+    // A byte beyond the limit shows that the file has grown since it was opened.
     let count = file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| match source.kind() {
         std::io::ErrorKind::OutOfMemory => {
             ReadError::OutOfMemory(OutOfMemory { what: "a design's file", bytes: bytes.len() as u64 })
@@ -65,7 +65,7 @@ fn regular(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), ReadError
     small(path, metadata.len(), limit)
 }
 
-/// Checks that a file of so many bytes has at most `limit`.
+/// Checks that a file of `bytes` has at most `limit`.
 pub(super) fn small(path: &Path, bytes: u64, limit: u64) -> Result<(), ReadError> {
     if bytes > limit {
         return Err(ReadError::TooLarge { file: path.into(), bytes, limit });
@@ -77,7 +77,7 @@ pub(super) fn small(path: &Path, bytes: u64, limit: u64) -> Result<(), ReadError
 fn options() -> OpenOptions {
     use std::os::unix::fs::OpenOptionsExt;
     let mut options = File::options();
-    // Opening a pipe then does not wait either, should one have taken the file's place.
+    // With this flag the open does not block either where a pipe has taken the file's place.
     options.read(true).custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
     options
 }
@@ -89,7 +89,7 @@ fn options() -> OpenOptions {
     options
 }
 
-/// What it is that is no regular file.
+/// The kind of a file that is not a regular one.
 fn kind(metadata: &Metadata) -> &'static str {
     #[cfg(unix)]
     {

@@ -1,5 +1,5 @@
-//! Where a design says what an error of its cloth is about: structures and settlings know threads,
-//! bars and sizes, and a file has keys and lines for these.
+//! From an error of a cloth to the key of its design. Structures and settlers name threads, bars
+//! and sizes in their errors. A file has keys and lines for these.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,8 @@ use texere_fabric::FinishError;
 
 use super::{FilePlace, ReadError};
 
-/// What says how large a cloth is, and what it is made of, the first that a file has.
+/// Keys that say how large a cloth is. For this list and the lists below, an error names the first
+/// key that the file has.
 const SIZE: &[&str] = &[
     "weave.ends",
     "weave.picks",
@@ -55,9 +56,9 @@ const LOOPS: &[&str] = &[
     "knit.knitout",
     GAUGE,
 ];
-/// What of a yarn says how thick it is.
+/// Keys of a yarn that say how thick it is.
 const THICKNESS: &[&str] = &["diameter_mm", "tex", "cotton_count"];
-/// The tables of structures themselves.
+/// The tables of structures.
 const TABLES: &[&str] = &["weave", "knit", "warp_knit"];
 /// The header of a knitout file that says how close needles lie.
 pub(super) const GAUGE: &str = ";;Gauge";
@@ -67,26 +68,26 @@ pub(super) const GAUGE: &str = ";;Gauge";
 pub(super) struct Keys {
     pub(super) file: PathBuf,
     pub(super) lines: Vec<(String, usize)>,
-    /// Sections of a WIF draft with a line for each thread, as `WARP SPACING`: the numbers of
-    /// threads, rising, and their lines.
+    /// Sections of a WIF draft with a line for each thread, such as `WARP SPACING`: the numbers of
+    /// threads, sorted, and their lines.
     pub(super) numbered: Vec<(String, Vec<(u32, usize)>)>,
-    /// The operation of a knitout file that each carrier is in first, and its line.
+    /// The first operation of each carrier in a knitout file, and its line.
     pub(super) carriers: Vec<(Origin, String, usize)>,
-    /// The last operation of a knitout file that makes a loop, and its line: by there its cloth has
-    /// grown so large.
+    /// The last operation of a knitout file that makes a loop, and its line. Errors of the cloth's
+    /// size name it.
     pub(super) last: Option<(String, usize)>,
     /// The keys of the draft that the design names.
     pub(super) named: Option<Box<Self>>,
 }
 
 impl Keys {
-    /// The file, as far as anything is known of it.
+    /// The path of the file. None where the keys are of no file.
     pub(super) fn file(&self) -> Option<&Path> {
         (!self.file.as_os_str().is_empty()).then_some(&*self.file)
     }
 
-    /// Where the file says what an error is about; `yarn` names the yarn of a thread. None of what
-    /// no key says.
+    /// The place in the file that an error is about. `yarn` gives the name of a thread's yarn. None
+    /// where no key is about it.
     pub(super) fn place(
         &self,
         error: &FinishError,
@@ -106,7 +107,7 @@ impl Keys {
         found.next().or_else(|| self.first(TABLES))
     }
 
-    /// What came of a file, where it was refused for its cloth with the place that says so.
+    /// Adds the place in the file to an error of the cloth.
     pub(super) fn placed<T>(&self, read: Result<T, ReadError>) -> Result<T, ReadError> {
         read.map_err(|error| match error {
             ReadError::Fabric { file, source } if file == self.file => {
@@ -119,7 +120,7 @@ impl Keys {
         })
     }
 
-    /// Where the file says that.
+    /// The place in this file that says `subject`.
     fn of(&self, subject: Subject, yarn: &impl Fn(Origin) -> Option<String>) -> Option<FilePlace> {
         let bar = |bar, key| self.line(&format!("warp_knit.bars, bar {bar}: {key}"));
         let yarn = |thread, keys| self.yarn(thread, yarn(thread), keys);
@@ -174,7 +175,7 @@ impl Keys {
         self.last.as_ref().map(|(operation, line)| FilePlace::new(&self.file, *line, operation))
     }
 
-    /// How close the threads of `warp` or `weft` lie.
+    /// The place of the spacing of a thread of `warp` or `weft`.
     fn spacings(&self, set: &str) -> Option<FilePlace> {
         let own = ["spacing_mm", "per_cm", "per_inch"];
         let own = own.iter().find_map(|key| self.line(&format!("{set}.{key}")));
@@ -188,7 +189,8 @@ impl Keys {
         self.numbered("SPACING", thread).or_else(|| self.spacings(set))
     }
 
-    /// How thick a WIF draft has a thread: where it does not say, that comes from spacings.
+    /// The place of a thread's thickness in a WIF draft. Where there is none, the thickness comes
+    /// from spacings.
     fn thickness(&self, thread: Origin) -> Option<FilePlace> {
         let set = if matches!(thread, Origin::Pick(_)) { "WEFT" } else { "WARP" };
         self.numbered("THICKNESS", thread)
@@ -196,7 +198,7 @@ impl Keys {
             .or_else(|| self.spacing(thread).filter(|_| self.line("[WARP] threads").is_some()))
     }
 
-    /// The line of a WIF draft that says `what` of a thread.
+    /// The line of a WIF draft that gives a thread's `what`, its spacing or its thickness.
     fn numbered(&self, what: &str, thread: Origin) -> Option<FilePlace> {
         let (set, number) = match thread {
             Origin::End(number) => ("WARP", number),
@@ -209,7 +211,7 @@ impl Keys {
         Some(FilePlace::new(&self.file, threads[found].1, &format!("[{section}] {number}")))
     }
 
-    /// The first of `keys` of the yarn that a thread has, or else what threads it.
+    /// The first of `keys` that the thread's yarn has, or else the key that threads the yarn.
     fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<FilePlace> {
         let only = || {
             let own =
@@ -241,7 +243,7 @@ mod tests {
 
     use super::*;
 
-    /// All keys that structures are made from, each in a line of its own.
+    /// All keys that structures are made from, each on a line of its own.
     fn keys() -> Keys {
         let all = "weave weave.notation weave.ends knit knit.chart knit.repeat knit.yarns knit.wales_per_cm \
                    knit.courses_per_cm knit.loop_length_mm warp_knit warp_knit.wales warp_knit.courses warp_knit.bars \
@@ -469,7 +471,7 @@ mod tests {
             let place = keys.place(&error, |_| Some("a".into()));
             assert_eq!(place, Some(FilePlace::new(&keys.file, line, key)), "{error}");
         }
-        // Calls that do not fit a cloth are no fault of its design.
+        // A call that does not fit a cloth is no fault of its design.
         for error in [
             FabricError::Cancelled,
             FabricError::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }),

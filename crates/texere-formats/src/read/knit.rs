@@ -1,5 +1,4 @@
-//! From a knitting program to a design: what the machine makes of it, and where its operations come
-//! from.
+//! From a knitting program to a design: the machine knits the program, and its faults are listed.
 
 use std::mem::{Discriminant, discriminant};
 use std::path::Path;
@@ -19,7 +18,7 @@ use super::{Design, ReadError};
 /// How many faults of each kind are listed.
 const FAULTS_LISTED: usize = 3;
 
-/// What a knit is beside its program.
+/// A weft knit without its program.
 #[derive(Debug)]
 pub(super) struct Knit {
     pub(super) gauge: Gauge,
@@ -29,13 +28,13 @@ pub(super) struct Knit {
     pub(super) sections: Vec<Section>,
     pub(super) copies: [u32; 2],
     pub(super) cells: Cells,
-    /// How many needles a yarn may float past, where the design says so.
+    /// The most needles that a yarn may float past, where the design says so.
     pub(super) float_max: Option<u32>,
 }
 
 impl Knit {
-    /// The yarns of carriers, with the materials and sections that they have. `compression` is what
-    /// is left of their diameters.
+    /// The yarns of carriers, with their materials and sections. `compression` is the share of its
+    /// diameter that a yarn keeps.
     pub(super) fn yarns_of(
         mut threads: Vec<Thread>,
         compression: f64,
@@ -52,7 +51,8 @@ impl Knit {
         (threads.iter().map(yarn).collect(), materials, sections)
     }
 
-    /// Runs the program and makes a design of what comes of it. `file` is the design's own.
+    /// Knits the program on a machine, and makes a design of the stitches. `file` is the design's
+    /// own.
     pub(super) fn design(
         self,
         file: &Path,
@@ -99,8 +99,7 @@ impl Knit {
     }
 }
 
-/// The faults of a program as a designer reads them, the first few of each kind, and how many more
-/// there are.
+/// The first few faults of each kind as a designer reads them, and the number of those left out.
 fn listed(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
     let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
     let mut faults = Vec::new();

@@ -8,18 +8,18 @@ use super::FilePlace;
 use super::error::named;
 use super::program_place::ProgramPlace;
 
-/// What the sources of a program's operations are.
+/// What the sources of a program's operations stand for.
 #[derive(Debug, Clone)]
 pub(super) enum Drawn {
     /// Lines of a file, from 1.
     Lines { file: PathBuf },
-    /// Cells of a chart, row by row from the bottom, both from 0. In an image the bottom row may be
-    /// the top one.
+    /// Cells of a chart, row by row. Rows and columns are counted from 0, rows from the bottom;
+    /// where the chart is `upside_down`, from the top.
     Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
 }
 
 impl Drawn {
-    /// A source as a designer finds it.
+    /// The line or cell of a source, in a designer's words.
     pub(super) fn place(&self, source: u32) -> String {
         match self {
             Self::Lines { file } => format!("{}, line {source}", named(file)),
@@ -32,7 +32,7 @@ impl Drawn {
     }
 }
 
-/// A program and where its operations come from.
+/// A program, and the file or chart of its operations.
 #[derive(Debug, Clone)]
 pub(super) struct KnittedFrom {
     pub(super) drawn: Drawn,
@@ -40,7 +40,8 @@ pub(super) struct KnittedFrom {
 }
 
 impl KnittedFrom {
-    /// The line of a knitout file that a source is. None of a chart, which errors name as a whole.
+    /// The line of a knitout file that a source stands for. None for a chart, for errors name a
+    /// chart as a whole.
     pub(super) fn line(&self, source: u32) -> Option<FilePlace> {
         let Drawn::Lines { file } = &self.drawn else { return None };
         Some(FilePlace::new(file, source as usize, &self.program_place(source).instructions.join("; ")))

@@ -1,6 +1,7 @@
 //! Faults of a knitting program.
 
-/// What a knitting machine could not do, or a knitter would not want it to do.
+/// A fault of a knitting program: a thing that a machine can't do, or that a knitter would not want
+/// it to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MachineFault {
     /// The place in the program, and the fault.

@@ -52,8 +52,8 @@ pub(crate) use wif::{
 /// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine
 /// (knitout, `.k`, feature `knitout`), or texere's own design file (`.toml`, feature `toml`).
 ///
-/// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply;
-/// [`ReadError::Feature`] for a kind of file that this build was made without.
+/// **Errors**: [`ReadError`]. It names file, line, field, value and limit as far as they apply. A
+/// kind of file that this build was made without is [`ReadError::Feature`].
 pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     let opened = RefCell::new(Vec::new());
     let design = by_ending(path.as_ref(), &|path, limit| {
@@ -65,15 +65,15 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
 }
 
 /// Reads a design that a program has in memory, such as a buffer of an editor or a row of a
-/// database. `name` says by its ending what kind of design `bytes` are, as a path does for
-/// [`read`], and errors call the design by it.
+/// database. The ending of `name` says what kind of design `bytes` are. Errors call the design by
+/// `name`.
 ///
 /// `files` gives the bytes of a file that the design names: a picture, a WIF draft or a knitting
-/// program. It is asked by the path of that file beside `name`: by `looms/twill.wif` where
-/// `looms/cloth.toml` names `twill.wif`. No file of a disk is opened.
+/// program. It gets the path of that file beside `name`. For example, where `looms/cloth.toml`
+/// names `twill.wif`, it gets `looms/twill.wif`. No file on a disk is opened.
 ///
-/// **Errors**: those of [`read`]. What `files` refuses is [`ReadError::Io`] with the path that it
-/// was asked for. What it gives is taken up to the size that files of its kind may have.
+/// **Errors**: the errors of [`read`]. A refusal by `files` is [`ReadError::Io`] with the path.
+/// Bytes beyond the limit for files of their kind are [`ReadError::TooLarge`].
 ///
 /// ```
 /// use std::io::{Error, ErrorKind};

@@ -8,36 +8,35 @@ use texere_core::backend::room;
 use super::file::Files;
 use super::{ReadError, image_file};
 
-/// The most colours of a point paper: as many as a byte can number, and far more than a weaver
-/// uses.
+/// The most colours of a point paper. A byte can number them, and a weaver uses far fewer.
 const COLORS_MAX: usize = 256;
 
 /// A pixel that is wholly transparent.
 const NOTHING: [u8; 4] = [0; 4];
 
-/// Which pick the first (top) row of an image is.
+/// The pick that the top row of an image stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RowOrder {
-    /// As a weaver draws: the first pick at the bottom.
+    /// The first pick is at the bottom, as weavers draw.
     #[default]
     LastPickFirst,
     FirstPickFirst,
 }
 
-/// An image, read: a colour for each crossing.
+/// Point paper, read: a colour for each crossing.
 #[derive(Debug)]
 pub(super) struct PointPaper {
     pub(super) file: PathBuf,
     pub(super) ends: usize,
     pub(super) picks: usize,
-    /// The colours, in the order in which they come in the image, row by row from the top.
+    /// The colours in the order of their first pixels, row by row from the top.
     pub(super) colors: Vec<PaperColor>,
-    /// Numbers of colours, row by row from the top.
+    /// The number of each pixel's colour, row by row from the top.
     pixels: Vec<u8>,
     rows: RowOrder,
 }
 
-/// A colour of a point paper and the first pixel that has it.
+/// A colour of a point paper, and the place of its first pixel, from 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PaperColor {
     rgba: [u8; 4],
@@ -53,7 +52,7 @@ impl PointPaper {
         let mut colors = Vec::new();
         let mut pixels = room("the pixels of an image", ends * picks)?;
         for (place, rgba) in image.pixels().enumerate() {
-            // What is wholly transparent looks alike, whatever colour hides there.
+            // Wholly transparent pixels look alike, so their hidden colours do not count.
             let rgba = if rgba[3] == 0 { NOTHING } else { rgba };
             if let Some(&number) = numbers.get(&rgba) {
                 pixels.push(number);
@@ -76,8 +75,8 @@ impl PointPaper {
         Ok(Self { file: path.into(), ends, picks, colors, pixels, rows })
     }
 
-    /// Which of `colors` stands where `end` and `pick` of an endless cloth of this paper cross,
-    /// both from 0.
+    /// The number of the colour at the crossing of `end` and `pick`, both from 0, of an endless
+    /// cloth of this paper.
     pub(super) fn color(&self, end: usize, pick: usize) -> usize {
         let (end, pick) = (end % self.ends, pick % self.picks);
         let row = match self.rows {
@@ -87,27 +86,27 @@ impl PointPaper {
         self.pixels[row * self.ends + end].into()
     }
 
-    /// Which of its two colours, one of them darker, is the darker one.
+    /// The number of the darker one of its two colours.
     pub(super) fn darker(&self) -> Result<usize, ReadError> {
         let expected =
             "two colours, the darker of which is warp up; more of them need a table [weave.colors]";
         match self.colors[..] {
             [first, second] if first.luma() != second.luma() => Ok(usize::from(second.luma() < first.luma())),
             [_, _, odd, ..] | [.., odd] => Err(odd.refused(&self.file, expected.into())),
-            // No image has no pixel.
+            // Every image has a pixel.
             [] => Ok(0),
         }
     }
 }
 
 impl PaperColor {
-    /// Its `[red, green, blue]`; `None` where it is not opaque.
+    /// The colour's `[red, green, blue]`; `None` where it is not opaque.
     pub(super) fn rgb(&self) -> Option<[u8; 3]> {
         let [red, green, blue, alpha] = self.rgba;
         (alpha == u8::MAX).then_some([red, green, blue])
     }
 
-    /// The refusal of its first pixel.
+    /// The refusal of the colour's first pixel.
     pub(super) fn refused(&self, file: &Path, expected: String) -> ReadError {
         let [red, green, blue, alpha] = self.rgba;
         let opacity = match alpha {
@@ -124,8 +123,8 @@ impl PaperColor {
         }
     }
 
-    /// How light it looks, by the weights of ITU-R BT.601, in thousandths. Where nothing is, it is
-    /// lighter than anything.
+    /// How light the colour looks, by the weights of ITU-R BT.601, in thousandths. A transparent
+    /// pixel counts as lighter than any colour.
     fn luma(&self) -> u32 {
         if self.rgba == NOTHING {
             return u32::MAX;

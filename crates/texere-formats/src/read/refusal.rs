@@ -1,4 +1,4 @@
-//! What comes of a design that was read, but whose cloth can't be made or can't come to rest.
+//! Refusals of cloth that can't be made, or can't come to rest, though its design was read.
 
 use std::path::PathBuf;
 
@@ -13,31 +13,32 @@ use super::error::named;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// A key of the design file.
+    /// A key of the design file asks for the cloth.
     #[error("{place} asks for cloth that can't be made")]
     Key {
-        /// Where.
+        /// The place in the file.
         place: FilePlace,
-        /// Why.
+        /// The reason.
         source: FinishError,
     },
-    /// The design, where no single key says it.
+    /// The design asks for the cloth, but no single key does.
     #[error("{} asks for cloth that can't be made", named(.file))]
     File {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: FinishError,
     },
-    /// Memory, a device, a setting of the mesh, somebody who asked to stop, a call that does not
-    /// fit: no fault of the design. Or the design is of no file.
+    /// The fault is not the design's: too little memory, a device that failed, a setting of the
+    /// mesh, a request to stop, or a call that does not fit. Designs without a file have this
+    /// refusal as well.
     #[error(transparent)]
     Other(#[from] FinishError),
 }
 
 impl Refusal {
-    /// Why, in one line, with the place that asks for it where a key does: for a cloth that is
-    /// there all the same.
+    /// The reason in one line, with the key that asks for the cloth where there is one. It is meant
+    /// for cloth that is shown all the same.
     #[must_use]
     pub fn why(&self) -> String {
         match self {

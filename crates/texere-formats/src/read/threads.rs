@@ -1,12 +1,12 @@
-//! What the threads of a design share.
+//! The materials and sections that the threads of a design share.
 
 use std::collections::HashMap;
 
 use texere_core::{Material, Section};
 use texere_fabric::Thread;
 
-/// The materials and sections that `threads` have, in their order and each section once, and the
-/// threads with their numbers. What no thread has is left out.
+/// Leaves out the materials and sections that no thread has, and gives `threads` the new numbers.
+/// Materials and sections keep their order. Equal sections become one.
 pub(super) fn only_used(
     threads: [&mut [Thread]; 2],
     materials: &[Material],

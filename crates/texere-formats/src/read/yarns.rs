@@ -1,4 +1,4 @@
-//! Yarns that were saved, to the bit.
+//! Reads `.yarns` files: yarns that were saved, equal to the bit.
 
 use std::path::Path;
 
@@ -16,18 +16,19 @@ use crate::yarns_file::{
     bytes_per_point, ends, origin, section,
 };
 
-/// What a `.yarns` file holds.
+/// The contents of a `.yarns` file.
 #[derive(Debug, Clone)]
 pub struct SavedYarns {
     /// The yarns.
     pub yarns: Yarns,
-    /// How they go on beyond a repeat; of yarns that were saved without one, which are closed and
-    /// which open.
+    /// How the yarns go on beyond a repeat. For yarns that were saved without a repeat it says
+    /// which are closed and which are open.
     pub boundary: Boundary,
 }
 
 /// Reads the yarns in a `.yarns` file, which [`write::yarns`](crate::write::yarns) or
-/// [`write::repeat`](crate::write::repeat) has written: equal to the bit to those that were saved.
+/// [`write::repeat`](crate::write::repeat) has written. They are equal to the saved yarns to the
+/// bit.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, has
 /// changed since it was written, or is of another version; [`ReadError::Yarns`] and
@@ -38,9 +39,9 @@ pub fn yarns(path: impl AsRef<Path>) -> Result<SavedYarns, ReadError> {
     yarns_from(path, &bytes_of(&open, path, BYTES_MAX)?)
 }
 
-/// Reads the bytes of a `.yarns` file that a program has in memory. Errors call them `name`.
+/// Reads the bytes of a `.yarns` file that a program has in memory. Errors call the file `name`.
 ///
-/// **Errors**: those of [`yarns`].
+/// **Errors**: the errors of [`yarns`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -93,7 +94,7 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
 }
 
 /// Reads the header up to the file's length, and checks the whole file by it and by its checksum.
-/// Gives the bits that say what follows the control points.
+/// Gives the bits that announce the lists behind the control points.
 fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     let magic: [u8; MAGIC.len()] = bytes.take("the beginning")?;
     if magic != MAGIC {
@@ -114,7 +115,7 @@ fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     Ok(flags)
 }
 
-/// `count` items, each from `next`, where there is memory for them.
+/// A list of `count` items from `next`, where there is memory for it.
 fn list<T>(
     what: &'static str,
     count: usize,
@@ -183,10 +184,10 @@ fn section(bytes: &mut Bytes<'_>) -> Result<Section, ReadError> {
     })
 }
 
-/// What belongs to each yarn.
+/// The table of yarns.
 struct Table {
     yarns: Vec<Yarn>,
-    /// Where each yarn's control points start, and their total last.
+    /// The first control point of each yarn, and the number of all control points last.
     offsets: Vec<u64>,
     ends: Vec<Ends>,
 }
@@ -202,7 +203,7 @@ fn table(bytes: &mut Bytes<'_>, count: usize, point_bytes: u64) -> Result<Table,
     let mut total = 0;
     for _ in 0..count {
         let (at, points) = (bytes.at(), bytes.long("the number of control points of a yarn")?);
-        // No sum of counts that the file has room for comes near the limit of 64 bits.
+        // The sum fits: the file has no room for counts that come near 64 bits.
         total += bytes.room_for(at, "the number of control points of a yarn", points, point_bytes)? as u64;
         table.offsets.push(total);
         let (material, section) = (bytes.word("a yarn's material")?, bytes.word("a yarn's section")?);
@@ -262,8 +263,8 @@ fn point(bytes: &mut Bytes<'_>) -> Result<ControlPoint, ReadError> {
     Ok(ControlPoint { x, y, z, halves: cast(halves.map(u16::from_le_bytes)) })
 }
 
-/// The yarns with the up directions that come next. They have length 1 already, so that they stay
-/// as they are.
+/// The yarns with the up directions that come next in the file. These have length 1 already, so
+/// that they keep their bits.
 fn with_ups(
     bytes: &mut Bytes<'_>,
     yarns: Yarns,

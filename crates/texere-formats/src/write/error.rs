@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 use texere_core::{BoundaryError, PipelineError, counted};
 use thiserror::Error;
 
-/// A mesh or a draft that can't be written. After any of these there is no new file, and an old one
-/// is as it was.
+/// Errors of writers. After an error there is no new file, and an old file is as it was.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// The path ends in no extension that stands for a format. Choose one of those named.
+    /// The extension of the path stands for no format. The error names the extensions that do.
     #[error("{} has no known extension; there are: {}", .path.display(), .known)]
     UnknownFormat {
         /// The path.
@@ -27,22 +26,22 @@ pub enum WriteError {
         /// The feature that writes it.
         feature: &'static str,
     },
-    /// The file system refused: no such folder, no permission, no room. A target that is a folder,
-    /// a device, a link that leads nowhere or a file that its user may not write is refused before
-    /// any work is done.
+    /// The file system refused: no such folder, no permission, no room. A target is refused before
+    /// any work is done where it is a folder, a device, a link that leads nowhere, or a file
+    /// without permission to write.
     #[error("can't {action} {}", .path.display())]
     Io {
-        /// What was being done: create, write, rename or look at.
+        /// The action: create, write, rename or look at.
         action: &'static str,
         /// The file that was to be written.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// The caller's writer refused. What it got so far is no whole file.
+    /// The caller's writer refused. The bytes that it got are no whole file.
     #[error("the writer refused")]
     Writer {
-        /// What it said.
+        /// The error of the writer.
         source: io::Error,
     },
     /// The output is a file that must not be replaced, under this name or another.
@@ -50,7 +49,7 @@ pub enum WriteError {
     Spared {
         /// The file that was to be written.
         path: PathBuf,
-        /// The file that it is.
+        /// The file that must not be replaced.
         spared: PathBuf,
     },
     /// The mesh could not be made, or progress asked to stop.
@@ -77,7 +76,7 @@ pub enum WriteError {
         /// The most that the format can have.
         limit: u64,
     },
-    /// The mesh is of a region that nothing lies in.
+    /// The mesh is of a region without yarns.
     #[error("the mesh has no triangles: nothing lies in the box that it is of")]
     Empty,
     /// The mesh has another number of vertices than its plan says.
@@ -88,7 +87,7 @@ pub enum WriteError {
         /// Vertices that should have come.
         planned: u64,
     },
-    /// A vertex with NaN or infinity in it, which would make the file unreadable.
+    /// A vertex has NaN or infinity in it, which would make the file unreadable.
     #[error("vertex {vertex}, of yarn {yarn}, is not finite")]
     NotFinite {
         /// The vertex, from 0 among all.
@@ -96,13 +95,13 @@ pub enum WriteError {
         /// Its yarn, from 0.
         yarn: u32,
     },
-    /// A draft is a PNG picture, and the path ends otherwise.
+    /// The path of a PNG picture does not end in `.png`.
     #[error("{} does not end in .png, as a picture of a draft does", .path.display())]
     NotPng {
         /// The path.
         path: PathBuf,
     },
-    /// A design's file ends in what its format asks for, and the path ends otherwise.
+    /// The path does not end as its format asks.
     #[error("{} does not end in .{expected}", .path.display())]
     NotEnding {
         /// The path.
@@ -110,12 +109,12 @@ pub enum WriteError {
         /// The ending, without its dot.
         expected: &'static str,
     },
-    /// A design, or something of it, that the format has no way to say.
+    /// The format can't hold the design, or a part of it.
     #[error("{format} can't hold {what}")]
     Unheld {
         /// The format.
         format: &'static str,
-        /// What it can't hold.
+        /// The part that the format can't hold.
         what: String,
     },
     /// A number that no reader of the format takes.
@@ -132,7 +131,7 @@ pub enum WriteError {
         /// Most taken.
         high: f64,
     },
-    /// A design that takes a larger file than readers of the format take.
+    /// The file would be larger than readers of the format take.
     #[error("{format} of {bytes} bytes or more; {limit} at most are read")]
     TextTooLarge {
         /// The format.
@@ -170,7 +169,7 @@ pub enum WriteError {
         /// Most squares.
         squares: usize,
     },
-    /// The boundary of a repeat that is another one's.
+    /// The boundary is that of other yarns.
     #[error("the boundary is not that of the yarns")]
     Boundary(#[from] BoundaryError),
     /// A yarn refers to a material that the mesh does not have.
@@ -186,7 +185,7 @@ pub enum WriteError {
 }
 
 impl WriteError {
-    /// The system's refusal to `action` the file at `path`.
+    /// The refusal of the file system to `action` the file at `path`.
     pub(super) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
         Self::Io { action, path: path.to_owned(), source }
     }

@@ -16,7 +16,7 @@ use super::ply::PlyWriter;
 use super::target::Target;
 use super::{Format, WriteError};
 
-/// Starts a file of that format.
+/// Starts a file of `format`.
 fn writer<'a, W: Write + Seek + 'a>(
     format: Format,
     target: Target<W>,
@@ -34,7 +34,7 @@ fn writer<'a, W: Write + Seek + 'a>(
     }
 }
 
-/// A file under way, and how many of its vertices have come.
+/// A mesh file under way, and the number of vertices that have come.
 pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,
     places: Places,
@@ -64,7 +64,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         let mut planned = 0;
         let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
         let writer = writer(format, target, plan, &mut chunks, materials)?;
-        // Those that the format has not asked for count as well.
+        // Chunks that the format has not asked for count as well.
         chunks.for_each(drop);
         if planned < plan.counts().vertices {
             return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
@@ -94,7 +94,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         }
         self.given += vertices.len() as u64;
         let end = first + vertices.len() as u32;
-        // A ring that is repeated comes with the next chunk.
+        // A repeated ring is written with the next chunk.
         let [tubes, rings] =
             [u32::from(chunk.repeats_ring()), 0].map(|left| (chunk.rings() - left) * self.sides);
         for own in [0..tubes, rings..chunk.vertices()] {
@@ -116,7 +116,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         Ok(())
     }
 
-    /// Vertices of all chunks together.
+    /// The number of vertices of all chunks together.
     pub(super) fn planned(&self) -> u64 {
         self.planned
     }

@@ -37,7 +37,7 @@ impl Format {
 
     /// The format that the extension of `path` stands for, in upper or lower case.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], which names those that there are.
+    /// **Errors**: [`WriteError::UnknownFormat`], which names all extensions.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
         let path = path.as_ref();
         let given = path.extension().unwrap_or_default();

@@ -14,16 +14,16 @@ use super::{Format, Output, WriteError};
 pub struct Written {
     /// Bytes of the file.
     pub bytes: u64,
-    /// Vertices in it; a ring that chunks repeat counts once.
+    /// Vertices in the file. A ring that chunks repeat counts once.
     pub vertices: u64,
-    /// Triangles in it.
+    /// Triangles in the file.
     pub triangles: u64,
 }
 
-/// Writes a mesh that lies in memory, in the format that the extension of `output` stands for.
+/// Writes a mesh in memory to a file, in the format that the extension of `output` stands for.
 ///
-/// Triangles are those of the mesh's plan; its `indices` are not read, so that any topology will
-/// do.
+/// The triangles come from the mesh's plan. Its `indices` are not read, so that the mesh may have
+/// any topology.
 ///
 /// **Errors**: [`WriteError`] where the format can't hold the mesh, the mesh is not what its plan
 /// says or not finite, or the file system refuses.
@@ -48,11 +48,11 @@ pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Writes a mesh that lies in memory to `out`, from where that stands: the bytes that
-/// [`mesh`](fn@mesh) writes to a file. Then `out` stands behind the last of them.
+/// Writes a mesh in memory to `out`, from its current position on: the bytes that [`mesh`](fn@mesh)
+/// writes to a file. Then `out` stands behind the last byte.
 ///
-/// **Errors**: those of [`mesh`](fn@mesh), with [`WriteError::Writer`] where `out` refuses. What it
-/// has then is no whole file.
+/// **Errors**: the errors of [`mesh`](fn@mesh), with [`WriteError::Writer`] where `out` refuses.
+/// The bytes that it has then are no whole file.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -97,8 +97,8 @@ fn whole<W: Write + Seek>(
 ///
 /// The pipeline's topology is replaced by [`Topology::Shared`], so that the device writes no index.
 ///
-/// **Errors**: those of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] where the pipeline fails or
-/// its progress asks to stop.
+/// **Errors**: the errors of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] where the pipeline
+/// fails or its progress asks to stop.
 ///
 /// ```
 /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_formats::WriteError> {
@@ -121,11 +121,11 @@ pub fn stream(
     Ok(Written { bytes: target.commit()?, ..written })
 }
 
-/// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from where `out`
-/// stands: the bytes that [`stream`] writes to a file. Then `out` stands behind the last of them.
+/// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from the current
+/// position on: the bytes that [`stream`] writes to a file. Then `out` stands behind the last byte.
 ///
-/// **Errors**: those of [`stream`], with [`WriteError::Writer`] where `out` refuses. What it has
-/// then is no whole file.
+/// **Errors**: the errors of [`stream`], with [`WriteError::Writer`] where `out` refuses. The bytes
+/// that it has then are no whole file.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -150,8 +150,8 @@ pub fn stream_to(
     Ok(Written { bytes: target.close()?, ..written })
 }
 
-/// Runs a pipeline and writes its mesh to the target that `start` gives. How many bytes it has, its
-/// end tells.
+/// Runs a pipeline and writes its mesh to the target that `start` gives. `end` completes the
+/// target, and gives its length in bytes.
 fn streamed<W: Write + Seek>(
     pipeline: Pipeline<'_>,
     device: &dyn Backend,

@@ -1,4 +1,4 @@
-//! What the writers of all formats share.
+//! The trait that the writers of all mesh formats implement.
 
 use std::io::{Seek, Write};
 use std::ops::Range;
@@ -10,31 +10,32 @@ use super::WriteError;
 use super::places::Places;
 use super::target::Target;
 
-/// Vertices that follow one another in a chunk and in the file.
+/// Vertices that follow one another both in a chunk and in the file.
 pub(super) struct Run<'a> {
     pub(super) chunk: &'a Chunk,
-    /// Number of the first in its chunk.
+    /// The number of the first vertex in its chunk.
     pub(super) first: u32,
-    /// Number of the first in the file.
+    /// The number of the first vertex in the file.
     pub(super) place: u64,
     pub(super) vertices: &'a [Vertex],
 }
 
-/// A format's way to write.
+/// A mesh file under way, in some format.
 pub(super) trait MeshWriter<W: Write + Seek> {
-    /// Takes vertices. Each of the file comes once: those of rings in order, and those of caps in
-    /// order.
+    /// Takes vertices. Each vertex of the file comes once. The vertices of rings come in order, and
+    /// so do the vertices of caps.
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError>;
 
-    /// Takes the triangles of `chunk`, whose vertices have come but for a ring that is repeated.
+    /// Takes the triangles of `chunk`. Its vertices have come, except for a ring that the next
+    /// chunk repeats.
     fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError>;
 
     /// Completes the file once everything has come.
     fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
 }
 
-/// Which yarn each of `count` vertices of a chunk from number `first` on belongs to: runs of
-/// places, counted from `first`, in order.
+/// The yarns of `count` vertices of a chunk, from number `first` on. Gives runs of vertices of one
+/// yarn in order, counted from `first`.
 pub(super) fn yarn_runs(
     chunk: &Chunk,
     sides: u32,
@@ -44,7 +45,7 @@ pub(super) fn yarn_runs(
     let end = u64::from(first) + count as u64;
     let tube = move |part: &Part| (part.yarn, part.first_vertex..part.first_vertex + part.rings * sides);
     let cap = move |cap: &Cap| (cap.yarn, cap.first_vertex..cap.first_vertex + sides);
-    // A chunk may hold thousands of parts and be lent in as many pieces.
+    // A chunk may hold thousands of parts, and may come in thousands of pieces.
     let tubes = &chunk.parts()[chunk.parts().partition_point(|part| tube(part).1.end <= first)..];
     let caps = &chunk.caps()[chunk.caps().partition_point(|each| cap(each).1.end <= first)..];
     let runs = tubes.iter().map(tube).chain(caps.iter().map(cap));

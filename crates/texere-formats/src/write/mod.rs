@@ -5,28 +5,28 @@
 //! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
 //! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
 //!
-//! Beside meshes there are [drafts](fn@draft) and [pictures](fn@picture), in PNG, and designs that
-//! are read again, as [WIF](fn@wif) or as texere's own [design file](fn@toml).
+//! There are also writers of [drafts](fn@draft) and [pictures](fn@picture) as PNG, and of designs
+//! as [WIF](fn@wif) or as texere's own [design file](fn@toml), which are read again.
 //!
-//! [Yarns](fn@yarns) are saved in files of their own (`.yarns`), which are read again to the bit,
-//! so that cloth at rest need not settle again.
+//! [Yarns](fn@yarns) are saved in `.yarns` files. They are read again to the bit, so that cloth at
+//! rest need not settle again.
 //!
-//! What a file holds does not depend on the mesh's [`Topology`](texere_core::Topology), nor on
-//! where its chunks are cut: a plan knows its triangles, so that no index has to come from a
-//! device, and a ring that chunks repeat is written once. So the triangles of a yarn share vertices
-//! from its first ring to its last: it is one piece for a reader that joins nothing of itself. Only
-//! caps have vertices of their own, since their normals differ from those of the rings that they
-//! close; their places are equal to the bit. GLB keeps the index pattern that all yarns share once,
-//! which halves it.
+//! A file does not depend on the mesh's [`Topology`](texere_core::Topology), nor on where its
+//! chunks are cut. A plan knows its triangles, so that no index has to come from a device. A ring
+//! that chunks repeat is written once. The triangles of a yarn therefore share vertices from its
+//! first ring to its last, and a reader that joins no vertices by itself gets one piece. Only caps
+//! have vertices of their own, because their normals differ from those of the rings that they
+//! close. Their positions are equal to the ring's to the bit. All yarns share an index pattern,
+//! which GLB holds once; this halves the file.
 //!
-//! A file is written beside its target and renamed when it is complete. After an error, a
-//! cancellation or a panic nothing new is left, and an older file of that name is as it was. A
-//! program that a signal ends calls [`abandon`] first; files that a killed process left, the next
-//! write in that folder removes. An [`Output`] says which files must not be replaced.
+//! A file is written beside its target and renamed when it is complete. An error, a cancellation or
+//! a panic leaves no new file, and an older file of that name stays as it was. A program that
+//! handles a signal calls [`abandon`] before it ends. The next write in a folder removes files that
+//! a killed process left there. An [`Output`] says which files must not be replaced.
 //!
 //! Each function but [`file`](fn@file) has a twin whose name ends in `_to`. It writes the same
-//! bytes to any writer of the caller's: memory, an archive, a connection. Meshes go back to fill in
-//! what is known last, so theirs also seeks.
+//! bytes to any writer of the caller's: memory, an archive, a connection. Twins for meshes need a
+//! writer that seeks, because they go back to fill in values that are known last.
 
 #[cfg(feature = "wif")]
 mod design;

@@ -11,7 +11,7 @@ use super::WriteError;
 /// The target of a write, and the files that it must not replace, such as those that the design was
 /// read from.
 ///
-/// Any path is an output that replaces whatever file lies there. All writers take one:
+/// A path alone is an output that replaces the file at that path. All writers take an output:
 ///
 /// ```
 /// use texere_formats::WriteError;
@@ -30,14 +30,14 @@ pub struct Output {
 }
 
 impl Output {
-    /// A file at `path`; where that is a symbolic link, the file that it leads to.
+    /// A file at `path`. Where `path` is a symbolic link, the output is the file that it leads to.
     pub fn to(path: impl AsRef<Path>) -> Self {
         Self { path: path.as_ref().to_owned(), spared: Vec::new() }
     }
 
-    /// Does not replace any of `files`, under whatever name: another spelling, a hard link or a
-    /// symbolic one. Those of a design are [`Design::files`](crate::Design::files). It adds to what
-    /// was spared before.
+    /// Does not replace any of `files`, even under another name: another spelling, a hard link or a
+    /// symbolic link. The files of a design are [`Design::files`](crate::Design::files). Further
+    /// calls add files.
     #[must_use]
     pub fn sparing(mut self, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Self {
         self.spared.extend(files.into_iter().map(|file| file.as_ref().to_owned()));
@@ -50,16 +50,17 @@ impl Output {
         &self.path
     }
 
-    /// Checks whether a file may be put there now: for a program that has much to do before it
-    /// writes. Writers check this themselves, before they begin and again before the rename.
+    /// Checks whether a file may be written at the path now. The check is meant for a program that
+    /// has much to do before it writes. Writers check this themselves, before they begin and again
+    /// before the rename.
     ///
     /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or
-    /// where something lies that no file may replace.
+    /// where the path is no file that may be replaced.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }
 
-    /// The output itself, if its path ends in `expected`, in upper or lower case.
+    /// Gives the output back where its path ends in `expected`, in upper or lower case.
     ///
     /// **Errors**: [`WriteError::NotEnding`].
     pub(super) fn ending(self, expected: &'static str) -> Result<Self, WriteError> {
@@ -100,8 +101,8 @@ impl FilePlace {
 
     /// The file that is to be replaced, if there is one.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] for what no file may take the
-    /// place of.
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where the path is no file that
+    /// may be replaced.
     pub(super) fn check(&self) -> Result<Option<Metadata>, WriteError> {
         let refused = |source| WriteError::io("create", self.path(), source);
         let old = match fs::symlink_metadata(&self.real) {
@@ -133,7 +134,7 @@ impl FilePlace {
         Ok(())
     }
 
-    /// Whether the open `file` is one of those that must not be replaced.
+    /// Whether the open `file` is one of the files that must not be replaced.
     pub(super) fn spares(&self, file: &Handle) -> bool {
         self.output.spared.iter().any(|spared| Handle::from_path(spared).is_ok_and(|spared| spared == *file))
     }
@@ -162,10 +163,10 @@ fn replaceable(place: &Path, old: &Metadata) -> io::Result<()> {
     } else if !old.is_file() {
         Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file"))
     } else if old.permissions().readonly() {
-        // Root could write it all the same.
+        // The superuser could write it in spite of its permissions.
         Err(io::Error::new(ErrorKind::PermissionDenied, "read-only file"))
     } else {
-        // Only the system knows whether this user may write it. Opening it changes nothing.
+        // Only the system knows whether this user may write the file. Opening it changes nothing.
         OpenOptions::new().write(true).open(place).map(drop)
     }
 }

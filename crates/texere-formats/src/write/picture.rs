@@ -5,11 +5,12 @@ use std::io::{self, ErrorKind, Write};
 use super::target::Target;
 use super::{Output, WriteError};
 
-/// Writes a picture of `size` pixels (width, height) to a PNG file: `pixels` are red, green and
-/// blue of each, sRGB, a byte each, or these and alpha, rows from the top.
+/// Writes a picture of `size` pixels (width, height) to a PNG file. `pixels` has a byte for each of
+/// red, green and blue, sRGB, or for each of these and alpha. Rows come from the top.
 ///
 /// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
-/// [`WriteError::Spared`], [`WriteError::Io`], also for pixels that are not as many as `size` says.
+/// [`WriteError::Spared`], [`WriteError::Io`]. A wrong number of pixels is [`WriteError::Io`] as
+/// well.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -28,8 +29,7 @@ pub fn picture(size: [u32; 2], pixels: &[u8], output: impl Into<Output>) -> Resu
 
 /// Writes a picture to `out`: the bytes that [`picture`](fn@picture) writes to a file.
 ///
-/// **Errors**: [`WriteError::Writer`] where `out` refuses, also for pixels that are not as many as
-/// `size` says.
+/// **Errors**: [`WriteError::Writer`] where `out` refuses, and for a wrong number of pixels.
 ///
 /// ```
 /// let mut png = Vec::new();
@@ -56,12 +56,12 @@ fn encode<W: Write>(
 ) -> Result<(), WriteError> {
     encoder_room().map_err(|source| target.failed(source))?;
     let mut encoder = png::Encoder::new(&mut *target, width, height);
-    // Any other number of bytes is refused as one for pixels without alpha.
+    // Any other number of bytes is refused as a wrong number for pixels without alpha.
     let has_alpha = pixels.len() as u64 == 4 * u64::from(width) * u64::from(height);
     encoder.set_color(if has_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    // Cloth is full of detail: stronger compression takes longer and gains little.
+    // Cloth is full of detail. Stronger compression takes longer and gains little.
     encoder.set_compression(png::Compression::Fast);
     let written = encoder.write_header().and_then(|mut writer| {
         writer.write_image_data(pixels)?;
@@ -70,7 +70,8 @@ fn encode<W: Write>(
     written.map_err(|error| target.failed(error.into()))
 }
 
-/// Fails where there is no memory for an encoder, which would end the program itself.
+/// Fails where there is too little memory for an encoder. The encoder itself would abort the
+/// program.
 pub(super) fn encoder_room() -> io::Result<()> {
     // The encoder's buffers and tables take a third of this.
     let mut room = Vec::<u8>::new();
@@ -80,7 +81,7 @@ pub(super) fn encoder_room() -> io::Result<()> {
     Ok(())
 }
 
-/// Gives `output` back if it ends in `.png`.
+/// Gives `output` back where it ends in `.png`.
 ///
 /// **Errors**: [`WriteError::NotPng`].
 pub(super) fn png(output: Output) -> Result<Output, WriteError> {

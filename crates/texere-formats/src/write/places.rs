@@ -1,13 +1,13 @@
-//! Where a file has the vertices of a mesh that comes chunk by chunk.
+//! The places in a file of vertices that come chunk by chunk.
 
 use texere_core::backend::{Chunk, Plan};
 
-/// Where a file has the vertices of the chunks that come: first all rings of the fabric, each once,
-/// then all caps.
+/// Places of vertices in a file. The file has first all rings of the fabric, each once, then all
+/// caps.
 ///
-/// A chunk that ends inside a yarn repeats the next chunk's first ring. In the file that ring
-/// stands once, and the triangles of both chunks refer to it. So every yarn is one piece, and the
-/// file is the same wherever chunks are cut.
+/// A chunk that ends inside a yarn repeats the next chunk's first ring. The file has that ring
+/// once, and the triangles of both chunks refer to it. Every yarn is then one piece, and the file
+/// does not depend on where chunks are cut.
 #[derive(Debug)]
 pub(super) struct Places {
     sides: u64,
@@ -25,7 +25,7 @@ impl Places {
         Self { sides, all_rings: plan.counts().rings, rings: 0, caps: 0 }
     }
 
-    /// The number in the file of vertex number `vertex` of `chunk`, which is the current one.
+    /// The number in the file of vertex number `vertex` of `chunk`, the current chunk.
     pub(super) fn of(&self, chunk: &Chunk, vertex: u32) -> u64 {
         let tubes = u64::from(chunk.rings()) * self.sides;
         match u64::from(vertex).checked_sub(tubes) {

@@ -1,7 +1,7 @@
 //! Binary PLY: one list of vertices, one list of triangles.
 //!
-//! Source: Greg Turk, "The PLY Polygon File Format", 1994. Colours are the yarns' sRGB values, as
-//! readers expect them.
+//! Source: Greg Turk, "The PLY Polygon File Format", 1994. Colours are the yarns' sRGB values,
+//! which readers expect.
 
 use std::io::{Seek, Write};
 
@@ -14,20 +14,20 @@ use super::mesh_writer::{MeshWriter, Run, yarn_runs};
 use super::places::Places;
 use super::target::Target;
 
-/// Six floats and three colour bytes.
+/// Bytes of a vertex: six floats and three colour bytes.
 const VERTEX_BYTES: usize = 27;
 
-/// A count of corners in a byte, and three vertex numbers.
+/// Bytes of a triangle: a byte for the count of corners, and three vertex numbers.
 const FACE_BYTES: usize = 13;
 
-/// Vertices that a `u32` numbers and counts.
+/// The most vertices, which a `u32` numbers and counts.
 const VERTICES_MAX: u64 = u32::MAX as u64;
 
 /// A PLY file under way.
 ///
-/// In the file all vertices come before all faces, and tubes before caps, but the mesh comes chunk
-/// by chunk. So the file grows in four places. To write all faces at the end would be half of the
-/// work, without progress and without a chance to cancel.
+/// The file has all vertices before all faces, and tubes before caps, but the mesh comes chunk by
+/// chunk. The file therefore grows in four places. Faces are not left to the end: they are half of
+/// the work, which would then have no progress and no chance to cancel.
 #[derive(Debug)]
 pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,
@@ -72,7 +72,7 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
         for corners in corners.chunks_exact(3) {
             let mut face = [3; FACE_BYTES];
             for (bytes, corner) in face[1..].chunks_exact_mut(4).zip(corners) {
-                // Fits: all vertices together were checked to.
+                // The sum fits, because the number of all vertices was checked.
                 bytes.copy_from_slice(&((base + u64::from(*corner)) as u32).to_le_bytes());
             }
             self.target.write(&face)?;
@@ -127,7 +127,8 @@ impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
 }
 
 fn header(vertices: u64, faces: u64) -> String {
-    // Some readers know no unsigned vertex numbers. Signed ones do where all numbers fit.
+    // Some readers know no unsigned vertex numbers. Signed numbers are written where all of them
+    // fit.
     let number = if vertices <= 1 << 31 { "int" } else { "uint" };
     format!(
         "ply\n\

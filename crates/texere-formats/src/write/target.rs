@@ -6,29 +6,30 @@ use std::path::PathBuf;
 use super::unfinished::Unfinished;
 use super::{Output, WriteError};
 
-/// Bytes gathered before the system is called. With more, calls cost nothing beside the copying.
+/// Bytes that are gathered before a call of the system. A greater buffer gains nothing, for calls
+/// then cost little beside the copying.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// A file that is written piece by piece: one that takes its place only when it is complete, or
-/// bytes to a writer of the caller's.
+/// A file that is written piece by piece. It either takes its place when it is complete, or goes to
+/// a writer of the caller's.
 #[derive(Debug)]
 pub(super) struct Target<W: Write> {
-    /// The path that was asked for; none where the writer is the caller's.
+    /// The path that was asked for. None where the writer is the caller's.
     path: Option<PathBuf>,
     out: W,
-    /// Where `out` stood when the file began.
+    /// The position of `out` at which the file began, bytes.
     start: u64,
-    /// Bytes that `out` has not got yet. Without memory for this buffer, every write goes straight
+    /// Bytes that are not yet in `out`. Without memory for this buffer, every write goes straight
     /// to `out`.
     waiting: Vec<u8>,
-    /// From the file's start, in bytes.
+    /// The position of the next write, bytes from the file's start.
     position: u64,
-    /// The furthest that the file reaches, likewise.
+    /// The furthest byte written so far, from the file's start.
     end: u64,
 }
 
 impl<W: Write> Target<W> {
-    /// A target that is written to `out` from where it stands, which is byte `start` of it.
+    /// A target that is written to `out` from its current position on, which is byte `start`.
     pub(super) fn over(out: W, start: u64, path: Option<PathBuf>) -> Self {
         let mut waiting = Vec::new();
         let _ = waiting.try_reserve_exact(BUFFER_BYTES);
@@ -48,7 +49,7 @@ impl<W: Write> Target<W> {
         }
     }
 
-    /// Writes on from where the last call ended.
+    /// Writes at the current position.
     pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), WriteError> {
         self.write_all(bytes).map_err(|source| self.failed(source))
     }
@@ -65,7 +66,7 @@ impl<W: Write> Target<W> {
         Ok(())
     }
 
-    /// Writes what is still waiting, and gives back the inner writer.
+    /// Writes the bytes that are still in the buffer, and gives back the inner writer.
     pub(super) fn into_inner(mut self) -> Result<W, WriteError> {
         self.flush().map_err(|source| self.failed(source))?;
         Ok(self.out)
@@ -79,7 +80,7 @@ impl<W: Write> Target<W> {
 }
 
 impl<W: Write + Seek> Target<W> {
-    /// A target that is written to the caller's `out`, from where it stands.
+    /// A target that is written to the caller's `out`, from its current position on.
     pub(super) fn within(mut out: W) -> Result<Self, WriteError> {
         let start = out.stream_position().map_err(|source| WriteError::Writer { source })?;
         Ok(Self::over(out, start, None))
@@ -100,7 +101,7 @@ impl<W: Write + Seek> Target<W> {
         Ok(())
     }
 
-    /// Hands everything over to the caller's writer, and leaves that behind the file's last byte.
+    /// Hands everything over to the caller's writer, which then stands behind the file's last byte.
     /// Gives the file's length in bytes.
     pub(super) fn close(mut self) -> Result<u64, WriteError> {
         self.go_to(self.end)?;

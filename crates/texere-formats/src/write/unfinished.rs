@@ -1,9 +1,10 @@
-//! A file that is not yet complete: under a temporary name, in the folder of its target.
+//! A file that is not yet complete. It has a temporary name in the folder of its target.
 //!
-//! It never stays behind. After an error or a panic it is removed when its owner is dropped; before
-//! a signal ends the program, [`abandon`] removes it; and files that a killed process left are
-//! removed by the next write in that folder. A writer holds a lock on its file, which the system
-//! releases with the process: a file without a lock is a leftover.
+//! Such a file never stays behind. After an error or a panic it is removed when its owner is
+//! dropped. Before a signal ends the program, [`abandon`] removes it. The next write in a folder
+//! removes files that a killed process left there. They are recognised by their locks: a writer
+//! holds a lock on its file, and the system releases the lock when the process ends. A file without
+//! a lock is a leftover.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -22,8 +23,8 @@ const PREFIX: &str = ".texere-";
 const RANDOM: usize = 16;
 const ENDING: &str = ".unfinished";
 
-/// How often a new file may be taken for a leftover, and removed, by others that start at the same
-/// moment.
+/// How often a writer starts a new file, because writers that start at the same moment took its
+/// file for a leftover and removed it.
 const ATTEMPTS: usize = 100;
 
 /// The unfinished files of this process.
@@ -38,7 +39,8 @@ fn registry() -> MutexGuard<'static, Registry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The registry, or an error once all files have been abandoned. While it is held they can't be.
+/// The registry, or an error once all files have been abandoned. Files can't be abandoned while the
+/// registry is held.
 fn registry_in_use() -> io::Result<MutexGuard<'static, Registry>> {
     let registry = registry();
     if registry.abandoned {
@@ -47,11 +49,11 @@ fn registry_in_use() -> io::Result<MutexGuard<'static, Registry>> {
     Ok(registry)
 }
 
-/// Removes every file that this process has not finished writing, and lets none be started or
-/// finished any more: for a program that is about to end, say by a signal.
+/// Removes every file that this process has not finished writing. After the call no file can be
+/// started or finished. It is meant for a program that is about to end, for example by a signal.
 ///
-/// A file is either whole when this returns, or as it was before. Writers that are at work fail
-/// with [`WriteError::Io`].
+/// When the call returns, each target is either a whole new file or as it was before. Writers that
+/// are at work fail with [`WriteError::Io`].
 ///
 /// ```no_run
 /// // On Ctrl-C, in a thread that waits for it:
@@ -62,21 +64,22 @@ pub fn abandon() {
     let mut registry = registry();
     registry.abandoned = true;
     for file in std::mem::take(&mut registry.files) {
-        // What can't be removed now, the next write tries again.
+        // A file that can't be removed now is removed by a later write.
         let _ = fs::remove_file(file);
     }
 }
 
-/// A file that becomes the one at its place with [`Unfinished::finish`].
+/// A file that takes its place with [`Unfinished::finish`].
 #[derive(Debug)]
 pub(super) struct Unfinished {
-    // Dropped before its entry, so that at every moment somebody removes the file.
+    // The file is dropped before its entry in the registry, so that at every moment one of the two
+    // removes it.
     file: NamedTempFile,
     entry: Entry,
     place: FilePlace,
 }
 
-/// A line of the registry.
+/// An entry of the registry, which ends when this is dropped.
 #[derive(Debug)]
 struct Entry(PathBuf);
 
@@ -87,7 +90,8 @@ impl Drop for Entry {
 }
 
 impl Unfinished {
-    /// An empty file beside `place`, since a rename is atomic only within one file system.
+    /// Starts an empty file beside `place`. It is beside it because a rename is atomic only within
+    /// one file system.
     pub(super) fn beside(place: FilePlace) -> Result<Self, WriteError> {
         let failed = |source| WriteError::io("create", place.path(), source);
         let permissions = place.check()?.map(|old| old.permissions());
@@ -117,10 +121,10 @@ impl Unfinished {
     pub(super) fn finish(self) -> Result<u64, WriteError> {
         let Self { place, entry, file } = self;
         let failed = |action, source| WriteError::io(action, place.path(), source);
-        // A name must not reach the disk before the bytes that it stands for.
+        // The bytes have to reach the disk before the name does.
         let synced = file.as_file().sync_all().and_then(|()| file.as_file().metadata());
         let bytes = synced.map_err(|source| failed("write", source))?.len();
-        // Much may have happened to the folder since the file was started.
+        // The folder may have changed since the file was started.
         place.check()?;
         let renamed =
             registry_in_use().and_then(|_held| file.persist(&place.real).map_err(|error| error.error));
@@ -146,28 +150,27 @@ impl Seek for Unfinished {
     }
 }
 
-/// An empty file with a name of ours.
+/// An empty file with a temporary name.
 fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).rand_bytes(RANDOM).suffix(ENDING);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // The permissions of any new file, less the umask; temporary files are private by default.
+        // The file gets the permissions of any new file, less the umask. Temporary files would be
+        // private by default.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
 }
 
-/// Takes a new file's lock. Gives `false` where another process took the file for a leftover first:
-/// that process holds the lock, or has removed the name. With the lock, no other process removes
-/// the file.
+/// Takes a new file's lock. With the lock, no other process removes the file. Gives `false` where
+/// another process took the file for a leftover first, and holds the lock or has removed the name.
 fn hold(file: &NamedTempFile) -> io::Result<bool> {
     match file.as_file().try_lock() {
         Ok(()) => Ok(is_named(file.path(), file.as_file().try_clone()?)),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // On a file system without locks no other process gets this one either, so none removes the
-        // file.
+        // On a file system without locks no process gets a lock, so that none removes the file.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }
@@ -178,7 +181,7 @@ fn sweep(folder: &Path, place: &FilePlace) {
         let is_ours = entry.file_name().to_str().is_some_and(is_name)
             && entry.file_type().is_ok_and(|kind| kind.is_file());
         if is_ours {
-            // A leftover does no harm: one that can't be opened or removed stays.
+            // A leftover that can't be opened or removed stays. It does no harm.
             let _ = remove_left(&entry.path(), place);
         }
     }
@@ -189,12 +192,12 @@ fn is_name(name: &str) -> bool {
     random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// Removes a file with one of our names if no writer holds its lock.
+/// Removes a file with a temporary name if no writer holds its lock.
 fn remove_left(path: &Path, place: &FilePlace) -> io::Result<()> {
     let file = OpenOptions::new().read(true).write(true).open(path)?;
     file.try_lock()?;
-    // Before we had the lock, its writer may have finished it: then the name is gone, or another
-    // file's.
+    // Its writer may have finished it before the lock was taken here. The name is then gone, or
+    // another file has it.
     let handle = Handle::from_file(file)?;
     if Handle::from_path(path)? == handle && !place.spares(&handle) {
         fs::remove_file(path)?;
@@ -202,7 +205,7 @@ fn remove_left(path: &Path, place: &FilePlace) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether `path` is a name of the open `file`.
+/// Whether `path` leads to the open `file`.
 fn is_named(path: &Path, file: File) -> bool {
     Handle::from_file(file).and_then(|file| Ok(Handle::from_path(path)? == file)).unwrap_or(false)
 }

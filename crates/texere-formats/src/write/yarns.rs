@@ -1,4 +1,5 @@
-//! Yarns as a file that is read again to the bit, so that settled cloth need not settle again.
+//! Writes `.yarns` files, which are read again to the bit, so that settled cloth need not settle
+//! again.
 
 use std::io::Write;
 
@@ -17,10 +18,10 @@ use crate::yarns_file::{
 const FORMAT: &str = "a file of yarns";
 
 /// Writes yarns to a `.yarns` file, which [`read::yarns`](crate::read::yarns) reads again to the
-/// bit: control points, sections, materials, up directions, sources, and what belongs to each yarn.
-/// Gives the file's length in bytes.
+/// bit. The file has control points, sections, materials, up directions, sources, and the settings
+/// of each yarn. Gives the file's length in bytes.
 ///
-/// Cloth that came to rest is saved so, and need not settle again:
+/// Cloth that came to rest can be saved, and need not settle again:
 ///
 /// ```
 /// use texere_core::Pipeline;
@@ -49,7 +50,7 @@ pub fn yarns(yarns: &Yarns, output: impl Into<Output>) -> Result<u64, WriteError
 
 /// Writes yarns to `out`: the bytes that [`yarns`](fn@yarns) writes to a file.
 ///
-/// **Errors**: those of [`yarns`](fn@yarns), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`yarns`](fn@yarns), with [`WriteError::Writer`] where `out` refuses.
 pub fn yarns_to(yarns: &Yarns, out: impl Write) -> Result<u64, WriteError> {
     repeat_to(yarns, &Boundary::without_repeat(yarns.layout()), out)
 }
@@ -57,8 +58,8 @@ pub fn yarns_to(yarns: &Yarns, out: impl Write) -> Result<u64, WriteError> {
 /// Writes the yarns of a repeat to a `.yarns` file, with the boundary that says how they go on
 /// beyond it. Gives the file's length in bytes.
 ///
-/// **Errors**: those of [`yarns`](fn@yarns), and [`WriteError::Boundary`] for the boundary of other
-/// yarns.
+/// **Errors**: the errors of [`yarns`](fn@yarns), and [`WriteError::Boundary`] for the boundary of
+/// other yarns.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -82,7 +83,8 @@ pub fn repeat(yarns: &Yarns, boundary: &Boundary, output: impl Into<Output>) -> 
 
 /// Writes the yarns of a repeat to `out`: the bytes that [`repeat`](fn@repeat) writes to a file.
 ///
-/// **Errors**: those of [`repeat`](fn@repeat), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`repeat`](fn@repeat), with [`WriteError::Writer`] where `out`
+/// refuses.
 pub fn repeat_to(yarns: &Yarns, boundary: &Boundary, out: impl Write) -> Result<u64, WriteError> {
     File::new(yarns, boundary)?.write(Target::straight(out))?.done()
 }
@@ -152,7 +154,7 @@ fn bytes_of(yarns: &Yarns) -> u64 {
         + CHECKSUM_BYTES
 }
 
-/// What has been written, and the checksum over it.
+/// A target, and the checksum of the bytes written so far.
 struct Content<W: Write> {
     target: Target<W>,
     checksum: Hasher,

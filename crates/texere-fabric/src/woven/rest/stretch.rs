@@ -41,7 +41,7 @@ impl Woven {
     /// work done, and `Break` ends it within one pass.
     ///
     /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or
-    /// jammed, and those of [`Woven::at_rest`].
+    /// jammed, and the errors of [`Woven::at_rest`].
     ///
     /// **Source**: crimp interchange as F. T. Peirce has it, "The geometry of cloth structure",
     /// Journal of the Textile Institute 28, 1937.

@@ -8,7 +8,7 @@ use super::schema::ClothTable;
 use super::source::Source;
 use crate::read::ReadError;
 
-/// What `[cloth]` says.
+/// The settings of `[cloth]`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Cloth {
     shape: Shape,
@@ -18,8 +18,8 @@ pub(super) struct Cloth {
 }
 
 impl Cloth {
-    /// `rests` says whether the cloth is to come to rest: then threads flatten as they must, and
-    /// nothing else makes room for them.
+    /// `rests` says whether the cloth comes to rest. At rest threads flatten as they must, so that
+    /// no relief of jams is taken.
     pub(super) fn new(source: &Source<'_>, table: &ClothTable, rests: bool) -> Result<Self, ReadError> {
         let mut cloth = Self::default();
         if let Some(shape) = &table.shape {
@@ -55,7 +55,7 @@ impl Cloth {
     }
 }
 
-/// One of the words `known`.
+/// The choice that a word stands for, one of those `known`.
 fn choice<T: Copy>(
     source: &Source<'_>,
     field: &str,

@@ -1,4 +1,4 @@
-//! What the colours of a picture stand for.
+//! The meaning of the colours of an image.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,8 @@ use crate::read::ReadError;
 use crate::read::error::{first_few, named};
 use crate::read::point_paper::PointPaper;
 
-/// What each colour of the paper stands for by the table of that name, or the refusal of one that
-/// stands for nothing; a warning of those in the table alone.
+/// The meaning of each colour of the paper by the table called `table`. The inner error refuses a
+/// colour that is not in the table. Colours that are in the table only are warned of.
 pub(super) fn of_paper<'a>(
     source: &Source<'_>,
     paper: &PointPaper,

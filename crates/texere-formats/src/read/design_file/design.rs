@@ -66,7 +66,7 @@ fn designed(source: &Source<'_>) -> Result<Design, ReadError> {
     Ok(design.remarking(unused(&file, rests)).finished(settle, finish, stretch))
 }
 
-/// What is said of the keys of woven cloth that count for nothing where it comes to rest.
+/// Remarks on keys of woven cloth that have no effect on cloth at rest.
 fn unused(file: &DesignFile, rests: bool) -> Vec<String> {
     let keys =
         [("cloth.shape", file.cloth.shape.is_some()), ("cloth.warp_crimp", file.cloth.warp_crimp.is_some())];
@@ -120,7 +120,8 @@ fn from_wif(
         wif::read(&path, source.files).map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
     let woven = &draft.woven;
     let drawdown = woven.drawdown().clone();
-    // The draft's own materials and sections come first, so that its threads keep their numbers.
+    // The draft's materials and sections come first, so that its threads keep the numbers of
+    // theirs.
     let materials: Vec<_> = woven.materials().iter().chain(&yarns.materials).cloned().collect();
     let sections: Vec<Section> = woven.sections().iter().chain(&yarns.sections).cloned().collect();
     let shift = (woven.materials().len() as u32, woven.sections().len() as u32);

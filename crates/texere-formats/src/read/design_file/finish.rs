@@ -11,18 +11,18 @@ use super::schema::FinishTable;
 use super::source::Source;
 use crate::read::ReadError;
 
-/// The least and the most times its length that a yarn may be given.
+/// The least and the greatest factor for a yarn's length.
 const LENGTHS: (f64, f64) = (0.5, 2.0);
 
 /// The most tension that draws yarns in.
 const TENSION_MOST: f64 = 0.1;
 
-/// Distances of plates that are taken, mm.
+/// The least and the greatest distance of two plates, mm.
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {
-    /// Whether yarns are to settle, where the table says so, and what is asked of them: of woven
-    /// cloth other things than of knits.
+    /// Whether yarns settle, where the table says so, and the settings of their finish. Woven cloth
+    /// has other keys than knits.
     pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
         let knits = [
             ("finish.length", &self.length),
@@ -89,7 +89,7 @@ impl FinishTable {
         Ok(Some(Stretch { along, by }))
     }
 
-    /// What becomes of lengths, where the table says so.
+    /// The treatment of yarns' lengths, where the table says so.
     fn length(&self, source: &Source<'_>) -> Result<Option<Length>, ReadError> {
         let field = "finish.length";
         let mut length = match &self.length {

@@ -17,14 +17,14 @@ use crate::read::knitted_from::Drawn;
 use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
 
-/// Wales and courses to the cm, and needles to the inch, that a design may ask for.
+/// The least and the most wales and courses to the cm, and needles to the inch.
 pub(super) const PER_CM: (f64, f64) = (0.01, 1000.0);
 pub(super) const PER_INCH: (f64, f64) = (0.1, 100.0);
 
-/// Loop lengths that a design may ask for, mm.
+/// The shortest and the longest loop, mm.
 pub(super) const LOOP_MM: (f64, f64) = (0.01, 1000.0);
 
-/// Most needles that a float may be allowed to pass.
+/// The most needles that a design may let a float pass.
 const FLOAT_MAX: i64 = 1_000_000;
 
 /// Reads the knit that `table` describes.
@@ -126,7 +126,7 @@ impl Reader<'_> {
         let (columns, rows) = (paper.ends, paper.picks);
         let drawn = Drawn::Cells { file: path, columns, rows, upside_down };
         let fault = |error: ChartError| {
-            // A chart counts rows from the top, which may be the bottom of the picture.
+            // Rows of a chart count from its top row, which may be the bottom row of the image.
             let error = if upside_down { error.from_below(rows) } else { error };
             self.refused("knit.image", image.span(), error)
         };
@@ -138,8 +138,8 @@ impl Reader<'_> {
                 let place = source.place("knit.yarns or knit.beds", span);
                 return Err(ReadError::Without { place, needs: "symbols in [knit.colors]" });
             }
-            // Courses of a row come in the order of their yarns' names: the same whatever the
-            // image.
+            // The courses of a row come in the order of their yarns' names, so that the order does
+            // not depend on the image.
             let mut names: Vec<&String> = meant.iter().collect();
             names.sort_unstable();
             names.dedup();
@@ -177,7 +177,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A knit of one repeat.
+    /// A knit whose chart is one repeat.
     fn charted(
         &self,
         name: String,
@@ -188,13 +188,13 @@ impl Reader<'_> {
     ) -> Result<Design, ReadError> {
         let mut program = chart.program().map_err(|error| self.refused("knit", 0..0, error))?;
         let (names, threads): (Vec<_>, Vec<_>) = yarns.into_iter().unzip();
-        // Carriers are numbers of yarns, of which the last may not come in the chart.
+        // Carriers are numbers of yarns. The last yarns may be missing in the chart.
         program.carriers.iter_mut().zip(names).for_each(|(carrier, name)| *carrier = name);
         let knit = self.knit(self.gauge(None)?, threads)?;
         knit.design(self.source.path, name, program, drawn, warnings)
     }
 
-    /// All but the program, with these yarns for its carriers.
+    /// A knit without its program, with these yarns for its carriers.
     pub(super) fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
         let (source, table) = (self.source, self.table);
         let compression = knit_keys::compression(source, "knit.compression", table.compression.as_ref())?;
@@ -210,7 +210,8 @@ impl Reader<'_> {
         Ok(Knit { gauge, yarns, materials, sections, copies, cells, float_max })
     }
 
-    /// How close stitches lie. `needles` to the inch are what a knitout file says.
+    /// The gauge: how close stitches lie. `needles` is the number of needles to the inch in the
+    /// knitout file, if any.
     pub(super) fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
         let (source, table) = (self.source, self.table);
         let number = |field, value, (low, high)| source.optional(field, value, [low, high]);
@@ -268,8 +269,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Numbers of the yarns of `knit.yarns`, one after another, and their names by number. Where
-    /// nothing is given, it is the only yarn that there is.
+    /// The yarns of `knit.yarns` one after another, as numbers, and the named yarns that the
+    /// numbers stand for. Without the key it is the only yarn of the design.
     pub(super) fn yarns_in_turn(&self) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
         let Some(list) = &self.table.yarns else {
             return match self.yarns.only() {
@@ -284,7 +285,7 @@ impl Reader<'_> {
         self.yarns.in_turn(self.source, "knit.yarns", list)
     }
 
-    /// Refuses keys that belong to another one, which is not there.
+    /// Refuses keys that say nothing without the key `needs`.
     pub(super) fn belongs(
         &self,
         needs: &'static str,

@@ -1,5 +1,5 @@
-//! What knits of either kind say about how they are laid: copies, compression, and how many control
-//! points they have.
+//! Keys that `[knit]` and `[warp_knit]` share: copies, compression, and the count of control
+//! points.
 
 use texere_fabric::weft::Cells;
 use toml::Spanned;
@@ -7,13 +7,13 @@ use toml::Spanned;
 use super::source::Source;
 use crate::read::ReadError;
 
-/// How far yarns may be pressed together, as a share of their diameter.
+/// The least and the greatest share of its diameter that a yarn keeps.
 const COMPRESSION: (f64, f64) = (0.8, 1.0);
 
-/// Most copies of a repeat in either direction.
+/// The most copies of a repeat in either direction.
 const COPIES_MAX: i64 = 1_000_000;
 
-/// How much of its diameter a yarn keeps.
+/// The share of its diameter that a yarn keeps.
 pub(super) fn compression(
     source: &Source<'_>,
     field: &str,
@@ -36,7 +36,7 @@ pub(super) fn copies(
     Ok([source.integer(field, across, 1, COPIES_MAX)?, source.integer(field, along, 1, COPIES_MAX)?])
 }
 
-/// How control points are counted.
+/// The control points of a stitch: round or even cells.
 pub(super) fn cells(
     source: &Source<'_>,
     field: &str,

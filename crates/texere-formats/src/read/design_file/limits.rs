@@ -1,33 +1,32 @@
-//! The limits of what a design file may say, which its writer keeps, too.
+//! The limits of values in a design file. Its writer keeps them as well.
 
 use texere_core::HAIRINESS_LIMIT;
 
-/// The largest design file that is read, bytes: one that names each of a million threads takes as
-/// much.
+/// The largest design file that is read, bytes. A file that names each of a million threads has
+/// this size.
 pub(crate) const FILE: u64 = 1 << 24;
 
-/// Thinnest and thickest diameter, and narrowest and widest spacing, that a design file may ask
-/// for, mm.
+/// The least and the greatest diameter, and the narrowest and the widest spacing, mm.
 pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
 
-/// Finest and coarsest yarn, tex: a single filament, and a rope.
+/// The finest and the coarsest yarn, tex: a single filament, and a rope.
 pub(crate) const TEX: [f64; 2] = [1e-3, 1e7];
 
-/// Hardest twist, turns per metre either way.
+/// The hardest twist in either direction, turns per metre.
 pub(crate) const TWIST_PER_M: f64 = 1e5;
 
-/// Baldest and hairiest yarn, Uster's H.
+/// The least and the greatest hairiness, Uster's H.
 pub(crate) const HAIRINESS: [f64; 2] = [0.0, HAIRINESS_LIMIT as f64];
 
-/// Uster's H where nothing is said, of a yarn of this twist: without any it is filament, else spun
-/// staple. Of that it is what combed ring-spun cotton of 20 tex has in the middle of the Uster
-/// Statistics.
+/// Uster's H of a yarn of this twist that has no `hairiness`. A yarn without twist is filament, and
+/// has 0. Other yarns are spun staple, and have 5: the middle of the Uster Statistics for combed
+/// ring-spun cotton of 20 tex.
 pub(crate) const fn hairiness_of(twist: f32) -> f32 {
     if twist == 0.0 { 0.0 } else { 5.0 }
 }
 
-/// The most times relaxed cloth's that woven cloth is taut or pressed.
+/// The greatest factor for the tension and the pressing of woven cloth, where 1 is relaxed cloth.
 pub(crate) const TIMES_MOST: f64 = 10.0;
 
-/// How many times as long woven cloth may become.
+/// The least and the greatest factor by which woven cloth is stretched.
 pub(crate) const STRETCH: [f64; 2] = [0.5, 2.0];

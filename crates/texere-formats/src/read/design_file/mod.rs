@@ -46,14 +46,14 @@
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` where not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
 //!
-//! Weaves of an image run through from the cloth's first end and first pick, so that areas of one
-//! weave join up, whatever lies between them and also from one repeat of the image to the next.
-//! Each colour of the image has to be in `[weave.colors]`; without that table it has two colours,
-//! and the darker one is warp up. Pixels are opaque, or wholly transparent: that is one colour,
-//! lighter than any. What a picture says of its colour space is not looked at.
+//! Each weave of an image counts from the cloth's first end and first pick. Areas of one weave
+//! therefore join up, within an image and from one repeat of it to the next. Each colour of the
+//! image has to be in `[weave.colors]`. Without that table the image has two colours, and the
+//! darker one is warp up. Pixels are opaque or wholly transparent; transparent pixels are one
+//! colour, lighter than any other. The colour space of an image is not read.
 //!
-//! The picks of a Jacquard cloth take the yarns of `[weft]` in turn, `["2 red", "white"]` two picks
-//! red and one white.
+//! The picks of a Jacquard cloth take the yarns of `[weft]` in turn: `["2 red", "white"]` are two
+//! red picks and one white pick.
 //!
 //! Every key of `[cloth]`, which says how threads lie:
 //!
@@ -80,7 +80,7 @@
 //! | `cells` | `"round"` or `"even"` ([`Cells`]) |
 //! | `float_max` | how many needles a yarn may float past before it is warned of |
 //!
-//! Or it has `[warp_knit]`, a warp knit:
+//! A warp knit has `[warp_knit]` in place of these:
 //!
 //! | key | value |
 //! |---|---|
@@ -99,8 +99,8 @@
 //! | `run_in_mm` | yarn for a rack of 480 courses |
 //! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour what is displaced: `"0-0/1-1"` |
 //!
-//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]);
-//! `length`, `tension` and `press` are for knits, the last three for woven cloth:
+//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]).
+//! `length`, `tension` and `press` are for knits, the rows below them for woven cloth:
 //!
 //! | key | value |
 //! |---|---|

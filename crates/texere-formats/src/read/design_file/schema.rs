@@ -10,8 +10,8 @@ use super::value::{Node, Value};
 use crate::read::ReadError;
 use crate::read::point_paper::RowOrder;
 
-/// Tables with the keys that each may have. One that may do without any of them may itself be left
-/// out.
+/// Declares tables with the keys that each may have. A table without required keys may itself be
+/// left out.
 macro_rules! tables {
     ($($(#[$doc:meta])* $table:ident { $($(#[$key_doc:meta])* $key:ident: $kind:ty,)* })*) => {$(
         $(#[$doc])*
@@ -101,7 +101,8 @@ tables! {
         colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
     }
 
-    /// How threads lie. Values of any kind, so that one of the wrong kind is refused with its key.
+    /// How threads lie in woven cloth. Values are of any kind, so that a value of the wrong kind is
+    /// refused with its key.
     ClothTable {
         shape: Option<Spanned<Any>>,
         warp_crimp: Option<Spanned<Any>>,
@@ -109,7 +110,8 @@ tables! {
         jam: Option<Spanned<Any>>,
     }
 
-    /// How yarns come to rest. Values of any kind, likewise.
+    /// How yarns come to rest. Values are of any kind, so that a value of the wrong kind is refused
+    /// with its key.
     FinishTable {
         settle: Option<Spanned<Any>>,
         press: Option<Spanned<Any>>,
@@ -140,7 +142,7 @@ tables! {
         yarns: Spanned<Vec<Spanned<String>>>,
         per_cm: Option<Spanned<f64>>,
         per_inch: Option<Spanned<f64>>,
-        /// A number, or a list of numbers that is repeated over the threads.
+        /// A number, or a list of numbers that repeats over the threads.
         spacing_mm: Option<Spanned<Any>>,
     }
 }

@@ -1,4 +1,4 @@
-//! A design file's text, and how to find the line that a fault stands on.
+//! The text of a design file, and the lines of its faults.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use crate::read::file::Files;
 use crate::read::keys::Keys;
 use crate::read::{FilePlace, ReadError};
 
-/// Most threads of a warp or weft.
+/// The most threads of a warp or weft.
 const THREAD_LIMIT: i64 = 1_000_000;
 
-/// A design file's text, where it came from, and what opens the files that it names.
+/// The text of a design file, its path, and the way to open the files that it names.
 pub(super) struct Source<'a> {
     pub(super) path: &'a Path,
     pub(super) text: &'a str,
@@ -32,12 +32,12 @@ impl<'a> Source<'a> {
         Ok(Self { path, text, files })
     }
 
-    /// The path of a file that the design names: it lies beside the design.
+    /// The path of a file that the design names. Such paths are relative to the design's folder.
     pub(super) fn beside(&self, file: &Spanned<String>) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
     }
 
-    /// All its keys, as far as it is TOML.
+    /// All keys of the file. None where it is not TOML.
     pub(super) fn keys(&self) -> Keys {
         let mut found = Vec::new();
         if let Ok(table) = DeTable::parse(self.text) {
@@ -53,7 +53,7 @@ impl<'a> Source<'a> {
         Keys { file: self.path.into(), lines: lines.collect(), ..Keys::default() }
     }
 
-    /// A value as the file has it, without its quotes.
+    /// The text at `span` as the file has it, without quotes.
     fn written(&self, span: Range<usize>) -> String {
         shown(self.text.get(span).unwrap_or_default().trim_matches(['"', '\'']))
     }
@@ -72,7 +72,7 @@ impl<'a> Source<'a> {
         ReadError::BadValue { place, value, expected }
     }
 
-    /// The refusal of a value that is not even of the right kind: it is shown as the file has it.
+    /// The refusal of a value of the wrong kind. The value is shown as the file has it.
     pub(super) fn odd(&self, field: &str, value: &Spanned<Any>, expected: &str) -> ReadError {
         self.unfit(field, value.span(), expected)
     }
@@ -84,7 +84,7 @@ impl<'a> Source<'a> {
         ReadError::BadValue { place, value, expected }
     }
 
-    /// A number of any size, whole or not.
+    /// A number, whole or not, without limits.
     pub(super) fn float(
         &self,
         field: &str,
@@ -95,7 +95,7 @@ impl<'a> Source<'a> {
         Ok(Spanned::new(value.span(), number))
     }
 
-    /// A number above 0 (or of either sign, where `low` is negative) within its limits.
+    /// A number from `low` to `high`.
     pub(super) fn number(
         &self,
         field: &str,
@@ -114,7 +114,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// A number within `range`, where the key is there.
+    /// A number from `low` to `high`, where the key is there.
     pub(super) fn optional(
         &self,
         field: &str,
@@ -124,7 +124,7 @@ impl<'a> Source<'a> {
         value.as_ref().map(|value| self.number(field, value, low, high)).transpose()
     }
 
-    /// A number of threads.
+    /// A count of threads.
     pub(super) fn count(&self, field: &str, value: &Spanned<i64>) -> Result<usize, ReadError> {
         self.integer(field, value, 1, THREAD_LIMIT).map(|count| count as usize)
     }
@@ -167,15 +167,16 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Adds the keys of a table, which `above` leads to, and where each begins.
+/// Adds the keys of a table to `found`, each with the byte at which it begins. `above` is the path
+/// of keys that leads to the table.
 fn keys_of(above: &str, table: &DeTable<'_>, found: &mut Vec<(String, usize)>) {
     for (key, value) in table {
         let key_at = key.span().start;
         let key = format!("{above}{}", key.get_ref());
         match value.get_ref() {
             DeValue::Table(table) => keys_of(&format!("{key}."), table, found),
-            // Tables in a list are named as one of them and by their numbers:
-            // `bars, bar 2: lapping`.
+            // A table in a list is named by the list, the list's singular and its number: `bars,
+            // bar 2: lapping`.
             DeValue::Array(list) => {
                 let one = key.rsplit('.').next().unwrap_or_default().trim_end_matches('s');
                 for (number, item) in (1..).zip(list.iter()) {

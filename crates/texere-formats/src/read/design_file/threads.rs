@@ -14,23 +14,23 @@ use super::source::Source;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 
-/// Coarsest and finest yarn by the English cotton count, hanks of 840 yards to the pound.
+/// The coarsest and the finest yarn by the English cotton count, hanks of 840 yards to the pound.
 const COTTON_COUNT: [f64; 2] = [0.01, 10_000.0];
 
-/// Fluffiest and densest yarn, the air in it counted, g/cm³.
+/// The least and the greatest density of a yarn, the air in it included, g/cm³.
 const DENSITY: [f64; 2] = [0.05, 20.0];
 
-/// Limpest and stiffest yarn, in the stiffness of cotton.
+/// The least and the greatest stiffness of a yarn, in units of cotton's.
 const STIFFNESS: [f64; 2] = [0.01, 100.0];
 
-/// Yarn that stands on edge, and the flattest ribbon, as people write it: 0.1 as a f32 is a little
-/// more than that.
+/// The least flatness, of yarn that stands on edge, and the greatest, of a ribbon. The limits are
+/// `f64`, so that 0.1 is within them: as an `f32` it is a little more than 0.1.
 const FLATNESS: [f64; 2] = [0.1, 10.0];
 
-/// The most yarns in turn of a knit.
+/// The longest turn of a knit's yarns.
 const TURN_MAX: usize = 100_000;
 
-/// A yarn and its name.
+/// A yarn with its name.
 pub(super) type Named = (String, Thread);
 
 /// The named yarns, ready to be threaded: yarn k has material k and section k.
@@ -86,7 +86,7 @@ impl YarnTable {
         let mut repeat = Vec::new();
         for item in spec.yarns.as_ref() {
             let (times, _, thread) = self.item(source, &format!("{set}.yarns"), item)?;
-            // What of a repeat goes beyond the cloth is never seen.
+            // The part of a repeat that is beyond the cloth is left out.
             let times = count.saturating_sub(repeat.len()).min(times as usize);
             repeat.extend(std::iter::repeat_n(thread, times));
         }
@@ -100,24 +100,24 @@ impl YarnTable {
         Ok(threads)
     }
 
-    /// The yarn of that name.
+    /// The yarn called `name`.
     pub(super) fn thread(&self, name: &str) -> Option<Thread> {
         self.names.get(name).copied()
     }
 
-    /// All names, in their order.
+    /// The names of all yarns, sorted.
     pub(super) fn names(&self) -> impl ExactSizeIterator<Item = &String> {
         self.names.keys()
     }
 
-    /// The yarn where there is one alone, and its name.
+    /// The only yarn, with its name. None where there are others.
     pub(super) fn only(&self) -> Option<Named> {
         let (name, thread) = self.names.first_key_value().filter(|_| self.names.len() == 1)?;
         Some((name.clone(), *thread))
     }
 
-    /// The yarns of a list one after another, each a number among those that follow: names and
-    /// yarns.
+    /// The yarns of a list one after another, as numbers, and the named yarns that the numbers
+    /// stand for.
     pub(super) fn in_turn(
         &self,
         source: &Source<'_>,
@@ -167,7 +167,7 @@ impl YarnTable {
     }
 }
 
-/// Yarn `number`: what it is made of, and a thread of it.
+/// The material of yarn `number`, and a thread of it.
 fn yarn(
     source: &Source<'_>,
     name: &str,
@@ -204,7 +204,8 @@ fn yarn(
     Ok((material, thread))
 }
 
-/// A yarn's diameter in mm, as it is given or by its count, and its tex where it has a count.
+/// The diameter of a yarn, mm, as given or worked out from its count; and its tex where it has a
+/// count.
 fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, Option<f64>), ReadError> {
     let field = |key: &str| format!("yarns.{name}.{key}");
     let number_of = |key: &str, value, range| source.optional(&field(key), value, range);
@@ -225,7 +226,7 @@ fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, O
     }
 }
 
-/// One spacing for all threads, or a list of them.
+/// One spacing for all threads, or a list of spacings, mm.
 fn spacings(source: &Source<'_>, field: &str, value: &Spanned<Any>) -> Result<Vec<f64>, ReadError> {
     let expected = "a number of mm, or a list of them such as [2.0, 1.0]";
     let [low, high] = LENGTH_MM;
@@ -260,8 +261,8 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
     }
     let place = || source.place(&format!("yarns.{name}.section"), shape.span());
     shape.as_ref().validate().map_err(|error| ReadError::Section { place: place(), source: error })?;
-    // A polygon's corners are the only points of an outline that a design gives; from those that
-    // face nowhere no surface can be made.
+    // Corners of a polygon are the only outline points that a design gives itself. No surface can
+    // be made from a corner that faces nowhere.
     let faces = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
     if let Section::Polygon(corners) = shape.as_ref()
         && let Some(corner) =

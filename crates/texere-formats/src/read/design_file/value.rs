@@ -1,4 +1,4 @@
-//! From TOML's values to those of a design, each of which knows its key and its line.
+//! From TOML's values to a design's values. Each value knows its key and its line.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,9 @@ use super::source::Source;
 use crate::read::ReadError;
 use crate::read::error::{no_hyphen, said, shown};
 
-/// What a key may hold.
+/// A type of value that a key may hold.
 pub(super) trait Value: Sized {
-    /// What stands for a key that is not there; nothing where it is needed.
+    /// The value of a key that is not there; `None` where the key is required.
     fn absent() -> Option<Self> {
         None
     }
@@ -20,9 +20,10 @@ pub(super) trait Value: Sized {
     fn read(node: &Node<'_>) -> Result<Self, ReadError>;
 }
 
-/// What a design file says.
+/// Reads a design file's text as a table.
 ///
-/// **Errors**: [`ReadError::Syntax`] for what is no TOML, and the errors of the file's keys.
+/// **Errors**: [`ReadError::Syntax`] for a text that is not TOML, and the errors of the file's
+/// keys.
 pub(super) fn parse<T: Value>(source: &Source<'_>) -> Result<T, ReadError> {
     let table = DeTable::parse(source.text).map_err(|error| {
         let line = source.line(error.span().unwrap_or(0..0));
@@ -37,7 +38,7 @@ pub(super) fn parse<T: Value>(source: &Source<'_>) -> Result<T, ReadError> {
 /// A value of a design file and the keys that lead to it.
 pub(super) struct Node<'a> {
     source: &'a Source<'a>,
-    /// The table that it stands in, and its key there. The file itself stands in none.
+    /// The table that the value stands in, and its key there. The file itself stands in no table.
     stands: Option<(&'a Node<'a>, &'a str)>,
     value: &'a Spanned<DeValue<'a>>,
 }
@@ -48,7 +49,7 @@ impl<'a> Node<'a> {
         Self { source, stands: None, value: file }
     }
 
-    /// All keys that lead to it, as errors write them.
+    /// All keys that lead to the value, as errors write them.
     fn field(&self) -> String {
         match self.stands {
             None => String::new(),
@@ -61,19 +62,19 @@ impl<'a> Node<'a> {
         self.value.as_ref().as_str()
     }
 
-    /// The table that it is.
+    /// The value as a table.
     pub(super) fn any_table(&self) -> Result<&'a DeTable<'a>, ReadError> {
         self.value.as_ref().as_table().ok_or_else(|| self.unfit("a table"))
     }
 
-    /// The table that it is, without other keys than those `known`.
+    /// The value as a table, which has no other keys than those `known`.
     pub(super) fn table(&self, known: &[&str]) -> Result<&'a DeTable<'a>, ReadError> {
         let table = self.any_table()?;
         self.only(table, known)?;
         Ok(table)
     }
 
-    /// Refuses the first key of its table that is none of those `known`.
+    /// Refuses the first key of `table` that is not among those `known`.
     pub(super) fn only(&self, table: &DeTable<'_>, known: &[&str]) -> Result<(), ReadError> {
         let others = table.keys().filter(|key| !known.contains(&key.as_ref().as_ref()));
         let Some(key) = others.min_by_key(|key| key.span().start) else { return Ok(()) };
@@ -81,7 +82,7 @@ impl<'a> Node<'a> {
         Err(ReadError::UnknownKey { place, nearest: nearest(key.as_ref(), known) })
     }
 
-    /// What its table has under a key.
+    /// The value of `key` in `table`.
     pub(super) fn key<T: Value>(&self, table: &DeTable<'_>, key: &str) -> Result<T, ReadError> {
         match table.get(key) {
             Some(value) => T::read(&Node { source: self.source, stands: Some((self, key)), value }),
@@ -92,16 +93,16 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The refusal of it, as the file has it.
+    /// The refusal of the value, which is shown as the file has it.
     pub(super) fn unfit(&self, expected: &str) -> ReadError {
         self.source.unfit(&self.field(), self.value.span(), expected)
     }
 }
 
-/// The known key nearest to one that is not, if any is near.
+/// The known key that is nearest in spelling to an unknown one, if any is near.
 fn nearest(key: &str, known: &[&str]) -> Option<String> {
-    // Further apart than a third of its letters, a key is another word, not a misspelling. One much
-    // longer than all known ones is that without being compared letter by letter.
+    // A key that differs in more than a third of its letters is another word, not a misspelling. A
+    // key much longer than a known one is not compared letter by letter, which would take long.
     let most = |known: &str| known.len().max(3) / 3 + 1;
     let nearest = known
         .iter()

@@ -17,17 +17,17 @@ use crate::read::knit::Knit;
 use crate::read::point_paper::PointPaper;
 use crate::read::{Design, ReadError};
 
-/// A guide without yarn, where a threading names yarns.
+/// The word of a threading for a guide without yarn.
 const OUT: &str = "out";
 
 /// The most guides of a threading.
 const GUIDES_MAX: usize = 100_000;
 
-/// The most needles by which a bar is offset, and the most wales or courses.
+/// The most needles by which a bar is offset; and the most wales or courses.
 const OFFSET_MAX: i64 = 1 << 16;
 const SIDE_MAX: i64 = 1_000_000;
 
-/// Finished width over the width between needles.
+/// The least and the greatest draw-in: finished width over width on the needles.
 const DRAW_IN: (f64, f64) = (0.1, 2.0);
 
 /// Reads the warp knit that `table` describes.
@@ -64,7 +64,7 @@ pub(super) fn read(
     Ok(Design::new(name, Structure::Warp(knit.with_cells(cells)), reader.warnings))
 }
 
-/// How close loops lie.
+/// The gauge: how close loops lie.
 fn gauge(source: &Source<'_>, table: &WarpKnitTable) -> Result<Gauge, ReadError> {
     let number = |key: &str, value: &Spanned<f64>, (low, high)| {
         source.number(&format!("warp_knit.{key}"), value, low, high)
@@ -90,13 +90,13 @@ fn gauge(source: &Source<'_>, table: &WarpKnitTable) -> Result<Gauge, ReadError>
 struct Reader<'a> {
     source: &'a Source<'a>,
     yarns: &'a YarnTable,
-    /// The yarns that bars hold, in the order in which they come.
+    /// The yarns that bars hold, in the order of their first guides.
     threads: Vec<(&'a str, Thread)>,
     warnings: Vec<String>,
 }
 
 impl<'a> Reader<'a> {
-    /// The bar of that number, from 1.
+    /// The bar of `table`, which has this number, from 1.
     fn bar(&mut self, number: usize, table: &'a BarTable) -> Result<Bar, ReadError> {
         let source = self.source;
         let field = |key: &str| format!("warp_knit.bars, bar {number}: {key}");
@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
         known.unwrap_or(self.threads.len() - 1) as u32
     }
 
-    /// By how much guides are displaced, where the bar has an image.
+    /// The displacements of guides, where the bar has an image.
     fn jacquard(
         &mut self,
         field: &impl Fn(&str) -> String,
@@ -205,7 +205,8 @@ impl<'a> Reader<'a> {
         displacements.map(Some).ok_or_else(|| source.bad(&field("image"), image, "an image of fewer pixels"))
     }
 
-    /// What a colour displaces at each course of the chain.
+    /// The displacements, by no needle or one, that a colour stands for at each course of the
+    /// chain.
     fn shifts(&self, field: &str, text: &Spanned<String>, chain: &Chain) -> Result<Vec<[u8; 2]>, ReadError> {
         let shifts = Chain::parse(text.as_ref(), 1).map_err(|error| self.no_chain(field, text, error))?;
         let shifts: Option<Vec<_>> =
@@ -224,12 +225,12 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A displacement by no needle or one.
+/// A displacement of 0 or 1 needle. None for any other.
 fn shift(needles: i32) -> Option<u8> {
     u8::try_from(needles).ok().filter(|needles| *needles <= 1)
 }
 
-/// How many guides `out`, `3 out` leave empty.
+/// The number of guides that an item such as `out` or `3 out` leaves empty.
 fn out(item: &str) -> Option<u32> {
     let words: Vec<_> = item.split_whitespace().collect();
     match words[..] {
@@ -239,7 +240,7 @@ fn out(item: &str) -> Option<u32> {
     }
 }
 
-/// Needles, of either sign.
+/// A number of needles, of either sign.
 fn offset(source: &Source<'_>, field: &str, needles: &Spanned<i64>) -> Result<i32, ReadError> {
     let value = Spanned::new(needles.span(), *needles.as_ref() as f64);
     source.number(field, &value, -OFFSET_MAX as f64, OFFSET_MAX as f64).map(|needles| needles as i32)

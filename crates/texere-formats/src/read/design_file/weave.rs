@@ -65,7 +65,7 @@ pub(super) fn from_rows(
     Drawdown::repeating(ends, picks, (width, rows.len()), up).map_err(|error| source.fabric(error))
 }
 
-/// Refuses keys that say something of an image.
+/// Refuses keys that are about an image.
 pub(super) fn without_image(source: &Source<'_>, table: &WeaveTable) -> Result<(), ReadError> {
     let spans = [
         ("weave.rows", table.rows.as_ref().map(Spanned::span)),
@@ -102,7 +102,7 @@ pub(super) fn from_image(
     let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
     let refused = |error: ReadError| error.named(source.place("weave.image", image.span()));
     let paper = PointPaper::read(&path, source.files, rows).map_err(refused)?;
-    // Drawdown refuses what is too large.
+    // `Drawdown` refuses a cloth that is too large.
     let (ends, picks) = (paper.ends.saturating_mul(across), paper.picks.saturating_mul(along));
     for (field, given, size) in [("weave.ends", &table.ends, ends), ("weave.picks", &table.picks, picks)] {
         if let Some(given) = given.as_ref().filter(|given| i64::try_from(size) != Ok(*given.as_ref())) {
@@ -117,7 +117,7 @@ pub(super) fn from_image(
         }
         Some(weaves) => {
             let weaves = of_colors(source, &paper, weaves, warnings)?.map_err(refused)?;
-            // Everything repeats where the paper and all its weaves do.
+            // The drawdown repeats where the paper and all its weaves repeat together.
             let repeat = weaves.iter().map(Weave::repeat).fold((paper.ends, paper.picks), |all, one| {
                 (common_multiple(all.0, one.0), common_multiple(all.1, one.1))
             });
@@ -128,7 +128,7 @@ pub(super) fn from_image(
     drawdown.map_err(|error| source.fabric(error))
 }
 
-/// The least number that both divide, or the most that there is.
+/// The least common multiple, or `usize::MAX` where it is greater.
 fn common_multiple(a: usize, b: usize) -> usize {
     let (mut divisor, mut rest) = (a, b);
     while rest != 0 {
@@ -137,8 +137,8 @@ fn common_multiple(a: usize, b: usize) -> usize {
     (a / divisor.max(1)).saturating_mul(b)
 }
 
-/// The table of colours, by red, green and blue. A weave is read here only to know that it is one:
-/// no more of them are kept than a paper has colours.
+/// The table of colours, by red, green and blue. Each notation is parsed here only to refuse a bad
+/// one. Weaves are not kept, for a table may have many more colours than the paper.
 fn weaves<'a>(
     source: &Source<'_>,
     colors: &'a BTreeMap<Spanned<String>, Spanned<String>>,
@@ -167,8 +167,8 @@ impl Notated<'_> {
     }
 }
 
-/// The weave of each colour of the paper, or the refusal of a colour that has none; a warning of
-/// those in the table alone.
+/// The weave of each colour of the paper. The inner error refuses a colour that has none. Colours
+/// that are in the table only are warned of.
 fn of_colors(
     source: &Source<'_>,
     paper: &PointPaper,

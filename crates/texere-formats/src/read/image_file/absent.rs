@@ -1,4 +1,4 @@
-//! What a build without images says of an image file.
+//! The refusal of image files by a build without images.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! BMP images: numbers that the palette has no colour for, which their decoder shows black, are
-//! looked for before.
+//! Looks in a BMP image for pixels whose number the palette has no colour for. The decoder would
+//! show them black.
 
 use std::io::{self, Read, SeekFrom};
 use std::path::Path;
@@ -14,13 +14,13 @@ const PLAIN: u32 = 0;
 const RUNS_OF_8_BITS: u32 = 1;
 const RUNS_OF_4_BITS: u32 = 2;
 
-/// What follows a zero in runs (MS-WMF, bitmap compression): a row ends, the picture ends, pixels
-/// are left out; more is a list of so many numbers.
+/// The byte behind a zero in runs (MS-WMF, bitmap compression). 0 ends a row, 1 ends the picture, 2
+/// leaves pixels out. A greater number is the length of a list of numbers.
 const ROW_END: u8 = 0;
 const END: u8 = 1;
 const LEAVE_OUT: u8 = 2;
 
-/// What a BMP says of numbers of a palette that is shorter than these may be.
+/// The header of a BMP whose pixels may have numbers beyond its palette.
 struct Numbers {
     bits: usize,
     colors: usize,
@@ -43,13 +43,13 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes) -> Result<(), ReadError>
     match found {
         Ok(Some(why)) => Err(undecodable(path, &why)),
         Ok(None) => Ok(()),
-        // What is missing the decoder will miss too.
+        // The decoder will refuse a file that is cut short.
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(()),
         Err(source) => Err(ReadError::Io { file: path.into(), source }),
     }
 }
 
-/// Reads the headers and goes to where pixels begin. `None` where each number has a colour, and
+/// Reads the headers, and goes to the first pixel. `None` where every number has a colour, and
 /// where the decoder will refuse the file.
 fn header(file: &mut impl Bytes) -> io::Result<Option<Numbers>> {
     let mut head = [0; 54];
@@ -63,17 +63,18 @@ fn header(file: &mut impl Bytes) -> io::Result<Option<Numbers>> {
         RUNS_OF_4_BITS => bits == 4,
         _ => false,
     };
-    // A core header, of 12 bytes, says no number of colours; 0 is as many as there are numbers.
+    // A core header, of 12 bytes, has no number of colours. A count of 0 stands for a full palette.
     if header_bytes < 40 || !has_numbers || colors == 0 || colors >= 1 << bits || word(18) > i32::MAX as u32 {
         return Ok(None);
     }
     file.seek(SeekFrom::Start(word(10).into()))?;
-    // Rows from the top down are so many below zero.
+    // A height below zero means that rows come from the top down.
     let size = [word(18), (word(22) as i32).unsigned_abs()];
     Ok(Some(Numbers { bits, colors, size, compression }))
 }
 
-/// The first number beyond the palette of rows, each of whole groups of four bytes.
+/// The first number beyond the palette in plain rows. Each row is padded to a multiple of four
+/// bytes.
 fn in_rows(file: &mut impl Read, numbers: &Numbers) -> io::Result<Option<usize>> {
     let &Numbers { bits, colors, size: [width, height], .. } = numbers;
     let width = width as usize;
@@ -87,7 +88,7 @@ fn in_rows(file: &mut impl Read, numbers: &Numbers) -> io::Result<Option<usize>>
     Ok(None)
 }
 
-/// The first number beyond the palette of runs and lists.
+/// The first number beyond the palette in runs and lists.
 fn in_runs(file: &mut impl Read, &Numbers { bits, colors, .. }: &Numbers) -> io::Result<Option<usize>> {
     let mut list = [0; 256];
     loop {
@@ -101,12 +102,12 @@ fn in_runs(file: &mut impl Read, &Numbers { bits, colors, .. }: &Numbers) -> io:
                 continue;
             }
             [0, count] => {
-                // Lists are of whole pairs of bytes.
+                // A list is padded to a multiple of two bytes.
                 let bytes = &mut list[..(usize::from(count) * bits).div_ceil(16) * 2];
                 file.read_exact(bytes)?;
                 (&*bytes, count.into())
             }
-            // A run of the numbers of its byte in turn.
+            // A run repeats the numbers in its byte in turn.
             [run, _] => (&pair[1..], usize::from(run).min(8 / bits)),
         };
         if let Some(number) = packed_numbers(bytes, bits, count).find(|number| *number >= colors) {

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-/// What an image is decoded from.
+/// The source that an image is decoded from: bytes to read and seek in.
 pub(super) trait Bytes: BufRead + Seek {}
 
 impl<T: BufRead + Seek> Bytes for T {}

@@ -11,22 +11,23 @@ pub(crate) struct Image {
     pub(super) orientation: Orientation,
 }
 
-/// How an image is turned before it is shown, as TIFF and Exif count it: 1 not at all, from 2 on
-/// mirrored left to right, turned by half, mirrored top to bottom, at the falling diagonal, turned
-/// a quarter clockwise, mirrored at the rising diagonal, turned a quarter back. What is none of
-/// these turns nothing.
+/// The turn of an image before it is shown, as TIFF and Exif number it: 1 no turn, 2 mirrored left
+/// to right, 3 half a turn, 4 mirrored top to bottom, 5 mirrored at the falling diagonal, 6 a
+/// quarter turn clockwise, 7 mirrored at the rising diagonal, 8 a quarter turn back. Other numbers
+/// turn nothing.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992, page 36.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Orientation(pub(super) u16);
 
 impl Orientation {
-    /// Whether rows are shown as columns.
+    /// Whether stored rows are shown as columns.
     fn swaps(self) -> bool {
         (5..=8).contains(&self.0)
     }
 
-    /// Column and row of a stored image of this size that are shown at `column` and `row`.
+    /// The column and row in the stored image of this size of the pixel that is shown at `column`
+    /// and `row`.
     fn stored(self, [width, height]: [usize; 2], [column, row]: [usize; 2]) -> [usize; 2] {
         let [across, down] = if self.swaps() { [row, column] } else { [column, row] };
         let across = if [2, 3, 7, 8].contains(&self.0) { width - 1 - across } else { across };
@@ -36,13 +37,14 @@ impl Orientation {
 }
 
 impl Image {
-    /// Width and height as it is shown.
+    /// Width and height of the image as it is shown.
     pub(crate) fn size(&self) -> [usize; 2] {
         let size = [self.width, self.height];
         if self.orientation.swaps() { [size[1], size[0]] } else { size }
     }
 
-    /// Red, green, blue and opacity of each pixel as it is shown, row by row from the top.
+    /// Red, green, blue and opacity of each pixel of the image as it is shown, row by row from the
+    /// top.
     pub(crate) fn pixels(&self) -> impl Iterator<Item = [u8; 4]> {
         let channels = self.channels;
         let width = self.bytes.len() / (self.width * self.height * channels);
@@ -53,7 +55,7 @@ impl Image {
             let pixel = &self.bytes[(row * self.width + column) * width * channels..];
             let channel = |number: usize| match pixel[number * width..][..width] {
                 [byte] => byte,
-                // Of 65,535, rounded.
+                // From a range of 65,535 to a range of 255, rounded.
                 [low, high] => ((u32::from(u16::from_ne_bytes([low, high])) + 128) / 257) as u8,
                 [a, b, c, d] => (f32::from_ne_bytes([a, b, c, d]).clamp(0.0, 1.0) * 255.0).round() as u8,
                 _ => 0,

@@ -1,4 +1,4 @@
-//! PNG images: what their decoder takes for granted or shows black is looked at before.
+//! Looks in a PNG image for faults that the decoder takes for granted, or shows black.
 
 use std::io::{self, SeekFrom};
 use std::path::Path;
@@ -11,14 +11,15 @@ use super::limits::{ASIDE_MAX, check_size};
 use super::refused::{no_color, undecodable};
 use crate::read::ReadError;
 
-/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and
-/// each is eight pixels of one bit. So a short file takes no memory for pixels that it can't have.
+/// The most pixels that a byte of a PNG stands for. DEFLATE makes at most 1,032 bytes of one byte,
+/// and a byte has eight pixels of one bit. By this limit a short file takes no memory for pixels
+/// that it can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Refuses a PNG of `file_bytes` that has a broken palette, fewer bytes than its pixels take, or
 /// pixels beyond its palette.
 ///
-/// **Source**: PNG 1.2, 4.1.2: a number that the palette has no colour for is an error.
+/// **Source**: PNG 1.2, 4.1.2. A number that the palette has no colour for is an error.
 pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Result<(), ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
     let failed = |error: DecodingError| undecodable(path, &error.to_string());
@@ -28,7 +29,7 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
     }
     file.rewind().map_err(io)?;
     let mut decoder = Decoder::new_with_limits(file, Limits { bytes: ASIDE_MAX as usize });
-    // The decoder of the picture looks at these.
+    // The decoder that reads the pixels checks these chunks.
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info().map_err(failed)?;
@@ -55,15 +56,15 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
     }
 }
 
-/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder
-/// takes that for granted.
+/// The length of a PNG's palette where it is broken: no multiple of three bytes, or not 1 to 256
+/// colours. The decoder takes a sound palette for granted.
 fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
     // Behind the signature each chunk has its length, its name, its data and a checksum.
     file.seek(SeekFrom::Start(8))?;
     let mut head = [0; 8];
     loop {
         match file.read_exact(&mut head) {
-            // What is missing the decoder will miss too.
+            // The decoder will refuse a file that is cut short.
             Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
             other => other?,
         }

@@ -1,5 +1,6 @@
-//! TIFF images of one channel, grey or numbers of a palette: these are read sample by sample, since
-//! the decoder of all images takes few of them. It is told that they are grey.
+//! TIFF images of one channel: grey, or numbers of a palette. The decoder for all images takes few
+//! of them. They are read here, sample by sample, by a TIFF decoder that is made to believe that
+//! they are grey.
 
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -27,24 +28,24 @@ const IN_PLANES: u16 = 2;
 /// How a BigTIFF begins, in either order of bytes.
 const BIG: [[u8; 4]; 2] = [*b"II+\0", *b"MM\0+"];
 
-/// Bits of NewSubfileType that say that a page is a small copy of another, or its mask.
+/// Bits of NewSubfileType for a page that is a small copy of another page, or its mask.
 const BESIDE: u32 = 0b101;
 
-/// What is told of a TIFF before its pixels are read.
+/// The tags of a TIFF's first page that are read before its pixels.
 pub(super) struct Header {
     photometric: u16,
-    /// Where the file says so, bytes from its start.
+    /// The place of that tag's value in the file, bytes from its start.
     photometric_at: u64,
     order: ByteOrder,
 }
 
-/// Whether a file that begins so is a BigTIFF, which the decoder of all images reads but does not
-/// know by itself.
+/// Whether a file that begins with `start` is a BigTIFF. The decoder for all images reads BigTIFF
+/// but does not recognise it.
 pub(super) fn is_big(start: &[u8]) -> bool {
     BIG.iter().any(|big| start.starts_with(big))
 }
 
-/// Looks at a TIFF's first page. `None` for one that the decoder of all images reads as it looks.
+/// Looks at a TIFF's first page. `None` for a page that the decoder for all images reads correctly.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992.
 pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header>, ReadError> {
@@ -56,7 +57,7 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
         Ok(Page { fill_order: 2, .. }) => {
             refuse("its FillOrder is 2, the bits of each byte turned round; save it with FillOrder 1")
         }
-        // Of planes but the first one the decoder takes the lowest tiles for whole ones, and
+        // In all planes but the first one, the decoder takes the lowest tiles for whole ones, and
         // panics.
         Ok(Page { in_planes_of_tiles: true, .. }) => refuse(
             "its samples lie in planes of tiles (PlanarConfiguration 2); save it with PlanarConfiguration 1",
@@ -67,7 +68,7 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
     }
 }
 
-/// What the first page says of itself.
+/// The first page's tags.
 struct Page {
     photometric: u16,
     fill_order: u16,
@@ -101,7 +102,7 @@ fn look(file: &mut impl Bytes) -> Result<Page, TiffError> {
     Ok(Page { photometric, fill_order, in_planes_of_tiles, others, header })
 }
 
-/// Where the value of a tag stands in the directory at `at`, as a SHORT; `None` where it is none.
+/// The place of the value of a tag in the directory at `at`; `None` where the value is not a SHORT.
 fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::Result<Option<u64>> {
     let number = |bytes: &[u8]| {
         let digits = |number, byte: &u8| number << 8 | u64::from(*byte);
@@ -113,7 +114,8 @@ fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::R
     let mut head = [0; 4];
     file.rewind()?;
     file.read_exact(&mut head)?;
-    // Of a BigTIFF counts and offsets are twice as long, and the number of entries four times.
+    // In a BigTIFF, counts and offsets are twice as long, and the number of entries is four times
+    // as long.
     let (count_bytes, entry_bytes, value) = if number(&head[2..]) == 43 { (8, 20, 12) } else { (2, 12, 8) };
     file.seek(SeekFrom::Start(at))?;
     let mut entry = [0; 20];
@@ -128,8 +130,7 @@ fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::R
     Ok(None)
 }
 
-/// How many bytes the decoder may take at a time: for pixels, beside them, and for what the file
-/// says of its picture.
+/// The bytes that the decoder may take at a time for pixels, for buffers, and for each tag.
 fn limits(pixels: usize) -> Limits {
     let bytes = pixels + ASIDE_MAX as usize;
     let mut limits = Limits::default();
@@ -139,8 +140,7 @@ fn limits(pixels: usize) -> Limits {
     limits
 }
 
-/// Reads the pixels of the first page, of which `header` has been told, as red, green, blue and
-/// opacity.
+/// Reads the pixels of the first page, whose `header` is known, as red, green, blue and opacity.
 pub(super) fn decode(path: &Path, file: impl Bytes, header: &Header) -> Result<Image, ReadError> {
     let failed = |error: TiffError| undecodable(path, &error.to_string());
     let mut decoder = Grey::new(file, header)
@@ -179,17 +179,17 @@ pub(super) fn decode(path: &Path, file: impl Bytes, header: &Header) -> Result<I
     Ok(Image { width, height, channels: 4, bytes, orientation: samples.orientation })
 }
 
-/// What the samples of a pixel are.
+/// The meaning of the samples of a pixel.
 struct Samples {
     photometric: u16,
     count: usize,
     bits: usize,
     are_numbers: bool,
-    /// Which of them is opacity, if any.
+    /// The number of the sample that is opacity, if any.
     alpha: Option<usize>,
-    /// Red of all colours of the palette, then green, then blue, of 65,535.
+    /// Red of all colours of the palette, then green, then blue, each from 0 to 65,535.
     map: Vec<u16>,
-    /// How far colours of the palette are shifted to be of 255.
+    /// The shift that brings colours of the palette to a range of 255.
     shift: u32,
     orientation: Orientation,
 }
@@ -200,8 +200,8 @@ impl Samples {
         let first = |values: Vec<u16>| values.first().copied();
         let count = first(all(Tag::SamplesPerPixel)?).unwrap_or(1).into();
         let extra = all(Tag::ExtraSamples)?;
-        // 1 and 2 are opacities, by which colours are multiplied or not. Where a pixel is wholly
-        // opaque that is the same.
+        // 1 is opacity by which colours have been multiplied, 2 is opacity by which they have not.
+        // Both mean the same for a wholly opaque pixel.
         let alpha = extra.iter().position(|of| [1, 2].contains(of));
         let map = all(Tag::ColorMap)?;
         Ok(Self {
@@ -210,7 +210,8 @@ impl Samples {
             bits: first(all(Tag::BitsPerSample)?).unwrap_or(1).into(),
             are_numbers: all(Tag::SampleFormat)?.iter().all(|format| *format == 1),
             alpha: alpha.and_then(|place| (count + place).checked_sub(extra.len())),
-            // Some programs write of 255; libtiff takes a palette as such where nothing is more.
+            // Some programs write palettes in a range of 255. As in libtiff, a palette without
+            // greater numbers is such a palette.
             shift: if map.iter().all(|value| *value < 256) { 0 } else { 8 },
             map,
             orientation: Orientation(first(all(Tag::Orientation)?).unwrap_or(1)),
@@ -240,7 +241,7 @@ impl Samples {
         usize::from(byte(at)) >> (8 - self.bits - before) & ((1 << self.bits) - 1)
     }
 
-    /// A sample, of 255.
+    /// A sample in a range of 255.
     fn of_255(&self, sample: usize) -> u8 {
         let most = (1 << self.bits) - 1;
         ((sample * 255 + most / 2) / most) as u8
@@ -260,13 +261,14 @@ impl Samples {
     }
 }
 
-/// A TIFF that says of its samples that they are grey from black on, whatever they are: what the
-/// decoder gives is then what the file holds.
+/// A TIFF whose samples seem to be grey, with 0 as black, whatever they are. The decoder then gives
+/// samples as the file has them.
 struct Grey<F> {
     file: F,
-    /// Where in the file the next byte is.
+    /// The place of the next byte in the file.
     at: u64,
-    told: [(u64, u8); 2],
+    /// The bytes that are read in place of the file's own, with their places.
+    replaced: [(u64, u8); 2],
 }
 
 impl<F: Bytes> Grey<F> {
@@ -277,19 +279,19 @@ impl<F: Bytes> Grey<F> {
             ByteOrder::BigEndian => BLACK_IS_ZERO.to_be_bytes(),
         };
         let at = header.photometric_at;
-        Ok(Self { file, at: 0, told: [(at, first), (at + 1, second)] })
+        Ok(Self { file, at: 0, replaced: [(at, first), (at + 1, second)] })
     }
 }
 
 impl<F: Read> Read for Grey<F> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = self.file.read(buffer)?;
-        for (at, told) in self.told {
+        for (at, replaced) in self.replaced {
             let place = at
                 .checked_sub(self.at)
                 .and_then(|place| buffer[..read].get_mut(usize::try_from(place).ok()?));
             if let Some(byte) = place {
-                *byte = told;
+                *byte = replaced;
             }
         }
         self.at += read as u64;

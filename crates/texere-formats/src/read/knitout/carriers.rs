@@ -1,4 +1,4 @@
-//! Carriers by name, and the sets of them that operations take.
+//! The carriers of a program by name, and the sets of carriers that operations take.
 
 use std::collections::HashMap;
 
@@ -9,15 +9,16 @@ use super::line::Words;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 
-/// Whether a carrier may have that name: messages and yarns are called by it.
+/// Whether a carrier may be called `word`. Messages and yarns have the name, so that it is short
+/// and printable.
 pub(super) fn is_name(word: &str) -> bool {
     word.chars().count() <= NAME_MAX && !word.chars().any(char::is_control)
 }
 
-/// What is said of a word that is none.
+/// The text of errors for a word that is no name.
 pub(super) const NAME: &str = "the name of a carrier: 40 letters at most, none of them a control code";
 
-/// The carriers of a program and the sets of them that occur.
+/// The carriers of a program, and the sets of carriers that occur.
 #[derive(Debug)]
 pub(super) struct Carriers<'a> {
     numbers: HashMap<&'a str, u32>,
@@ -26,12 +27,12 @@ pub(super) struct Carriers<'a> {
     declared: bool,
     sets: Vec<Vec<u32>>,
     set_numbers: HashMap<Vec<u32>, u32>,
-    /// The words of the set that is read.
+    /// The set that is being read.
     set: Vec<u32>,
 }
 
 impl<'a> Carriers<'a> {
-    /// Those that the header lists; where it lists none, those that will occur.
+    /// The carriers that the header lists. Without a list, carriers are added as they occur.
     pub(super) fn new(declared: Option<&[&'a str]>) -> Self {
         let names = declared.unwrap_or_default();
         Self {
@@ -44,7 +45,7 @@ impl<'a> Carriers<'a> {
         }
     }
 
-    /// The carrier set that the rest of an operation names: none where nothing is left of it.
+    /// The carrier set that the rest of an operation names. None where no word is left.
     pub(super) fn set(&mut self, mut words: Words<'a>) -> Result<Option<CarrierSet>, ReadError> {
         self.set.clear();
         while let Some(word) = words.next() {
@@ -86,7 +87,7 @@ impl<'a> Carriers<'a> {
         Ok(number)
     }
 
-    /// Names, sets, and whether no header lists them.
+    /// Names and sets of the carriers, and whether the header lists none.
     pub(super) fn finish(self) -> (Vec<String>, Vec<Vec<u32>>, bool) {
         (self.names, self.sets, !self.declared)
     }

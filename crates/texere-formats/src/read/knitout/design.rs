@@ -16,11 +16,11 @@ use crate::read::{Design, ReadError};
 /// Needles to the inch where a file says nothing.
 const GAUGE: f64 = 15.0;
 
-/// How many times a yarn's diameter a wale is where a file says nothing: that of plain jersey.
+/// The width of a wale in yarn diameters, where a file says nothing: that of plain jersey.
 const WALE_OF_DIAMETER: f64 = 5.0;
 
-/// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too
-/// dark to show its shape.
+/// Colours of the carriers, since a file has none that can be drawn. They are easily told apart,
+/// and none is too dark to show a yarn's shape.
 const COLORS: [[u8; 3]; 8] = [
     [0xd9, 0xcf, 0xb8],
     [0x9c, 0x3b, 0x2e],
@@ -32,7 +32,8 @@ const COLORS: [[u8; 3]; 8] = [
     [0x8a, 0x8a, 0x8a],
 ];
 
-/// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
+/// The design of a knitout file alone. It has the proportions of plain jersey, and a colour for
+/// each carrier.
 pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let read = knitout_file::read(path, files, &LoopLengths::new())?;
     let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));

@@ -13,7 +13,7 @@ use crate::read::error::shown;
 /// The version of knitout that is read.
 const VERSION: u32 = 2;
 
-/// Reads the line `;!knitout-2`, where it is there.
+/// Reads the line `;!knitout-2`, and warns where it is missing or has another version.
 pub(super) fn magic<'a>(
     lines: &mut Peekable<impl Iterator<Item = (usize, &'a str)>>,
     warnings: &mut Warnings,
@@ -30,26 +30,26 @@ pub(super) fn magic<'a>(
     }
 }
 
-/// Name and value of a header, `;;Name: value`.
+/// The name and the value of a header, `;;Name: value`.
 pub(super) fn name(text: &str) -> Option<(&str, &str)> {
     let (name, value) = text.trim_start().strip_prefix(";;")?.split_once(':')?;
     Some((name.trim(), value.trim()))
 }
 
-/// Whether a header of that name says anything in knitout 2.
+/// Whether knitout 2 has a header of this name.
 pub(super) fn is_known(name: &str) -> bool {
     matches!(name, "Machine" | "Gauge" | "Carriers" | "Position") || name.starts_with("Yarn-")
 }
 
-/// What the header says.
+/// The header of a file.
 #[derive(Debug, Default)]
 pub(super) struct Header<'a> {
     /// The carriers, front to back.
     pub(super) carriers: Option<Vec<&'a str>>,
-    /// Needles to the inch, and the line that says so.
+    /// Needles to the inch, and the line of that header.
     pub(super) gauge: Option<(f64, usize)>,
     machine: Option<&'a str>,
-    /// What is in each carrier, and the line that says so.
+    /// The yarn in each carrier, and the line of that header.
     yarns: HashMap<&'a str, (&'a str, usize)>,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Header<'a> {
                 self.gauge = gauge.map(|gauge| (gauge, line.number));
             }
             "Machine" => self.machine = Some(value),
-            // The cloth is the same wherever on the bed it is knitted.
+            // The place on the bed makes no difference to the cloth.
             "Position" => {}
             _ => match name.strip_prefix("Yarn-") {
                 Some(carrier) => drop(self.yarns.insert(carrier, (value, line.number))),
@@ -97,9 +97,9 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    /// The fractions of a rack at which the machine's back needles lie between its front needles,
-    /// so that both beds can knit at once: 0.25 on Shima Seiki's SWG machines, also below 0
-    /// (-0.75), and 0.5 elsewhere. Either where no machine is named.
+    /// The fractions of a rack at which back needles lie between front needles, so that both beds
+    /// can knit at once. It is 0.25 on Shima Seiki's SWG machines, below 0 as well (-0.75), and 0.5
+    /// on other machines. Without a machine's name both are taken.
     pub(super) fn all_needle_racks(&self) -> &'static [f64] {
         match self.machine {
             Some(machine) if machine.starts_with("SWG") => &[0.25],
@@ -108,7 +108,7 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// What is in each of these carriers.
+    /// The yarn in each of `carriers`.
     pub(super) fn yarns_of(mut self, carriers: &[String], warnings: &mut Warnings) -> Vec<Option<String>> {
         let text = |(yarn, _): (&str, _)| {
             yarn.chars().filter(|letter| !letter.is_control()).take(YARN_MAX).collect()

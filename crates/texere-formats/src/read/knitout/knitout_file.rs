@@ -1,4 +1,4 @@
-//! A knitout file: its program, and what else it says of the cloth.
+//! A knitout file: its program, its gauge and its yarns.
 
 use std::path::Path;
 
@@ -22,19 +22,19 @@ pub(crate) struct KnitoutFile {
     pub(crate) program: Program,
     /// Needles to the inch, where the header says so.
     pub(crate) gauge: Option<f64>,
-    /// What the header says of the yarn in each carrier of the program.
+    /// The text of the header about the yarn in each carrier of the program.
     pub(crate) yarns: Vec<Option<String>>,
     pub(crate) warnings: Vec<String>,
-    /// Stitch sizes that have a length, and that no operation names.
+    /// Stitch sizes that have a length but occur in no operation.
     pub(crate) unused_sizes: Vec<String>,
     pub(crate) keys: Keys,
 }
 
 impl KnitoutFile {
-    /// Of each carrier whether an operation takes it.
+    /// For each carrier, whether an operation takes it.
     pub(crate) fn used_carriers(&self) -> Vec<bool> {
         let mut used = vec![false; self.program.carriers.len()];
-        // Sets are those that occur.
+        // Every set occurs in an operation.
         for &carrier in self.program.carrier_sets.iter().flatten() {
             used[carrier as usize] = true;
         }
@@ -42,7 +42,7 @@ impl KnitoutFile {
     }
 }
 
-/// Reads the file in `path`. Sources of its operations are lines, from 1.
+/// Reads the file in `path`. The sources of its operations are lines, from 1.
 pub(crate) fn read(path: &Path, files: &Files<'_>, lengths: &LoopLengths) -> Result<KnitoutFile, ReadError> {
     parse(path, &bytes_of(files, path, FILE_MAX)?, lengths)
 }
@@ -67,7 +67,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<
     let mut lines = (1..).zip(text.lines()).peekable();
     header::magic(&mut lines, &mut warnings);
     let mut header = Header::default();
-    // It ends where operations begin; empty lines and other comments may stand in between.
+    // The header ends where operations begin. Empty lines and comments may stand in it.
     while let Some((number, text)) = lines.next_if(|(_, text)| is_comment(text)) {
         header.read(&Line::new(path, number, text), &mut warnings)?;
     }
@@ -93,8 +93,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<
     Ok(KnitoutFile { program, gauge, yarns, warnings: warnings.list(), unused_sizes, keys })
 }
 
-/// What errors of the cloth name: the gauge, where each carrier comes first, and the last loop;
-/// where there is none, the first operation.
+/// The lines that errors of the cloth name: the line of the gauge, the first operation of each
+/// carrier, and the operation of the last loop. Where no operation makes a loop, the first
+/// operation stands for it.
 fn keys(path: &Path, gauge: Option<usize>, program: &Program) -> Keys {
     let (mut carriers, mut last, mut seen) = (Vec::new(), None, vec![false; program.carriers.len()]);
     let written = |(operation, carrier): (&Operation, u32)| {

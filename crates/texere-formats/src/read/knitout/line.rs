@@ -1,4 +1,4 @@
-//! A line of a knitout file and the words of its operation.
+//! A line of a knitout file, and the words of its operation.
 
 use std::path::Path;
 use std::str::SplitWhitespace;
@@ -23,13 +23,13 @@ impl<'a> Line<'a> {
         Self { file, number, text }
     }
 
-    /// The words of the operation, which ends where a comment begins.
+    /// The words of the operation. A comment ends it.
     pub(super) fn words(&self) -> Words<'a> {
         let operation = self.text.split(';').next().unwrap_or_default();
         Words { line: *self, operation, rest: operation.split_whitespace() }
     }
 
-    /// The refusal of `word`, a part of this line.
+    /// The refusal of `word`, which is a part of this line.
     pub(super) fn refused(&self, word: &str, expected: impl Into<String>) -> ReadError {
         let before = (word.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let column = self.text.get(..before).unwrap_or_default().chars().count() + 1;
@@ -39,7 +39,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The words of an operation that are not yet read.
+/// The words of an operation that are still to be read.
 #[derive(Debug)]
 pub(super) struct Words<'a> {
     line: Line<'a>,
@@ -56,7 +56,7 @@ impl<'a> Iterator for Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    /// The next word; where there is none, the place behind the last one is refused.
+    /// The next word. Where there is none, the place behind the last word is refused.
     fn needed(&mut self, expected: &str) -> Result<&'a str, ReadError> {
         self.rest.next().ok_or_else(|| {
             let operation = self.operation.trim_end();
@@ -104,15 +104,15 @@ impl<'a> Words<'a> {
         Ok(Needle { bed, slider, number })
     }
 
-    /// A number, and how it is written.
+    /// A number, with the word that the file has for it.
     pub(super) fn number(&mut self, expected: &str) -> Result<(f64, &'a str), ReadError> {
         let word = self.needed(expected)?;
         let number = word.parse().ok().filter(|number: &f64| number.abs() <= f64::from(NEEDLE_MAX));
         number.map(|number| (number, word)).ok_or_else(|| self.line.refused(word, expected))
     }
 
-    /// Passes by `D N` that older writers put before the carriers of `in` and its like. Gives back
-    /// whether they were there.
+    /// Passes by a direction and a needle, which older writers put before the carriers of `in` and
+    /// `out`. Gives whether they were there.
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
         let is_direction = |word: &str| {

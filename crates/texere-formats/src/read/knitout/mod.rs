@@ -1,14 +1,15 @@
 //! Knitout 2, the operations of a knitting machine (J. McCann, "The Knitout (.k) File Format",
 //! v0.6).
 //!
-//! Strict about what is knitted, lenient about how a file is written. Refused, with line and
-//! column: an operation that is none, a word that does not belong there, a carrier that the header
-//! does not list. Warned of, each kind once: a first line without `;!knitout-2` or with a later
-//! version, no list of carriers (then they are those that occur), headers and extensions that are
-//! not known, stitch sizes without a length, carriage returns, text that is not UTF-8.
+//! The reader is strict about what is knitted and lenient about how a file is written. It refuses,
+//! with line and column, an unknown operation, a word that does not belong there, and a carrier
+//! that the header does not list. It warns, once for each kind, of a first line that is not
+//! `;!knitout-2`, of a missing list of carriers (the carriers that occur are taken), of unknown
+//! headers and extensions, of stitch sizes without a length, of carriage returns, and of text that
+//! is not UTF-8.
 //!
-//! With an empty carrier set `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` are
-//! nothing. `pause` is nothing.
+//! With an empty carrier set, `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` do
+//! nothing. `pause` does nothing.
 
 mod carriers;
 mod design;
@@ -23,5 +24,7 @@ mod tests;
 mod warnings;
 
 pub(super) use design::design;
+#[cfg(feature = "toml")]
 pub(super) use knitout_file::read;
+#[cfg(feature = "toml")]
 pub(super) use loop_lengths::{LoopLengths, size};

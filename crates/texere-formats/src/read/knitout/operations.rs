@@ -1,4 +1,4 @@
-//! What each line tells the machine to do.
+//! The operations of a knitout file.
 
 use std::collections::BTreeSet;
 
@@ -13,24 +13,24 @@ use super::warnings::Warnings;
 use crate::read::ReadError;
 use crate::read::error::shown;
 
-/// What an operation without yarns takes.
+/// The carrier set of an operation without yarns.
 const NO_CARRIERS: CarrierSet = CarrierSet(0);
 
 const OPERATION: &str = "an operation of knitout: in, inhook, releasehook, out, outhook, stitch, rack, knit, tuck, split, drop, \
                          amiss, xfer, miss, pause or x-…";
 
-/// Operations, line by line.
+/// Operations as they are read, line by line.
 #[derive(Debug)]
 pub(super) struct Operations<'a> {
     carriers: Carriers<'a>,
     lengths: &'a LoopLengths,
-    /// Fractions of a rack that stand for half a needle.
+    /// The fractions of a rack that stand for half a needle.
     all_needle_racks: &'static [f64],
     operations: Vec<Operation>,
-    /// The first stitch size that has no length, with its line; and whether there are others.
+    /// The first stitch size without a length, with its line; and whether another such size occurs.
     unsized_first: Option<(String, usize)>,
     unsized_others: bool,
-    /// Stitch sizes that have a length and have been named.
+    /// Stitch sizes that have a length and occur in an operation.
     sized: BTreeSet<String>,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Operations<'a> {
     pub(super) fn read(&mut self, line: &Line<'a>, warnings: &mut Warnings) -> Result<(), ReadError> {
         let mut words = line.words();
         let Some(code) = words.next() else { return Ok(()) };
-        let told = match code {
+        let operation = match code {
             "in" => self.yarns(line, words, Instruction::In, warnings)?,
             "inhook" => self.yarns(line, words, Instruction::InHook, warnings)?,
             "releasehook" => self.yarns(line, words, Instruction::ReleaseHook, warnings)?,
@@ -125,7 +125,7 @@ impl<'a> Operations<'a> {
             }
             _ => return Err(line.refused(code, OPERATION)),
         };
-        match told {
+        match operation {
             Some((instruction, carriers)) => self.push(line, code, instruction, carriers),
             None => Ok(()),
         }
@@ -152,7 +152,8 @@ impl<'a> Operations<'a> {
         }
     }
 
-    /// A rack in needles; back needles that lie between front ones lie half way.
+    /// A rack, in needles. A fraction becomes half a needle: back needles then lie halfway between
+    /// front needles.
     fn rack(&self, line: &Line<'_>, rack: f64, word: &str, warnings: &mut Warnings) -> f64 {
         let (whole, fraction) = (rack.floor(), rack - rack.floor());
         if fraction == 0.0 {
@@ -170,7 +171,7 @@ impl<'a> Operations<'a> {
         whole + 0.5
     }
 
-    /// The length of loops from here on, where there is one for this size.
+    /// The length of the loops that follow, where this stitch size has one.
     fn stitch_size(&mut self, line: &Line<'_>, numbers: &[f64]) -> (Instruction, CarrierSet) {
         let size = size_of_numbers(numbers);
         let length = self.lengths.get(&size).copied();
@@ -182,7 +183,7 @@ impl<'a> Operations<'a> {
         (Instruction::LoopLength(length), NO_CARRIERS)
     }
 
-    /// Stitch sizes that have a length, and that no operation names.
+    /// Stitch sizes that have a length but occur in no operation.
     pub(super) fn unused_sizes(&self) -> Vec<String> {
         self.lengths.keys().filter(|size| !self.sized.contains(*size)).cloned().collect()
     }
@@ -205,7 +206,7 @@ impl<'a> Operations<'a> {
         Ok(())
     }
 
-    /// The program, and whether no header lists its carriers.
+    /// The program, and whether the header lists no carriers.
     pub(super) fn finish(self, warnings: &mut Warnings) -> (Program, bool) {
         match self.unsized_first {
             Some((size, line)) if !self.sized.is_empty() => {
@@ -214,7 +215,7 @@ impl<'a> Operations<'a> {
                 );
                 warnings.once("stitch sizes", line, &said);
             }
-            // One size for all loops says no more than none.
+            // Where all loops have one size, the size makes no difference.
             Some((_, line)) if self.unsized_others => {
                 let said = "stitch sizes, which the machine's own table turns into lengths; loops without a length are all alike";
                 warnings.once("stitch sizes", line, said);

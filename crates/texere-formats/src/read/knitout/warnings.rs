@@ -1,4 +1,4 @@
-//! What a file does that knitout does not ask for, each kind told once.
+//! Warnings of a file that departs from knitout. Each kind is listed once.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -22,7 +22,7 @@ impl Warnings {
         Self { file: named(file), kinds: HashSet::new(), list: Vec::new(), full: false }
     }
 
-    /// Warns of something on a line, unless this kind of thing was warned of already.
+    /// Adds a warning for a line, unless there is one of this `kind` already.
     pub(super) fn once(&mut self, kind: &str, line: usize, said: &str) {
         if self.kinds.contains(kind) {
             return;

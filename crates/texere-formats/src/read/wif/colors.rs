@@ -8,15 +8,15 @@ use super::ini::{Entry, Ini};
 use super::numbers::{bad, list, place};
 use crate::read::ReadError;
 
-/// Colours by number, and the materials that stand for them.
+/// The colours of a draft by number, and their materials.
 #[derive(Debug)]
 pub(super) struct Palette {
     materials: Vec<Material>,
-    /// Material of each colour of the table.
+    /// The material of each colour of the table.
     by_number: BTreeMap<u32, u32>,
 }
 
-/// Material of threads that no colour is given for.
+/// The material of threads without a colour.
 pub(super) const NO_COLOR: u32 = 0;
 
 impl Palette {
@@ -25,7 +25,7 @@ impl Palette {
         let mut table = BTreeMap::new();
         let mut lines: Vec<_> =
             ini.entries("color table").filter(|(_, entry)| !entry.value.is_empty()).collect();
-        // Of several faults the first is told.
+        // Lines are checked in their order, so that the first of several faults is the error.
         lines.sort_unstable_by_key(|(_, entry)| entry.line);
         for (key, entry) in lines {
             let expected = "red, green and blue, numbered from 1";
@@ -57,7 +57,7 @@ impl Palette {
     }
 
     /// The material of the colour that `entry` names: a number of the table, or a number with red,
-    /// green and blue. `None` where it says none.
+    /// green and blue. `None` where it names none.
     pub(super) fn material(
         &mut self,
         ini: &Ini<'_>,
@@ -66,7 +66,8 @@ impl Palette {
         entry: &Entry<'_>,
     ) -> Result<Option<u32>, ReadError> {
         let Some(first) = list(ini, section, key, entry).next().transpose()? else { return Ok(None) };
-        // No colour stands for none, as shaft 0 does for no shaft: the table counts from 1.
+        // Colour 0 is refused below. It does not stand for no colour, as shaft 0 stands for no
+        // shaft.
         let number = u32::try_from(first).unwrap_or(0);
         if let Some(&material) = self.by_number.get(&number) {
             return Ok(Some(material));
@@ -96,7 +97,7 @@ impl Palette {
     }
 }
 
-/// The numbers of a value that has no more than four of them, or five where it has more.
+/// The numbers of a value, five at most.
 fn few(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Result<Vec<u32>, ReadError> {
     let numbers = list(ini, section, key, entry).take(5).map(|number| {
         u32::try_from(number?).map_err(|_| bad(ini, section, key, entry, "numbers from 0 to 4294967295"))
@@ -104,8 +105,8 @@ fn few(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Result<Vec
     numbers.collect()
 }
 
-/// The range of the table's values. Where the file does not say, 0 to 255, or 0 to 999 (Fiberworks)
-/// or 0 to 65,535 where values go beyond.
+/// The range of the table's values. Where the file has none, it is 0 to 255, or 0 to 999
+/// (Fiberworks) or 0 to 65,535 where values go beyond.
 fn range(
     ini: &Ini<'_>,
     table: &BTreeMap<u32, [u32; 3]>,
@@ -129,7 +130,7 @@ fn range(
     Ok((0, high))
 }
 
-/// `channel` between `low` and `high` as 0 to 255, rounded.
+/// Scales `channel` from `low`..=`high` to 0..=255, rounded.
 fn scaled(channel: u32, low: u32, high: u32) -> u8 {
     let (channel, span) = (u64::from(channel.clamp(low, high) - low), u64::from(high - low));
     ((channel * 255 + span / 2) / span) as u8

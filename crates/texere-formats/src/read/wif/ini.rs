@@ -14,7 +14,7 @@ use crate::read::keys::Keys;
 pub(super) struct Entry<'a> {
     /// The line, from 1.
     pub(super) line: usize,
-    /// As written, without comment and the space around it; may be empty.
+    /// The value as written, without comment and without space around it. It may be empty.
     pub(super) value: &'a str,
 }
 
@@ -28,8 +28,8 @@ pub(super) struct Ini<'a> {
     sections: HashMap<Cow<'a, str>, Section<'a>>,
 }
 
-/// The sections that a cloth is made of, and who wrote them. Others may be as large as they like:
-/// nothing of them is kept.
+/// The sections that are kept: those that describe the cloth, and the one that names the program.
+/// Other sections may have any size, for nothing of them is kept.
 const READ: [&str; 17] = [
     "wif",
     TEXT,
@@ -54,8 +54,7 @@ const READ: [&str; 17] = [
 const TEXT: &str = "text";
 
 impl<'a> Ini<'a> {
-    /// Reads all sections. Where a section or a key comes twice, the later value of each key
-    /// stands.
+    /// Reads the sections. Where a section or a key comes twice, the later value counts.
     pub(super) fn parse(file: &'a Path, text: &'a str) -> Self {
         let mut sections: HashMap<Cow<'a, str>, Section<'a>> = HashMap::new();
         let (mut section, mut is_text) = (None, false);
@@ -71,12 +70,12 @@ impl<'a> Ini<'a> {
                 section.insert(plain_key(key.trim()), Entry { line: line + 1, value: value.trim() });
             }
         }
-        // A section of nothing but empty values says nothing.
+        // A section with empty values only counts as missing.
         sections.retain(|_, entries| entries.values().any(|entry| !entry.value.is_empty()));
         Self { file, sections }
     }
 
-    /// What errors of its cloth name.
+    /// The keys that errors of the cloth name, with their lines.
     pub(super) fn keys(&self) -> Keys {
         let single = ["threads", "spacing", "thickness"].into_iter().flat_map(|key| {
             let of =
@@ -105,24 +104,25 @@ impl<'a> Ini<'a> {
         }
     }
 
-    /// Whether a section says anything. `name` is in lower case.
+    /// Whether a section is there and has a value. `name` is in lower case.
     pub(super) fn has(&self, name: &str) -> bool {
         self.sections.contains_key(name)
     }
 
-    /// The value of a key that is there and not empty. Both names are in lower case.
+    /// The entry of a key, where it is there and not empty. Both names are in lower case.
     pub(super) fn get(&self, section: &str, key: &str) -> Option<&Entry<'a>> {
         self.sections.get(section)?.get(key).filter(|entry| !entry.value.is_empty())
     }
 
-    /// The entries of a section, empty ones too.
+    /// The entries of a section, empty ones included.
     pub(super) fn entries(&self, section: &str) -> impl Iterator<Item = (&str, &Entry<'a>)> {
         self.sections.get(section).into_iter().flatten().map(|(key, entry)| (key.as_ref(), entry))
     }
 }
 
-/// A key as it is looked up: a number without a sign and zeros before it, so that 01 and 1 are one
-/// key; any other in lower case. Most keys are numbers, which stay where they are.
+/// A key in the spelling by which it is looked up. A number loses its sign and leading zeros, so
+/// that 01 and 1 are one key. Any other key is in lower case. Most keys are plain numbers, which
+/// are not copied.
 fn plain_key(key: &str) -> Cow<'_, str> {
     match key.parse::<u32>() {
         Ok(number) if key.starts_with(['0', '+']) => Cow::Owned(number.to_string()),
@@ -138,11 +138,11 @@ fn lower_case(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// The text of a file: UTF-16 where it begins as that, UTF-8 where it is that, Latin-1 where it is
-/// neither.
+/// The text of a file: UTF-16 where it begins like UTF-16, else UTF-8 where it is valid, else
+/// Latin-1.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
-    // Without a byte order mark UTF-16 shows in the zeros of its first two letters: a WIF file
-    // begins with "[W".
+    // UTF-16 without a byte order mark is recognised by the zeros in its first two letters, since a
+    // WIF file begins with "[W".
     match *bytes {
         [0xff, 0xfe, ..] => return utf16(&bytes[2..], u16::from_le_bytes),
         [0xfe, 0xff, ..] => return utf16(&bytes[2..], u16::from_be_bytes),
@@ -157,7 +157,8 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Letters that are none are shown as such; half a letter at the end of a file is left out.
+/// Decodes UTF-16. Invalid code units become the replacement character, and half a unit at the end
+/// of a file is left out.
 fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Cow<'_, str> {
     let units = bytes.as_chunks().0.iter().map(|&bytes| unit(bytes));
     char::decode_utf16(units).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()

@@ -1,4 +1,4 @@
-//! The limits of WIF drafts, which their writer keeps, too.
+//! The limits of WIF drafts. Their writer keeps them as well.
 
 /// The largest WIF file that is read, bytes. A lift plan of 10,000 picks by 5,000 hooks takes half
 /// as much.

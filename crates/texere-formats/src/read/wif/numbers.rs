@@ -8,7 +8,7 @@ use super::limits::LOOM_MAX;
 use crate::read::error::shown;
 use crate::read::{FilePlace, ReadError};
 
-/// Where an entry stands, as WIF writes it: `[WARP COLORS] 3`.
+/// The place of an entry, as WIF writes it: `[WARP COLORS] 3`.
 pub(super) fn place(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> FilePlace {
     FilePlace::new(ini.file, entry.line, &format!("[{}] {key}", section.to_uppercase()))
 }
@@ -51,9 +51,9 @@ pub(super) fn list(
     })
 }
 
-/// A section of `number=list` lines as one list for each of 1 to `count`, each number in it once; 0
-/// stands for none, numbers above `limit`, which is [`LOOM_MAX`] at most, are refused. Lines
-/// beyond `count` are left out with a warning.
+/// The lists of a section of `number=list` lines, one for each of 1 to `count`. A list has each of
+/// its numbers once, and leaves out 0, which stands for none. Numbers above `limit` are refused;
+/// `limit` is [`LOOM_MAX`] at most. Lines beyond `count` are left out with a warning.
 pub(super) fn lists(
     ini: &Ini<'_>,
     section: &str,
@@ -62,7 +62,7 @@ pub(super) fn lists(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Vec<u32>>, ReadError> {
     let mut lists = filled("a draft", count as usize, Vec::new())?;
-    // The line that last had each number.
+    // For each number, the list that had it last.
     let mut had = vec![0; LOOM_MAX as usize + 1];
     for (number, entry) in numbered(ini, section, count, warnings)? {
         let key = number.to_string();
@@ -81,9 +81,9 @@ pub(super) fn lists(
     Ok(lists)
 }
 
-/// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the
-/// others. A section that begins at 0 and has no line `count` is refused: all of its lines would
-/// stand for the wrong thread.
+/// The lines of a section whose key is a number from 1 to `count`, sorted. A warning counts the
+/// others. A section that begins at 0 and has no line `count` is refused, because all of its lines
+/// would stand for the wrong threads.
 pub(super) fn numbered<'a>(
     ini: &Ini<'a>,
     section: &str,
@@ -127,7 +127,7 @@ pub(super) fn length(
     entry: &Entry<'_>,
     [low, high]: [f64; 2],
 ) -> Result<Option<f64>, ReadError> {
-    // A decimal comma is what some programs write where their user's language has one.
+    // Some programs write a decimal comma where their user's language has one.
     let value: f64 =
         entry.value.replace(',', ".").parse().map_err(|_| bad(ini, section, key, entry, "a length"))?;
     if value == 0.0 {

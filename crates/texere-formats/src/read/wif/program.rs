@@ -1,4 +1,4 @@
-//! Which drafts texere itself has written.
+//! Recognises drafts that texere has written.
 
 use super::ini::Ini;
 

@@ -11,37 +11,40 @@ use super::numbers::{bad, length, numbered};
 use super::program::is_ours;
 use crate::read::ReadError;
 
-/// Spacing where the file gives none, mm: 10 threads to the centimetre.
+/// The spacing where the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;
 
 /// The units of the standard, in mm. A decipoint is a tenth of a point, of which 72 make an inch.
 pub(crate) const UNITS_MM: [(&str, f64); 3] =
     [("Centimeters", 10.0), ("Inches", 25.4), ("Decipoints", 25.4 / 720.0)];
 
-/// How much room threads get to cross where the file leaves it to us, in least pitches: what half
-/// the spacing is in a cloth of threads alike, and what keeps them clear beside gaps of up to
-/// twelve times their pitch and beside threads of a twelfth of their diameter, tested.
+/// The room that threads get to cross where the file does not state their thickness, in least
+/// pitches (Peirce's). `ROOM` is 2/√3, which a diameter of half the spacing leaves in a cloth of
+/// equal threads. `ROOM_UNEVEN` is for uneven threads. It keeps threads clear beside gaps of up to
+/// twelve times their pitch, and beside threads of a twelfth of their diameter. The test of both is
+/// `what_is_given_room_does_not_pierce`.
 const ROOM: f64 = 1.154_700_538_379_251_5;
 const ROOM_UNEVEN: f64 = 1.85;
 
-/// The share by which room may fall short before it counts: radii are rounded to `f32`.
+/// The share by which room may fall short without effect. Radii are rounded to `f32`.
 const ROUNDING: f64 = 1e-6;
 
-/// By how much a thickness may differ from the spacing and still be the same, rounded.
+/// The share by which a thickness may differ from a spacing and still count as equal. Programs
+/// round both.
 const ALIKE: f64 = 0.01;
 
-/// What the file says of the warp's threads, or of the weft's.
+/// The warp's threads, or the weft's, as far as the file describes them.
 #[derive(Debug, Default)]
 struct Set {
-    /// Spacing and thickness of all threads that have none of their own.
+    /// Spacing and thickness, mm, of threads that have none of their own.
     common: [Option<f64>; 2],
     spacing_mm: Vec<Option<f64>>,
     thickness_mm: Vec<Option<f64>>,
     material: Vec<Option<u32>>,
 }
 
-/// The warp's and the weft's threads, `counts` of them, and whether the file says how thick they
-/// are.
+/// The threads of warp and weft, and whether the file states how thick they are. `counts` are the
+/// numbers of ends and picks.
 pub(super) fn read(
     ini: &Ini<'_>,
     counts: [u32; 2],
@@ -50,7 +53,7 @@ pub(super) fn read(
 ) -> Result<([Vec<Thread>; 2], bool), ReadError> {
     let warp = Set::read(ini, "warp", counts[0], palette, warnings)?;
     let weft = Set::read(ini, "weft", counts[1], palette, warnings)?;
-    // A set without any spacing of its own is set as close as the other.
+    // A set without a spacing of its own takes the other set's.
     let [warp_pitch, weft_pitch] = [&warp, &weft].map(|set| mean(&set.spacing_mm));
     let fallback = warp_pitch.or(weft_pitch).unwrap_or(DEFAULT_SPACING_MM);
     for (name, pitch) in [("WARP", warp_pitch), ("WEFT", weft_pitch)] {
@@ -68,16 +71,15 @@ pub(super) fn read(
     Ok((threads, drawn == [false; 2] && missing != [true; 2]))
 }
 
-/// A cloth of `threads`, all of them thinned by one factor where some need it to cross: for a file
-/// that does not say how thick they are.
+/// A cloth of `threads`, for a file that does not state how thick they are. Where some threads have
+/// no room to cross, all are thinned by one factor.
 ///
-/// Many programs write as a thread's thickness what they draw it with, the whole of its spacing.
-/// Nothing can be woven of such threads, as those that cross have to pass between them. So a
-/// `Thickness` that is the set's `Spacing`, or threads that together are as wide as the set, say
-/// only how thick threads are beside one another: their mean is taken as where a file states no
-/// thickness, half the mean spacing, of the set that lies closer. That is 2/√3 of the least pitch
-/// (Peirce's, [`texere_fabric::Pitch`]) where threads are alike and evenly spaced; where they are
-/// not, some may have less.
+/// Many programs write the width at which they draw a thread, the whole of its spacing, as its
+/// thickness. Such threads can't be woven, because threads that cross them have to pass between
+/// them. A `Thickness` that equals the set's `Spacing`, or threads that together are as wide as the
+/// set, therefore give only the ratios of thicknesses. Their mean is taken as in a file without
+/// thickness: half the mean spacing of the set that lies closer. Equal threads, evenly spaced, then
+/// have 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`]). Uneven threads may have less.
 pub(super) fn roomy(
     drawdown: Drawdown,
     [warp, weft]: [Vec<Thread>; 2],
@@ -109,12 +111,12 @@ pub(super) fn roomy(
     Woven::new(woven.drawdown().clone(), warp, weft, woven.materials().to_vec(), woven.sections().to_vec())
 }
 
-/// Whether the greatest of some lengths is the least, but for rounding.
+/// Whether lengths are equal, but for rounding.
 fn are_alike(lengths: impl Iterator<Item = f64> + Clone) -> bool {
     lengths.clone().fold(0.0, f64::max) <= (1.0 + ALIKE) * lengths.fold(f64::INFINITY, f64::min)
 }
 
-/// The mean of those that are known.
+/// The mean of the lengths that are known.
 fn mean(lengths: &[Option<f64>]) -> Option<f64> {
     let (count, sum) =
         lengths.iter().flatten().fold((0, 0.0), |(count, sum), length| (count + 1, sum + length));
@@ -162,8 +164,7 @@ impl Set {
         Ok(Self { common: [spacing, thickness], spacing_mm, thickness_mm, material })
     }
 
-    /// Whether threads are as thick as they are spaced: in what the set says of all of them, or in
-    /// sum.
+    /// Whether threads are as thick as they are spaced, by the values for the whole set or in sum.
     fn is_drawn(&self) -> bool {
         let alike = |[spacing, thickness]: [Option<f64>; 2]| {
             spacing.zip(thickness).map(|(spacing, thickness)| thickness / spacing)
@@ -173,8 +174,8 @@ impl Set {
                 .is_some_and(|ratio| ratio >= 1.0 - ALIKE)
     }
 
-    /// The threads, with `spacing` and `diameter` where the file gives none. Where thicknesses are
-    /// `drawn`, their mean is `diameter`.
+    /// The threads. `spacing` and `diameter`, mm, stand in where the file gives none. Where
+    /// thicknesses are `drawn`, they are scaled so that their mean is `diameter`.
     fn threads(
         self,
         name: &str,
@@ -186,7 +187,7 @@ impl Set {
         let count = self.material.len();
         let threads = counted(count, "thread");
         let have = |count| if count == 1 { "has" } else { "have" };
-        // Drawn thicknesses still say how many times as thick as others a thread is.
+        // Drawn thicknesses still give the ratios of the threads' diameters.
         let scale = mean(&self.thickness_mm).filter(|_| drawn).map_or(1.0, |drawn| diameter / drawn);
         let thin = self.thickness_mm.iter().filter(|thickness| thickness.is_none()).count();
         let plain = self.material.iter().filter(|material| material.is_none()).count();
@@ -204,7 +205,7 @@ impl Set {
             warnings
                 .push(format!("[{name}] {plain} of {threads} {} no colour; undyed is taken", have(plain)));
         }
-        // A thread without spacing among others that have one is set like their mean.
+        // A thread without a spacing, among others that have one, takes their mean.
         let spacing = mean(&self.spacing_mm).unwrap_or(spacing);
         let mut all = room("threads", count)?;
         let each = self.spacing_mm.into_iter().zip(self.thickness_mm).zip(self.material);
@@ -221,7 +222,7 @@ impl Set {
     }
 }
 
-/// The unit of a section's lengths in mm; that of the other set where it names none.
+/// The unit of a section's lengths, mm. Where the section names none, the other set's is taken.
 fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f64, ReadError> {
     let other = if section == "warp" { "weft" } else { "warp" };
     let units = [section, other].into_iter().find_map(|of| Some((of, ini.get(of, "units")?)));
@@ -242,7 +243,7 @@ fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f
     }
 }
 
-/// Whether a set says of any thread how thick it is or how it is spaced.
+/// Whether a set gives the thickness or the spacing of any thread.
 fn has_lengths(ini: &Ini<'_>, section: &str) -> bool {
     ["spacing", "thickness"]
         .iter()

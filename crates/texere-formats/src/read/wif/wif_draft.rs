@@ -27,7 +27,7 @@ pub(crate) struct WifDraft {
     pub(crate) keys: Keys,
 }
 
-/// The design of a draft alone. It says nothing of a finish.
+/// The design of a draft alone. A draft has no finish, so that its yarns do not settle.
 pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let wif = read(path, files)?;
     let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
@@ -78,8 +78,8 @@ fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> Re
     ReadError::MissingSection { file: ini.file.into(), section, needed_for }
 }
 
-/// The draft, of threading and tie-up with treadling or lift plan, and its drawdown. Where a file
-/// has both and they differ, the tie-up stands, and a warning says so.
+/// The draft and its drawdown. A draft has a threading, and a tie-up with treadling or a lift plan.
+/// Where a file has both and they differ, the tie-up is taken, and a warning says so.
 fn draft(
     ini: &Ini<'_>,
     ends: u32,
@@ -128,9 +128,10 @@ fn draft(
     Ok((draft, drawdown))
 }
 
-/// Refuses a draft that counts shafts from 0: some ends are on shaft 0, others on every further one
-/// but the last; some lifts name shaft 0, and none the last. Where both name shaft 0, but not all
-/// of that is so, there is a warning. A draft of ours counts from 1.
+/// Refuses a draft that counts shafts from 0. Such a draft has ends on shaft 0 and on every further
+/// shaft but the last, and its lifts name shaft 0 and never the last. Where ends and lifts name
+/// shaft 0, but the rest does not hold, there is a warning. Drafts that texere has written count
+/// from 1.
 fn counted_from_1(
     ini: &Ini<'_>,
     threading: &[Vec<u32>],
@@ -163,8 +164,7 @@ fn counted_from_1(
     Ok(())
 }
 
-/// Whether the file says that the loom has no treadles. What it says of treadles then counts for
-/// nothing.
+/// Whether the file says that the loom has no treadles. TIEUP and TREADLING then have no effect.
 fn has_no_treadles(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<bool, ReadError> {
     let none = integer(ini, "weaving", "treadles", 0, LOOM_MAX)? == Some(0);
     if none && (ini.has("tieup") || ini.has("treadling")) {
@@ -191,8 +191,9 @@ fn treadled(
     Ok(Some(Shedding::TieUp { tie_up, treadling }))
 }
 
-/// How many shafts or treadles the loom has: as many as `[WEAVING]` says under `key`, or `highest`,
-/// the number that `section` goes up to, where that is more. None where nothing is declared.
+/// The number of the loom's shafts or treadles: the number under `key` in `[WEAVING]`, or
+/// `highest`, the highest number in `section`, where that is greater. None where nothing is
+/// declared.
 fn on_loom(
     ini: &Ini<'_>,
     key: &str,

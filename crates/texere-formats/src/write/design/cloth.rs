@@ -1,4 +1,4 @@
-//! What a format leaves out of a woven design.
+//! The parts of a woven design that a format leaves out.
 
 use texere_core::Section;
 use texere_core::crossings::Set;
@@ -6,12 +6,13 @@ use texere_fabric::{Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
 
 use crate::Design;
 
-/// What of a design's finish is not as it is where nothing is said, as keys of a design file and
-/// their values. Those of knits, and what only a program can ask for, have none.
+/// The settings of a design's finish that differ from the defaults. Settings of woven cloth have
+/// keys in a design file; settings of knits, and settings that only a program can ask for, have
+/// none here.
 pub(super) struct Finished {
-    /// Keys of woven cloth, each with what stands behind it.
+    /// Keys of woven cloth, each with its value.
     pub(super) keys: Vec<(&'static str, f64)>,
-    /// What is asked of it that no design file says of woven cloth.
+    /// Settings without a key for woven cloth, in words.
     pub(super) unsaid: Vec<String>,
 }
 
@@ -43,7 +44,7 @@ impl Finished {
     }
 }
 
-/// What of a woven design a WIF draft has no keys for, apart from names.
+/// The parts of a woven design, apart from names, that a WIF draft has no keys for.
 pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
     let cloth = woven.cloth();
     let any = |what: &dyn Fn(&Thread) -> bool| cloth.warp().iter().chain(cloth.weft()).any(what);
@@ -69,7 +70,7 @@ pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
     named(&said).into_iter().chain(keys).chain(finished.unsaid.clone()).collect()
 }
 
-/// Keys of `[cloth]` that are not as where nothing is said, and their values.
+/// Keys of `[cloth]` whose values differ from the defaults, with their values.
 pub(super) fn cloth_keys(cloth: &Woven) -> Vec<String> {
     let shape = match cloth.shape() {
         Shape::Crossing => Some("shape = \"crossing\"".into()),
@@ -86,7 +87,7 @@ pub(super) fn cloth_keys(cloth: &Woven) -> Vec<String> {
     [shape, crimp, selvedge].into_iter().flatten().collect()
 }
 
-/// Those that are so.
+/// The texts whose condition holds.
 fn named(said: &[(bool, &str)]) -> Vec<String> {
     said.iter().filter(|(so, _)| *so).map(|(_, what)| (*what).to_owned()).collect()
 }

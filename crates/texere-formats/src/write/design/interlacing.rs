@@ -1,4 +1,4 @@
-//! What differs among the ends and picks of a drawdown, and where they begin again.
+//! The kinds of ends and picks of a drawdown, and its repeat.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -7,12 +7,12 @@ use texere_fabric::{Draft, Drawdown, Shedding};
 
 use super::super::WriteError;
 
-/// The most shafts and treadles of a draft with a tie-up; beyond them a lift plan is shorter.
+/// The most shafts and treadles of a draft with a tie-up. With more, a lift plan is shorter.
 const TIED_MAX: usize = 100;
 
-/// Threads by what they do: those of one kind do the same everywhere.
+/// Threads by kind. Threads of one kind have equal keys.
 pub(super) struct Kinds {
-    /// The kind of each thread, from 0 in the order in which they come.
+    /// The kind of each thread. Kinds are numbered from 0 in the order of their first threads.
     pub(super) of: Vec<u32>,
     /// The first thread of each kind.
     pub(super) firsts: Vec<usize>,
@@ -32,7 +32,7 @@ impl Kinds {
         Self { of, firsts }
     }
 
-    /// The kind that most threads have.
+    /// The kind of most threads.
     pub(super) fn commonest(&self) -> usize {
         let mut counts = vec![0_usize; self.firsts.len()];
         self.of.iter().for_each(|kind| counts[*kind as usize] += 1);
@@ -57,13 +57,13 @@ impl<'a> Interlacing<'a> {
         Self { drawdown, ends, picks }
     }
 
-    /// Ends and picks after which the drawdown begins again.
+    /// The ends and the picks of the drawdown's repeat.
     pub(super) fn repeat(&self) -> [usize; 2] {
         [&self.ends, &self.picks].map(|kinds| period(&kinds.of))
     }
 
-    /// A draft with a shaft for each kind of end, and a treadle for each kind of pick where there
-    /// are few of both.
+    /// A draft with a shaft for each kind of end. It has a treadle for each kind of pick where
+    /// there are few of both, else a lift plan.
     ///
     /// **Errors**: [`WriteError::TextTooLarge`] where its lift plan alone is larger than `limit`.
     pub(super) fn draft(&self, format: &'static str, limit: u64) -> Result<Draft, WriteError> {
@@ -79,7 +79,7 @@ impl<'a> Interlacing<'a> {
             Shedding::TieUp { tie_up: kinds.map(|kind| lifted(kind).collect()).collect(), treadling }
         } else {
             let counts: Vec<_> = kinds.map(|kind| lifted(kind).count() as u64).collect();
-            // A digit and what separates it from the next.
+            // A digit and a separator.
             let bytes = self.picks.of.iter().map(|kind| 2 * counts[*kind as usize]).sum();
             if bytes > limit {
                 return Err(WriteError::TextTooLarge { format, bytes, limit });
@@ -90,7 +90,7 @@ impl<'a> Interlacing<'a> {
     }
 }
 
-/// Bits in words.
+/// `count` bits, packed into words.
 fn packed(count: usize, bit: impl Fn(usize) -> bool) -> Vec<u64> {
     let word = |from: usize| {
         (from..count.min(from + 64)).fold(0, |word, at| word | u64::from(bit(at)) << (at - from))
@@ -98,12 +98,13 @@ fn packed(count: usize, bit: impl Fn(usize) -> bool) -> Vec<u64> {
     (0..count).step_by(64).map(word).collect()
 }
 
-/// After how many items they begin again, the last time perhaps not to the end.
+/// The number of items after which they repeat. The last repeat may be incomplete.
 ///
 /// **Source**: Knuth, Morris and Pratt, "Fast pattern matching in strings", SIAM Journal on
 /// Computing 6, 1977.
 pub(super) fn period<T: PartialEq>(items: &[T]) -> usize {
-    // The longest proper beginning of each beginning that is also its end.
+    // For each prefix of `items`, the length of its longest proper prefix that is also a suffix of
+    // it.
     let mut borders = vec![0; items.len()];
     for at in 1..items.len() {
         let mut border = borders[at - 1];

@@ -1,4 +1,4 @@
-//! Designs to files that are read again: WIF drafts, and texere's own design file.
+//! Writers of designs: WIF drafts, and texere's own design file.
 
 mod cloth;
 mod format;
@@ -23,14 +23,14 @@ use super::{Output, WriteError};
 use crate::Design;
 use wif::WifFile;
 
-/// Writes a woven design as a WIF 1.1 draft. Gives what the file leaves out, each by its key in a
-/// design file.
+/// Writes a woven design as a WIF 1.1 draft. Gives the parts that the file leaves out, each by its
+/// key in a design file.
 ///
-/// The draft is the design's own; where it has none, one shaft for each kind of end, with a tie-up
-/// where no more than a hundred treadles are needed, else with a lift plan. Spacing and thickness
-/// are each thread's, in the unit that holds them with the fewest digits, and are read again to the
-/// last of sixteen digits; so are colours. Jammed threads that were relieved are written as they
-/// then are.
+/// The draft is the design's own. A design without a draft gets one shaft for each kind of end, and
+/// a tie-up where at most a hundred shafts and treadles are needed, else a lift plan. Each thread's
+/// spacing and thickness are written in the unit that takes the fewest digits, and are read again
+/// to the last of sixteen digits. Colours are read again exactly. Jammed threads that were relieved
+/// are written as relieved.
 ///
 /// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.wif`,
 /// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for threads and shafts beyond what
@@ -60,7 +60,7 @@ pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, Wr
 /// Writes a woven design to `out` as a WIF 1.1 draft: the bytes that [`wif`](fn@wif) writes to a
 /// file.
 ///
-/// **Errors**: those of [`wif`](fn@wif), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`wif`](fn@wif), with [`WriteError::Writer`] where `out` refuses.
 pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = WifFile::new(design)?;
     file.write(Target::straight(out))?.done()?;
@@ -68,11 +68,11 @@ pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErro
 }
 
 /// Writes a woven design as texere's own design file, which needs no other file beside it. Gives
-/// what the file leaves out, each by its key or its name.
+/// the parts that the file leaves out, each by its key or its name.
 ///
-/// Reading it gives an equal design: its drawdown, its threads with sizes, spacings, colours,
-/// sections and twist, how they lie and how they come to rest. The weaver's draft is left out,
-/// which WIF holds. Yarns that share a name get numbers behind it.
+/// Reading the file gives an equal design: its drawdown, its threads with sizes, spacings, colours,
+/// sections and twist, the shape of the cloth, and its finish. The weaver's draft is left out; WIF
+/// files hold it. Yarns that share a name get numbers behind it.
 ///
 /// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.toml`,
 /// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for a value that no design file
@@ -104,7 +104,7 @@ pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, W
 /// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml)
 /// writes to a file.
 ///
-/// **Errors**: those of [`toml`](fn@toml), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`toml`](fn@toml), with [`WriteError::Writer`] where `out` refuses.
 #[cfg(feature = "toml")]
 pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = TomlFile::new(design)?;

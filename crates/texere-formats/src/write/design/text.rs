@@ -1,11 +1,11 @@
-//! Text files of a limited size, and numbers in them.
+//! Text files of a limited size, and the numbers in them.
 
 use std::io::Write;
 
 use super::super::WriteError;
 use super::super::target::Target;
 
-/// A text file under way, no larger than its readers take.
+/// A text file under way. It gets no larger than its readers take.
 pub(super) struct Text<W: Write> {
     target: Target<W>,
     format: &'static str,
@@ -46,26 +46,27 @@ impl<W: Write> Text<W> {
 /// Significant digits that tell any two `f64` apart.
 const DIGITS: usize = 17;
 
-/// The number of fewest digits, at most `digits`, near `value` that `reads` as what is meant.
+/// The number near `value` with the fewest digits, at most `digits`, for which `reads` holds.
+/// `reads` says whether a reader gets the value that is meant.
 pub(super) fn shortest(value: f64, digits: usize, reads: impl Fn(f64) -> bool) -> Option<f64> {
     let near = (0..digits.min(DIGITS)).find_map(|behind| {
         let rounded: f64 = format!("{value:.behind$e}").parse().ok()?;
         reads(rounded).then_some(rounded)
     });
-    // The result of a division may be a bit off what is multiplied back.
+    // A quotient may be off by one bit from the number whose product is exact.
     near.or_else(|| {
         let beside = [value.next_down(), value.next_up()];
         beside.into_iter().find(|near| digits >= DIGITS && reads(*near))
     })
 }
 
-/// The number of fewest digits near `value` that `reads` as what is meant, or else `value`, and
-/// whether it does.
+/// The number near `value` with the fewest digits for which `reads` holds, and `true`; or else
+/// `value`, and `false`.
 pub(super) fn nearest(value: f64, reads: impl Fn(f64) -> bool) -> (f64, bool) {
     shortest(value, DIGITS, reads).map_or((value, false), |near| (near, true))
 }
 
-/// Gives `value` back if it lies within `low` and `high`.
+/// Gives `value` back where it is from `low` to `high`.
 pub(super) fn within(
     format: &'static str,
     field: impl FnOnce() -> String,

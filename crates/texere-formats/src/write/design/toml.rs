@@ -16,7 +16,7 @@ use super::yarns::Yarns;
 use crate::Design;
 use crate::read::limits;
 
-/// A design file, all of it checked.
+/// The contents of a design file, checked.
 pub(super) struct TomlFile<'a> {
     name: &'a str,
     cloth: &'a Woven,
@@ -24,7 +24,7 @@ pub(super) struct TomlFile<'a> {
     tables: String,
     yarns: Yarns,
     sets: [String; 2],
-    /// What of the design it does not hold.
+    /// The parts of the design that the file does not hold.
     pub(super) left_out: Vec<String>,
 }
 
@@ -77,7 +77,7 @@ impl<'a> TomlFile<'a> {
     }
 }
 
-/// Writes a row for each pick of the repeat, the last one on top.
+/// Writes a row for each pick of the repeat, the last pick on top.
 fn rows<W: Write>(text: &mut Text<W>, drawdown: &Drawdown) -> Result<(), WriteError> {
     let [ends, picks] = Interlacing::new(drawdown).repeat();
     for pick in (0..picks).rev() {
@@ -105,7 +105,7 @@ fn finish_keys(design: &Design, left_out: &mut Vec<String>) -> Result<Vec<String
     Ok(keys)
 }
 
-/// A table of these keys, or nothing where there are none.
+/// A table of `keys`, or an empty text where there are none.
 fn table(name: &str, keys: &[String]) -> String {
     if keys.is_empty() { String::new() } else { format!("\n[{name}]\n{}\n", keys.join("\n")) }
 }

@@ -1,6 +1,6 @@
 //! A woven design as WIF 1.1, the Weaving Information File.
 //!
-//! Lists hold 0 where there is nothing, as a section of empty values would say nothing at all.
+//! An empty list is written as 0, because readers take a section of empty values as missing.
 
 use std::borrow::Cow;
 use std::io::Write;
@@ -18,7 +18,7 @@ use super::woven::woven;
 use crate::Design;
 use crate::read::{LOOM_MAX, WIF_BYTES_MAX, WIF_PROGRAM};
 
-/// A WIF file, all of it checked.
+/// The contents of a WIF file, checked.
 pub(super) struct WifFile<'a> {
     title: String,
     draft: Cow<'a, Draft>,
@@ -27,7 +27,7 @@ pub(super) struct WifFile<'a> {
     colors: Colors,
     warp: Set,
     weft: Set,
-    /// What of the design it does not hold.
+    /// The parts of the design that the file does not hold.
     pub(super) left_out: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ impl<'a> WifFile<'a> {
         match &self.draft.shedding {
             Shedding::TieUp { tie_up, treadling } => {
                 if tie_up.is_empty() {
-                    // Treadles that nothing is tied to, but the section has to say something.
+                    // Nothing is tied to any treadle. The section has to have a line all the same.
                     lists(&mut text, "TIEUP", &[Vec::new()])?;
                 } else {
                     lists(&mut text, "TIEUP", tie_up)?;
@@ -122,7 +122,7 @@ impl<'a> WifFile<'a> {
     }
 }
 
-/// The highest shaft, and the treadles, that a draft has.
+/// The highest shaft and the highest treadle of a draft.
 fn loom(draft: &Draft) -> (u32, u32) {
     let highest = |lists: &[Vec<u32>]| lists.iter().flatten().max().copied().unwrap_or(0);
     let (shafts, treadles) = match &draft.shedding {
@@ -148,7 +148,7 @@ fn lists<W: Write>(text: &mut Text<W>, section: &str, lists: &[Vec<u32>]) -> Res
     Ok(())
 }
 
-/// A name on one line.
+/// A name as a title, which is one line without space around it.
 fn title(name: &str) -> String {
     let plain: String = name.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
     plain.trim().into()

@@ -12,19 +12,21 @@ use super::interlacing::Kinds;
 use super::text::{Text, nearest, within};
 use crate::read::{WIF_LENGTH_MM, WIF_UNITS_MM};
 
-/// The highest number of a colour that is kept: the table has all numbers up to it.
+/// The highest number of a colour that is kept. The table has all numbers up to it, so that a high
+/// number would make a long table.
 const NUMBER_MAX: u32 = 1000;
 
 /// The colours of a cloth by number.
 pub(super) struct Colors {
     /// Red, green and blue of each number, from 1.
     pub(super) table: BTreeMap<u32, [u8; 3]>,
-    /// The number of each material that a thread has, unless it is undyed.
+    /// The number of the colour of each material in use. Undyed materials have none.
     numbers: BTreeMap<u32, u32>,
 }
 
 impl Colors {
-    /// Materials that have the name of a numbered colour, as those read from WIF, keep the number.
+    /// Numbers the colours of a cloth. Materials with the name of a numbered colour, which come
+    /// from WIF, keep the number.
     pub(super) fn new(cloth: &Woven) -> Self {
         let threads = cloth.warp().iter().chain(cloth.weft());
         let used: BTreeSet<u32> = threads.map(|thread| thread.material).collect();
@@ -47,7 +49,7 @@ impl Colors {
             colors.set(free, number, material(&number));
         }
         let last = colors.table.keys().next_back().copied().unwrap_or(0);
-        // A table without gaps, for programs that count its lines. No thread has what fills them.
+        // Fills gaps in the table, for programs that count its lines. No thread has these colours.
         for number in 1..last {
             colors.table.entry(number).or_insert([255; 3]);
         }
@@ -59,7 +61,7 @@ impl Colors {
         self.numbers.insert(number, color);
     }
 
-    /// That names of yarns are left out, where they are.
+    /// A note that names of yarns are left out, where they are.
     pub(super) fn unnamed(&self, cloth: &Woven) -> Option<String> {
         let name = |(number, color): (&u32, &u32)| {
             let name = &cloth.materials()[*number as usize].name;
@@ -69,7 +71,7 @@ impl Colors {
         Some(format!("names of yarns, such as {name:?}: colours have numbers"))
     }
 
-    /// What a thread's colour is called, empty where it is undyed.
+    /// The number of a thread's colour, empty where it is undyed.
     fn of(&self, thread: &Thread) -> String {
         self.numbers.get(&thread.material).map_or_else(String::new, u32::to_string)
     }
@@ -93,12 +95,13 @@ fn named(name: &str) -> Option<u32> {
     ((1..=NUMBER_MAX).contains(&number) && name == format!("colour {number}")).then_some(number)
 }
 
-/// What is written of each thread of a set.
+/// A property of the threads of a set: colour, spacing or thickness.
 struct Column {
-    /// The key in the set's own section, and what the section of single threads is called.
+    /// The key in the set's own section, and the last word in the name of the section of single
+    /// threads.
     keys: [&'static str; 2],
     kinds: Kinds,
-    /// A value for each kind; empty where there is none to say.
+    /// The value of each kind. Empty where a thread has none.
     values: Vec<String>,
     common: usize,
 }
@@ -112,18 +115,18 @@ impl Column {
     ) -> Result<Self, WriteError> {
         let kinds = Kinds::new(threads.len(), |thread| key(&threads[thread]));
         let values = kinds.firsts.iter().map(|first| value(*first)).collect::<Result<Vec<_>, _>>()?;
-        // Where some threads have none, the set can't have one for all.
+        // Where some threads have no value, the set can't have a value for all.
         let none = values.iter().position(String::is_empty);
         let common = none.unwrap_or_else(|| kinds.commonest());
         Ok(Self { keys, kinds, values, common })
     }
 
-    /// The value that holds for all threads that have nothing of their own.
+    /// The value of all threads that have none of their own.
     fn common(&self) -> &str {
         &self.values[self.common]
     }
 
-    /// Whether all threads have that.
+    /// Whether all threads have the common value.
     fn is_single(&self) -> bool {
         self.values.iter().all(|value| value == self.common())
     }
@@ -139,9 +142,9 @@ pub(super) struct Set {
 
 impl Set {
     pub(super) fn new(name: &'static str, threads: &[Thread], colors: &Colors) -> Result<Self, WriteError> {
-        // Some spacings can be told to the bit in no unit. What a reader has of them may take fewer
-        // digits in another unit, so that is chosen for what will be read: written again, it has
-        // the same text.
+        // Some spacings can be written to the bit in no unit. A reader then gets another value,
+        // which may take fewer digits in another unit. The unit is therefore chosen for the values
+        // that will be read, so that a file that is read and written again has the same text.
         let threads = &held(threads, unit(threads).1);
         let (unit, mm) = unit(threads);
         let limits = WIF_LENGTH_MM.map(|limit| limit / mm);
@@ -172,13 +175,13 @@ impl Set {
         Ok(Self { name, threads: threads.len(), unit, columns })
     }
 
-    /// The sections for single threads.
+    /// The names of the sections for single threads.
     pub(super) fn sections(&self) -> impl Iterator<Item = String> {
         let odd = self.columns.iter().filter(|column| !column.is_single());
         odd.map(|column| format!("{} {}", self.name, column.keys[1]))
     }
 
-    /// What holds for all threads that have nothing of their own.
+    /// Writes the values of all threads that have none of their own.
     pub(super) fn common<W: Write>(&self, text: &mut Text<W>) -> Result<(), WriteError> {
         text.line(&format!("\n[{}]\nThreads={}\nUnits={}", self.name, self.threads, self.unit))?;
         for column in &self.columns {
@@ -190,7 +193,7 @@ impl Set {
         Ok(())
     }
 
-    /// What single threads have.
+    /// Writes the values of single threads.
     pub(super) fn each<W: Write>(&self, text: &mut Text<W>) -> Result<(), WriteError> {
         for column in self.columns.iter().filter(|column| !column.is_single()) {
             text.line(&format!("\n[{} {}]", self.name, column.keys[1]))?;
@@ -205,14 +208,14 @@ impl Set {
     }
 }
 
-/// The kinds of sizes that threads have.
+/// The kinds of threads by their spacing and radius.
 fn sizes(threads: &[Thread]) -> Kinds {
     let size = |thread: &Thread| (thread.spacing_mm.to_bits(), thread.radius_mm.to_bits());
     Kinds::new(threads.len(), |thread| size(&threads[thread]))
 }
 
-/// The unit that holds most sizes of threads to the bit, and these with the fewest digits, and its
-/// mm.
+/// The unit that writes most sizes of threads to the bit, and among such units the one with the
+/// fewest digits; and its mm.
 fn unit(threads: &[Thread]) -> (&'static str, f64) {
     let firsts = sizes(threads).firsts;
     let cost = |(_, mm): &&(&str, f64)| {
@@ -225,7 +228,7 @@ fn unit(threads: &[Thread]) -> (&'static str, f64) {
     WIF_UNITS_MM.iter().min_by_key(cost).copied().unwrap_or(("Centimeters", 10.0))
 }
 
-/// The threads as they are read again from a unit of so many mm.
+/// The threads as a reader gets them from a file in a unit of `mm`.
 fn held(threads: &[Thread], mm: f64) -> Vec<Thread> {
     let sizes = sizes(threads);
     let held = |first: &usize| {
@@ -240,23 +243,23 @@ fn held(threads: &[Thread], mm: f64) -> Vec<Thread> {
     threads.iter().zip(&sizes.of).map(resized).collect()
 }
 
-/// A thread's spacing in a unit of so many mm, and whether it is read again to the bit.
+/// A thread's spacing in a unit of `mm`, and whether it is read again to the bit.
 fn spacing(thread: &Thread, mm: f64) -> (f64, bool) {
     nearest(thread.spacing_mm / mm, |value| spacing_mm(value, mm) == thread.spacing_mm)
 }
 
-/// A thread's thickness, likewise.
+/// A thread's thickness in a unit of `mm`, and whether its radius is read again to the bit.
 fn thickness(thread: &Thread, mm: f64) -> (f64, bool) {
     let diameter = 2.0 * f64::from(thread.radius_mm);
     nearest(diameter / mm, |value| radius_mm(value, mm) == thread.radius_mm)
 }
 
-/// What is read of a spacing in a unit of so many mm.
+/// The spacing, mm, that is read from a value in a unit of `mm`.
 fn spacing_mm(value: f64, mm: f64) -> f64 {
     value * mm
 }
 
-/// What is read of a thickness.
+/// The radius, mm, that is read from a thickness in a unit of `mm`.
 fn radius_mm(value: f64, mm: f64) -> f32 {
     (value * mm / 2.0) as f32
 }

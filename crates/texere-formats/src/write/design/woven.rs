@@ -1,4 +1,4 @@
-//! Which designs can be written.
+//! The woven design that a writer takes.
 
 use texere_fabric::{Structure, WovenDesign};
 

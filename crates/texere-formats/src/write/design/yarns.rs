@@ -15,14 +15,14 @@ use crate::read::limits;
 /// The yarns of a cloth.
 pub(super) struct Yarns {
     names: Vec<String>,
-    /// The same, to look for one.
+    /// The names as a set.
     taken: HashSet<String>,
     /// The yarn of each end, then of each pick.
     kinds: Kinds,
     ends: usize,
     /// The table of each yarn.
     tables: Vec<String>,
-    /// A name that was changed, and what it became.
+    /// A name that was changed, and its new form.
     pub(super) renamed: Option<[String; 2]>,
 }
 
@@ -61,7 +61,7 @@ impl Yarns {
             .map(|(name, table)| format!("\n[yarns.{}]\n{table}", quoted(name)))
     }
 
-    /// The keys of the warp, or of the weft: yarns in turn, and how far they lie apart.
+    /// The keys of the warp or the weft: yarns in turn, and spacings.
     ///
     /// **Errors**: [`WriteError::OutOfRange`] for a spacing that no design file may have.
     pub(super) fn set(&self, name: &str, threads: &[Thread]) -> Result<String, WriteError> {
@@ -81,8 +81,8 @@ impl Yarns {
         Ok(format!("\n[{name}]\nyarns = [{}]\n{spacing}\n", items.join(", ")))
     }
 
-    /// So many threads of one yarn: an item with a number, or one for each where that would be
-    /// another yarn's name.
+    /// The items for `times` threads of one yarn: one item with a number, or an item for each
+    /// thread where the item with a number is another yarn's name.
     fn items(&self, yarn: u32, times: usize) -> Vec<String> {
         let name = &self.names[yarn as usize];
         let counted = format!("{times} {name}");
@@ -94,16 +94,16 @@ impl Yarns {
     }
 }
 
-/// Names that lists can have, each once.
+/// The names that have been given, each once.
 #[derive(Default)]
 struct Names {
     taken: HashSet<String>,
-    /// The number that was last tried behind each name.
+    /// The last number that was tried behind each name.
     last: HashMap<String, usize>,
 }
 
 impl Names {
-    /// `name`, or one like it that none has yet.
+    /// Gives `name`, or a similar name where another yarn has it.
     fn give(&mut self, name: &str) -> String {
         let name = if name.trim().is_empty() { "yarn" } else { name.trim() };
         let mut own = name.to_owned();
@@ -116,7 +116,7 @@ impl Names {
     }
 }
 
-/// One spacing of all threads, by the key that takes the fewest digits.
+/// The key for one spacing of all threads: the key that takes the fewest digits.
 fn one_spacing(spacing_mm: f64) -> String {
     const FEW: usize = 6;
     let keys = [("per_cm", 10.0), ("per_inch", 25.4)];
@@ -199,7 +199,7 @@ fn section_keys(name: &str, section: &Section) -> Result<Option<String>, WriteEr
     Ok(Some(format!("section = {{ shape = {shape} }}")))
 }
 
-/// Whether all corners of a polygon face somewhere, as a reader asks.
+/// Whether all corners of a polygon have a normal, as readers require.
 fn faces(section: &Section, corners: usize) -> bool {
     let sound = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
     u32::try_from(corners).is_ok_and(|corners| section.outline(corners).iter().all(sound))

@@ -5,14 +5,14 @@ use super::sheet::{PAPER, Rgb};
 /// Half the width of a line, pixels.
 const STROKE: f64 = 1.0;
 
-/// Yarns brighter than that, as a sum of their channels, are drawn darker, so that they show on
-/// paper.
+/// The brightest yarn, as a sum of its channels, that is drawn in its own colour. Brighter yarns
+/// are drawn darker, so that they show on paper.
 const BRIGHT: u32 = 480;
 
-/// What yarns darker than paper come to.
+/// The sum of the channels that brighter yarns are darkened to.
 const SHOWN: u32 = 320;
 
-/// A drawing as pixels, (0, 0) at its top left. What lies beyond its edges is cut off.
+/// A drawing as pixels, with (0, 0) at its top left. Parts beyond its edges are cut off.
 #[derive(Debug)]
 pub(super) struct Canvas {
     /// Width and height.
@@ -46,7 +46,7 @@ impl Canvas {
         }
     }
 
-    /// Colours the pixels near a point whose distance from it is `inside`.
+    /// Colours the pixels within `reach` of a point for whose distance `inside` holds.
     fn near(&mut self, [x, y]: [f64; 2], reach: f64, color: Rgb, inside: impl Fn(f64) -> bool) {
         let range = |at: f64, side: usize| {
             let end = (at + reach + 1.0).clamp(0.0, side as f64) as usize;

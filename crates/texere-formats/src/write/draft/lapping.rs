@@ -6,9 +6,9 @@
 //!  front bar      all bars
 //! ```
 //!
-//! A diagram for each bar has one of its guides, or all where the bar is a Jacquard bar; the one on
-//! the right has all guides of all bars. A guide passes behind the needles between two dots, goes
-//! round a dot above it, and moves on to the next course.
+//! Each bar has a diagram with one of its guides, or with all of them where it is a Jacquard bar.
+//! The diagram on the right has all guides of all bars. A guide passes behind the needles between
+//! two dots, goes round a dot above it, and moves on to the next course.
 
 use std::io::Write;
 
@@ -25,7 +25,7 @@ use super::side::Side;
 const PITCH: f64 = 28.0;
 const COURSE: f64 = 36.0;
 
-/// How far from its needle a yarn goes round it, pixels, and the radius of the needle.
+/// The radius at which a yarn goes round a needle, and the radius of the needle, pixels.
 const ROUND: f64 = 8.0;
 const NEEDLE: f64 = 2.5;
 
@@ -33,10 +33,10 @@ const NEEDLE: f64 = 2.5;
 const WALES_MAX: u32 = 12;
 const COURSES_MAX: u32 = 48;
 
-/// The most diagrams beside one another, that of all bars among them.
+/// The most diagrams beside one another, the diagram of all bars included.
 const DIAGRAMS_MAX: usize = 9;
 
-/// Parts of half a turn that is drawn round a needle.
+/// Straight pieces of half a turn round a needle.
 const PARTS: u32 = 12;
 
 /// Draws a warp knit's lapping diagram to a PNG file: its first wales and courses, at most 12 by
@@ -123,8 +123,8 @@ impl<'a> Drawing<'a> {
         drawing
     }
 
-    /// The guides of a bar's own diagram: the threaded one whose laps lie in the middle, or all of
-    /// a Jacquard bar.
+    /// The guides in a bar's own diagram: the threaded guide whose laps are nearest to the middle,
+    /// or all guides of a Jacquard bar.
     fn shown(&self, number: usize) -> Vec<u32> {
         let bar = &self.cloth.bars()[number];
         if bar.jacquard.is_some() {
@@ -144,7 +144,7 @@ impl<'a> Drawing<'a> {
         let place = |at: [f64; 2]| self.place(side, at);
         for (number, guides) in bars {
             let bar = &self.cloth.bars()[*number];
-            // Bars lie a little beside one another, so that each shows.
+            // Bars are drawn a little beside one another, so that each shows.
             let beside = *number as f64 * 3.0 / PITCH;
             for guide in guides {
                 let Some(yarn) = bar.threading.yarn(*guide) else { continue };
@@ -206,7 +206,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// Adds the way round the needles of a lap, in needle spaces and courses.
+/// Adds the path of a lap round its needles to `way`, in needle spaces and courses.
 fn lay(way: &mut Vec<[f64; 2]>, lap: Lap, course: f64, beside: f64) {
     let (across, along) = (ROUND / PITCH, ROUND / COURSE);
     if lap.kind() == LapKind::Inlay {

@@ -16,16 +16,16 @@ pub(super) const PAPER: Rgb = [255, 255, 255];
 /// The drawing's colour.
 pub(super) const INK: Rgb = [0, 0, 0];
 
-/// A line between squares, and one between groups of them.
+/// The colours of a line between squares, and of a line between groups of squares.
 const LINES: [Rgb; 2] = [[184, 184, 184], [88, 88, 88]];
 
-/// Squares of a group: point paper has always been printed in eights.
+/// Squares of a group. Point paper is printed in groups of eight.
 const GROUP: usize = 8;
 
 /// The smallest square that has lines round it, pixels.
 const LINED_MIN: usize = 4;
 
-/// Round the sheet, pixels.
+/// The margin round the sheet, pixels.
 const MARGIN: usize = 12;
 
 /// Pixels of a dot of the legend's letters.
@@ -36,14 +36,14 @@ const LEADING: usize = GLYPH_HEIGHT + 3;
 
 /// A rectangle of squares.
 pub(super) struct Block<'a> {
-    /// Its left and top, pixels.
+    /// The left and the top of the block, pixels.
     pub(super) place: [usize; 2],
     /// Columns and rows.
     pub(super) squares: [usize; 2],
     /// Width and height of a square, pixels.
     pub(super) square: [usize; 2],
-    /// The colour of a pixel, by the column of its square, the square's row from the top, and the
-    /// pixel's place in the square.
+    /// The colour of a pixel. The arguments are the column of its square, the square's row from the
+    /// top, and the pixel's place in the square.
     pub(super) color: Box<dyn Fn(usize, usize, [usize; 2]) -> Rgb + 'a>,
 }
 
@@ -52,7 +52,7 @@ impl Block<'_> {
         self.square[0].min(self.square[1]) >= LINED_MIN
     }
 
-    /// Where it ends on the right and at the bottom, its closing line included.
+    /// The right and the bottom end of the block, its closing line included.
     fn end(&self) -> [usize; 2] {
         let line = usize::from(self.lined());
         [0, 1].map(|axis| self.place[axis] + self.squares[axis] * self.square[axis] + line)
@@ -63,7 +63,7 @@ impl Block<'_> {
 pub(super) struct Sheet<'a> {
     /// Width and height, pixels.
     pub(super) size: [usize; 2],
-    /// Between two blocks, pixels.
+    /// The gap between two blocks, pixels.
     gap: usize,
     /// Whether columns are counted from the right.
     mirrored: bool,
@@ -73,7 +73,7 @@ pub(super) struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// Where the first block goes.
+    /// The place of the first block.
     pub(super) const ORIGIN: [usize; 2] = [MARGIN; 2];
 
     pub(super) const fn new(gap: usize, mirrored: bool) -> Self {
@@ -137,7 +137,7 @@ impl<'a> Sheet<'a> {
         header.finish()
     }
 
-    /// Paints what lies at height `y`, from the top, on a row of paper.
+    /// Paints the row of pixels at height `y`, from the top, on a row of paper.
     fn paint(&self, y: usize, pixels: &mut [Rgb]) {
         for block in &self.blocks {
             let [left, top] = block.place;
@@ -170,7 +170,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Whether a line runs through pixel `at` of a block along an axis, and whether it is one
+    /// Whether a line runs through pixel `at` of a block along an axis, and whether it is a line
     /// between groups.
     fn line(&self, block: &Block<'_>, axis: usize, at: usize) -> Option<bool> {
         let (squares, square) = (block.squares[axis], block.square[axis]);

@@ -70,7 +70,7 @@ fn drawn(
     save(&sheet)
 }
 
-/// A draft, with the number of shafts and treadles that it really uses.
+/// A draft, with the number of shafts and treadles that it uses.
 struct Loom<'a> {
     draft: &'a Draft,
     shafts: usize,
@@ -90,7 +90,7 @@ impl<'a> Loom<'a> {
         Self { draft, shafts: shafts.max(highest(&draft.threading)), treadles }
     }
 
-    /// Whether there are shafts to draw, and no more of them than fit.
+    /// Whether there are shafts to draw, and no more shafts or treadles than fit.
     fn fits(&self) -> bool {
         (1..=SHAFTS_MAX).contains(&self.shafts) && self.treadles <= SHAFTS_MAX
     }
@@ -112,7 +112,7 @@ impl<'a> Loom<'a> {
     }
 }
 
-/// Ink where the list of `thread`, counted from 0, holds the shaft or treadle `number`, likewise.
+/// Ink where the list of `thread` holds the shaft or treadle `number`. Both are counted from 0.
 fn mark(lists: &[Vec<u32>], thread: usize, number: usize) -> Rgb {
     let marked = lists.get(thread).is_some_and(|list| list.contains(&(number as u32 + 1)));
     if marked { INK } else { PAPER }

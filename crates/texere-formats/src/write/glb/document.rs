@@ -28,21 +28,21 @@ const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
 
-/// Spun yarn is almost as rough as chalk; the rest to 1 is the faint sheen of fibres lying side by
-/// side.
+/// The roughness of yarn. Spun yarn is almost as rough as chalk. It is less than 1 for the faint
+/// sheen of parallel fibres.
 const ROUGHNESS: f32 = 0.9;
 
-/// A document whose bounds are filled in as vertices pass.
+/// The document of a GLB file. Its bounds are filled in as vertices pass.
 ///
-/// A tube is one primitive from its yarn's first ring to its last, and a cap is one. Each has two
-/// accessors of its own, for positions and for normals; that of its indices it shares with all of
-/// the same length.
+/// A tube is one primitive from its yarn's first ring to its last, and a cap is one primitive. Each
+/// has accessors of its own for positions and for normals. Primitives of equal length share the
+/// accessor of their indices.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
-    /// In the order of their vertices. The accessor of the positions of number i is number 2 i.
+    /// The shapes in the order of their vertices. Accessor 2 i has the positions of shape i.
     shapes: Vec<Shape>,
-    /// Gaps between rings of the longest tube, for which the pattern has indices.
+    /// The gaps between rings of the longest tube. The pattern has indices for all of them.
     gaps: u64,
 }
 
@@ -50,14 +50,14 @@ pub(super) struct Document {
 #[derive(Debug)]
 struct Shape {
     yarn: u32,
-    /// Its vertices in the file.
+    /// The shape's vertices in the file.
     vertices: Range<u64>,
-    /// Its indices in the pattern.
+    /// The shape's indices in the pattern.
     indices: Range<u64>,
 }
 
-/// The tubes of `chunks`, each from its first ring to its last, though it lie in several, then
-/// their caps; and the gaps of the longest tube.
+/// The tubes of `chunks`, then their caps; and the gaps of the longest tube. A tube that is in
+/// several chunks is one shape, from its first ring to its last.
 fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec<Shape>, u64) {
     let sides = u64::from(plan.settings().sides);
     let (mut tubes, mut caps) = (Vec::<Shape>::new(), Vec::new());
@@ -85,7 +85,8 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
         }));
         places.pass(chunk);
     }
-    // A box may cut a lone ring out of a yarn, and glTF has nothing without triangles.
+    // A box may cut a lone ring out of a yarn. It is left out, for glTF has no shapes without
+    // triangles.
     tubes.retain(|tube| tube.vertices.end - tube.vertices.start > sides);
     let mut most = 0;
     for tube in &mut tubes {
@@ -126,7 +127,8 @@ impl Document {
                 material: yarns[shape.yarn as usize].material,
             });
         }
-        // A region may have nothing of a yarn, and glTF has no mesh without triangles.
+        // A region may have no part of a yarn. The yarn is left out, for glTF has no mesh without
+        // triangles.
         meshes.retain(|mesh| !mesh.primitives.is_empty());
         let sides = u64::from(plan.settings().sides);
         let ends = if plan.settings().caps { 2 * plan.layout().sections().len() as u64 } else { 0 };
@@ -146,9 +148,9 @@ impl Document {
         Self { gltf, shapes, gaps }
     }
 
-    /// Writes the pattern: the quads of the longest tube, gap after gap, then, with caps, for each
-    /// section the triangles of its start cap and of its finish cap. All count from the first
-    /// vertex of what they draw.
+    /// Writes the index pattern: the quads of the longest tube, gap after gap. With caps, the
+    /// triangles of the start cap and of the finish cap of each section follow. Indices count from
+    /// the first vertex of a shape.
     pub(super) fn write_pattern<W: Write>(
         &self,
         plan: &Plan,
@@ -174,7 +176,8 @@ impl Document {
         self.gltf.buffers[0].byte_length
     }
 
-    /// Widens the bounds of what `vertices`, from number `first` of the file on, belong to.
+    /// Widens the bounds of the shapes that `vertices` belong to, from vertex number `first` of the
+    /// file on.
     pub(super) fn include(&mut self, first: u64, vertices: &[Vertex]) {
         let end = first + vertices.len() as u64;
         let start = self.shapes.partition_point(|shape| shape.vertices.end <= first);
@@ -195,8 +198,7 @@ impl Document {
         }
     }
 
-    /// The document as text, of a length that is a multiple of four and does not depend on the
-    /// bounds.
+    /// The document as text. Its length is a multiple of four, and does not depend on the bounds.
     pub(super) fn to_json(&self) -> String {
         let mut text = String::new();
         self.gltf.write(&mut text);
@@ -206,8 +208,8 @@ impl Document {
     }
 }
 
-/// A yarn's name, which is not always unique: a yarn of no known origin is called by its number,
-/// from 1.
+/// The name of a yarn by its origin. Names need not be unique. A yarn of unknown origin is called
+/// by its number, from 1.
 fn name(number: usize, origin: Origin) -> String {
     match origin {
         Origin::Unknown => format!("yarn {}", number + 1),
@@ -215,7 +217,7 @@ fn name(number: usize, origin: Origin) -> String {
     }
 }
 
-/// A node for each mesh, under one that turns millimetres into metres.
+/// A node for each mesh, under a node that turns millimetres into metres.
 fn nodes(meshes: &[schema::Mesh]) -> Vec<Node> {
     let root = Node {
         name: "fabric".into(),
@@ -244,7 +246,8 @@ fn surface(material: &Material) -> schema::Material {
     }
 }
 
-/// Positions and normals of a shape. Bounds start inside out, so that the first vertex sets them.
+/// The accessors of positions and normals of a shape. Bounds start inside out, so that the first
+/// vertex sets them.
 fn vertex_accessors(shape: &Shape) -> [Accessor; 2] {
     let of = |offset, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
         buffer_view: VERTICES,

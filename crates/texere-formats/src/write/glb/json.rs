@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-/// What is written as JSON.
+/// A value that is written as JSON.
 pub(super) trait Json {
-    /// Whether its key is left out.
+    /// Whether the key of this value is left out.
     fn is_absent(&self) -> bool {
         false
     }
@@ -12,7 +12,7 @@ pub(super) trait Json {
     fn write(&self, text: &mut String);
 }
 
-/// Structures that are objects, each field behind the key that stands before it.
+/// Declares structures that are written as objects, with a key for each field.
 macro_rules! objects {
     ($($object:ident { $($key:literal $field:ident: $kind:ty,)* })*) => {$(
         #[derive(Debug)]
@@ -28,7 +28,7 @@ macro_rules! objects {
 }
 pub(super) use objects;
 
-/// Writes an object of those keys and values.
+/// Writes an object of these keys and values.
 pub(super) fn object(fields: &[(&str, &dyn Json)], text: &mut String) {
     let fields = fields.iter().filter(|(_, value)| !value.is_absent());
     enclosed(['{', '}'], fields, text, |(key, value), text| {
@@ -67,10 +67,10 @@ macro_rules! whole_numbers {
 whole_numbers!(u32, u64, usize);
 
 impl Json for f32 {
-    /// All floats take fifteen bytes: a sign, nine digits and a point, an exponent of four. JSON
-    /// allows the spaces before them.
+    /// Every float takes fifteen bytes: a sign, nine digits and a point, and an exponent of four
+    /// bytes. JSON allows spaces before it.
     fn write(&self, text: &mut String) {
-        // A string takes all that is written.
+        // Writing to a string does not fail.
         let _ = write!(text, "{self:15e}");
     }
 }

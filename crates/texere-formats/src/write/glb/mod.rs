@@ -18,25 +18,25 @@ use super::mesh_writer::{MeshWriter, Run};
 use super::places::Places;
 use super::target::Target;
 
-/// The header holds the file's length in a `u32`.
+/// The largest file, whose length the header holds in a `u32`.
 const BYTES_MAX: u64 = u32::MAX as u64;
 
-/// Magic, version and length of the file.
+/// Bytes of the header: magic, version and length of the file.
 const HEADER_BYTES: u64 = 12;
 
-/// Length and type of a chunk of the file.
+/// Bytes of a chunk's header: length and type of the chunk.
 const CHUNK_HEADER_BYTES: u64 = 8;
 
 /// A GLB file under way.
 ///
-/// The document comes first in the file, yet states the bounds of every yarn, which are known last.
-/// Its length does not depend on the bounds, so it is written twice: first to reserve its place, at
-/// the end with the bounds.
+/// The document comes first in the file, but states the bounds of every yarn, which are known last.
+/// It is therefore written twice: at first to reserve its place, and at the end with the bounds.
+/// Its length does not depend on the bounds.
 #[derive(Debug)]
 pub(super) struct GlbWriter<W: Write + Seek> {
     target: Target<W>,
     document: Document,
-    /// Where the vertices begin.
+    /// The byte at which the vertices begin.
     vertices_at: u64,
 }
 
@@ -47,7 +47,7 @@ impl<W: Write + Seek> GlbWriter<W> {
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
     ) -> Result<Self, WriteError> {
-        // First, since there may be millions of chunks to go through.
+        // The size is checked first, since there may be millions of chunks to go through.
         check(plan.counts().vertices * size_of::<Vertex>() as u64)?;
         let document = Document::new(plan, chunks, materials);
         check(document.buffer_bytes())?;
@@ -73,7 +73,7 @@ impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
         self.target.write_words(bytemuck::cast_slice(run.vertices))
     }
 
-    /// All triangles are in the pattern, which is written first.
+    /// Nothing is left to write: all triangles are in the pattern, which is written first.
     fn triangles(&mut self, _: &Chunk, _: &Places) -> Result<(), WriteError> {
         Ok(())
     }

@@ -14,23 +14,24 @@ use crate::write::draft::sheet::{Block, INK, PAPER, Rgb, Sheet};
 use crate::write::picture::png;
 use crate::write::{Output, WriteError};
 
-/// The most wales, and the most passes of carriers, whose needles are drawn.
+/// The most wales, and the most passes of carriers, of a needle diagram.
 const NEEDLES_MAX: usize = 100;
 
-/// The most squares of a chart: as many as a large Jacquard has.
+/// The most squares of a chart. A large Jacquard has as many.
 const SQUARES_MAX: usize = 1 << 26;
 
 /// The smallest square with a symbol in it, pixels.
 const SYMBOL_MIN: usize = 6;
 
-/// A place that no yarn comes to.
+/// The colour of a square that no yarn comes to.
 const NONE: Rgb = [205, 205, 205];
 
-/// Colours that are darker than that, as a sum of their channels, have symbols in white.
+/// The least brightness, as a sum of the channels, of a colour with symbols in black. Darker
+/// colours have symbols in white.
 const DARK: u32 = 300;
 
-/// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece where none repeats.
-/// From the face, and with at most 100 wales and 100 passes, the needle diagram stands
+/// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece where the knit has no
+/// repeat. From the face, and with at most 100 wales and 100 passes, the needle diagram stands
 /// below it. Gives the picture's width and height in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
@@ -80,8 +81,8 @@ fn drawn(
     save(&sheet)
 }
 
-/// A row of letters for each course of a knit's stitch chart, the last course first, with those of
-/// charts in design files: `.` where no yarn comes.
+/// A row of letters for each course of a knit's stitch chart, the last course first. The letters
+/// are those of charts in design files, with `.` where no yarn comes.
 ///
 /// **Errors**: [`WriteError::ChartTooLarge`].
 pub fn knit_rows(cloth: &Knitted, side: Side) -> Result<impl Iterator<Item = String>, WriteError> {
@@ -93,7 +94,7 @@ pub fn knit_rows(cloth: &Knitted, side: Side) -> Result<impl Iterator<Item = Str
     }))
 }
 
-/// Wales and courses of the chart, if they can be drawn, and its leftmost wale.
+/// The wales and courses of the chart, where they can be drawn, and its leftmost wale.
 fn sized(cloth: &Knitted) -> Result<([usize; 2], i64), WriteError> {
     let (size, left) = extent(cloth.stitches());
     if size[0].saturating_mul(size[1]) > SQUARES_MAX { Err(too_large(size)) } else { Ok((size, left)) }

@@ -1,8 +1,9 @@
-//! What stands in each square of a stitch chart.
+//! The squares of a stitch chart.
 
 use texere_fabric::weft::{Bed, Fate, LoopKind, Step, Stitch, Stitches};
 
-/// What a square shows, seen from the technical face. Letters are those of charts in design files.
+/// The symbol of a square, seen from the technical face. The letters are those of charts in design
+/// files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Symbol {
     /// Drawn to the face: `k`.
@@ -25,13 +26,13 @@ pub(crate) enum Symbol {
     Moved {
         /// To the right, not to the left.
         right: bool,
-        /// Where it crosses others, whether it goes behind them.
+        /// Whether it goes behind the stitches that it crosses. None where it crosses none.
         behind: Option<bool>,
     },
 }
 
 impl Symbol {
-    /// As charts in design files write it.
+    /// The letter of the symbol in charts of design files.
     pub(super) const fn letter(self) -> char {
         match self {
             Self::Knit | Self::YarnOver => 'k',
@@ -49,7 +50,7 @@ impl Symbol {
         }
     }
 
-    /// The same stitch seen from the other side.
+    /// The symbol of the stitch seen from the other side.
     const fn turned(self) -> Self {
         match self {
             Self::Knit => Self::Purl,
@@ -113,7 +114,8 @@ impl Grid {
                 }
             }
         }
-        // Where yarns share a square, the loop on the face shows, and of plated ones the first.
+        // Where yarns share a square, the loop on the face shows; where yarns are plated, the first
+        // one does.
         for (stitch, &carrier) in stitches.loops.iter().zip(&carriers).rev() {
             let place = grid.place(stitch.at, stitch.course, left);
             let own = symbol(stitch, stitches.repeat.is_some());

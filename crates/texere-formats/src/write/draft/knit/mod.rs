@@ -1,8 +1,8 @@
 //! Knits as pictures: a stitch chart, and below it the needle diagram.
 //!
-//! The chart has a square for each wale of each course, the first course at the bottom, coloured as
-//! the yarn that shows on the face. An empty square is a knit stitch, a dot a purl, as in knitters'
-//! charts.
+//! The chart has a square for each wale of each course, the first course at the bottom. A square
+//! has the colour of the yarn that shows on the face. An empty square is a knit stitch, a dot a
+//! purl, as in knitters' charts.
 
 mod chart;
 mod grid;

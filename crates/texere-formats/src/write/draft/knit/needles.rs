@@ -1,5 +1,5 @@
-//! The needle diagram: for each pass of a carrier both rows of needles as dots, and how the yarn
-//! goes round them.
+//! The needle diagram: for each pass of a carrier, both rows of needles as dots, and the yarn's
+//! path round them.
 
 use texere_fabric::weft::{Bed, Direction, Knitted, LoopKind, Step, Stitches, Strand};
 
@@ -13,14 +13,14 @@ const PITCH: i64 = 24;
 /// Pixels from pass to pass.
 const PASS: i64 = 56;
 
-/// How far the needles of each bed lie from the middle of a pass, pixels.
+/// The distance of each bed's needles from the middle of a pass, pixels.
 const BED: i64 = 12;
 
 /// The radius of a loop round its needle, and of the needle, pixels.
 const LOOP: f64 = 7.0;
 const NEEDLE: f64 = 2.5;
 
-/// Transfers.
+/// The colour of transfers.
 const MOVED: Rgb = [30, 90, 200];
 
 /// The diagram as pixels.
@@ -29,7 +29,8 @@ pub(super) struct Needles {
     pub(super) canvas: Canvas,
 }
 
-/// The steps that a carrier does in one course and direction, and the number of its first loop.
+/// The steps of a carrier in one course and direction. `time` is the number of the first loop, by
+/// which passes are sorted.
 struct Pass<'a> {
     carrier: u32,
     time: u32,
@@ -62,8 +63,8 @@ fn passes(stitches: &Stitches) -> Vec<Pass<'_>> {
 }
 
 impl Needles {
-    /// The diagram of a cloth whose chart has so many wales from `left` on. None where it has more
-    /// passes than are drawn.
+    /// The diagram of a cloth whose chart has `wales` wales from `left` on. None where it has more
+    /// than `passes_max` passes.
     pub(super) fn new(cloth: &Knitted, wales: usize, left: i64, passes_max: usize) -> Option<Self> {
         let stitches = cloth.stitches();
         let passes = passes(stitches);
@@ -104,8 +105,8 @@ impl Needles {
             let visit = stitches.visit(step);
             let here = x(visit.at);
             let way = if visit.direction == Direction::Right { 1.0 } else { -1.0 };
-            // Where the needle lies in the repeat beside, the yarn leaves on one side and comes in
-            // on the other.
+            // Where the next needle is in the repeat beside, the yarn leaves on one side and comes
+            // in on the other.
             let from =
                 before.filter(|from| (here - from) * way >= 0.0).unwrap_or(here - way * PITCH as f64 / 2.0);
             self.canvas.line([from, middle], [here + way * PITCH as f64 / 4.0, middle], yarn);

@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use crate::error::Failure;
+use crate::failure::Failure;
 
 /// Makes sure that a pointer is neither null nor misaligned. `name` is the argument's.
 pub(crate) fn check<T>(name: &str, pointer: *const T) -> Result<(), Failure> {

@@ -85,7 +85,7 @@ pub unsafe extern "C" fn texere_design_read_memory(
             }
             // SAFETY: the callback vouches for the bytes.
             let bytes = unsafe { slice("the callback's data", data, size) };
-            bytes.map(<[u8]>::to_vec).map_err(|failure| io::Error::other(failure.into_message()))
+            bytes.map(<[u8]>::to_vec).map_err(|failure| io::Error::other(failure.message))
         };
         // SAFETY: as above.
         unsafe { give(out, texere::read_from(name, bytes, file)?) }

@@ -1,38 +1,14 @@
-//! What went wrong in a call: its status, its words, its place in a file.
+//! The last failure of each thread.
 
-use std::any::Any;
 use std::cell::RefCell;
-use std::error::Error;
 use std::ffi::{CString, c_char};
-use std::iter::successors;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
-use std::ptr::{null, write};
-
-use texere::backend::{OutOfMemory, SessionError};
-use texere::check::ContactError;
-use texere::read::{FilePlace, Refusal};
-use texere::rest::{CrossingsError, FinishError, SettlingError};
-use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
+use std::ptr::null;
 
 use crate::argument::check;
+use crate::failure::{Failure, Place};
 use crate::status::texere_status;
-use crate::status::texere_status::*;
-
-/// What a call that failed leaves behind.
-#[derive(Debug)]
-pub(crate) struct Failure {
-    status: texere_status,
-    message: String,
-    place: Option<Place>,
-}
-
-#[derive(Debug)]
-struct Place {
-    file: CString,
-    line: u64,
-    column: u64,
-}
+use crate::status::texere_status::TEXERE_OK;
 
 /// What the last call that failed on a thread has left.
 #[derive(Default)]
@@ -43,133 +19,6 @@ struct Last {
 
 thread_local! {
     static LAST: RefCell<Last> = RefCell::default();
-}
-
-impl Failure {
-    pub(crate) fn argument(message: impl Into<String>) -> Self {
-        Self { status: TEXERE_ARGUMENT, message: message.into(), place: None }
-    }
-
-    pub(crate) fn into_message(self) -> String {
-        self.message
-    }
-
-    fn panicked(panic: &(dyn Any + Send)) -> Self {
-        let text = panic.downcast_ref::<&str>().copied();
-        let text = text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
-        Self { status: TEXERE_PANIC, message: format!("a fault of texere: {text}"), place: None }
-    }
-}
-
-impl<E: Error + 'static> From<E> for Failure {
-    fn from(error: E) -> Self {
-        let error: &(dyn Error + 'static) = &error;
-        let causes = || successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
-        let message = causes().map(ToString::to_string).collect::<Vec<_>>().join(": ");
-        let status = causes().filter_map(status_of).last().unwrap_or(TEXERE_ARGUMENT);
-        Self { status, message, place: causes().filter_map(place_of).last() }
-    }
-}
-
-/// The status of an error by itself, where it decides one. A cause decides over what it led to:
-/// memory that ran out while a design was read is no fault of the design.
-fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
-    if error.is::<OutOfMemory>() {
-        return Some(TEXERE_MEMORY);
-    }
-    if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
-        return status_of(&**error);
-    }
-    if let Some(error) = error.downcast_ref() {
-        return Some(match error {
-            ReadError::Io { .. } | ReadError::NotAFile { .. } => TEXERE_IO,
-            ReadError::OutOfMemory(_) => TEXERE_MEMORY,
-            ReadError::Feature { .. } => TEXERE_UNSUPPORTED,
-            _ => TEXERE_DESIGN,
-        });
-    }
-    if let Some(error) = error.downcast_ref() {
-        return Some(match error {
-            FabricError::OutOfMemory(_) => TEXERE_MEMORY,
-            FabricError::Cancelled | FabricError::Contact(ContactError::Cancelled) => TEXERE_CANCELLED,
-            _ => TEXERE_DESIGN,
-        });
-    }
-    if let Some(error) = error.downcast_ref::<FinishError>() {
-        return match error {
-            FinishError::Settling(SettlingError::OutOfMemory(_))
-            | FinishError::Crossings(CrossingsError::OutOfMemory(_)) => Some(TEXERE_MEMORY),
-            FinishError::Fabric(error) => status_of(error),
-            FinishError::Backend(error) => status_of(error),
-            _ => Some(TEXERE_DESIGN),
-        };
-    }
-    if let Some(Refusal::Other(error)) = error.downcast_ref() {
-        return status_of(error);
-    }
-    if let Some(error) = error.downcast_ref() {
-        return Some(match error {
-            BackendError::OutOfMemory(_) => TEXERE_MEMORY,
-            BackendError::NoFeature { .. }
-            | BackendError::NoSettling { .. }
-            | BackendError::NoCrossings { .. }
-            | BackendError::Unsupported { .. } => TEXERE_UNSUPPORTED,
-            _ => TEXERE_DEVICE,
-        });
-    }
-    if let Some(SessionError::Backend(error)) = error.downcast_ref() {
-        return status_of(error);
-    }
-    if let Some(error) = error.downcast_ref::<PipelineError>() {
-        return match error {
-            PipelineError::Cancelled => Some(TEXERE_CANCELLED),
-            PipelineError::Backend(error) => status_of(error),
-            _ => None,
-        };
-    }
-    if let Some(error) = error.downcast_ref::<WriteError>() {
-        return match error {
-            WriteError::Feature { .. } => Some(TEXERE_UNSUPPORTED),
-            WriteError::Pipeline(error) => status_of(error),
-            WriteError::Io { .. } => Some(TEXERE_IO),
-            _ => None,
-        };
-    }
-    None
-}
-
-/// Where in a design's file an error lies, where it says so.
-fn place_of(error: &(dyn Error + 'static)) -> Option<Place> {
-    let at = |file: &Path, line: usize, column: usize| {
-        let file = CString::new(file.to_string_lossy().replace('\0', "\u{fffd}")).unwrap_or_default();
-        Some(Place { file, line: line as u64, column: column as u64 })
-    };
-    if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
-        return place_of(&**error);
-    }
-    if let Some(Refusal::Key { place: FilePlace { file, line, .. }, .. }) = error.downcast_ref() {
-        return at(file, *line, 0);
-    }
-    match error.downcast_ref()? {
-        ReadError::Word { file, line, column, .. } => at(file, *line, *column),
-        ReadError::Syntax { file, line, .. } => at(file, *line, 0),
-        ReadError::BadValue { place, .. }
-        | ReadError::OutOfRange { place, .. }
-        | ReadError::UnknownKey { place, .. }
-        | ReadError::Value { place, .. }
-        | ReadError::Without { place, .. }
-        | ReadError::Weave { place, .. }
-        | ReadError::Chart { place, .. }
-        | ReadError::Chain { place, .. }
-        | ReadError::Named { place, .. }
-        | ReadError::Corner { place, .. }
-        | ReadError::Section { place, .. }
-        | ReadError::Cloth { place, .. } => at(&place.file, place.line, 0),
-        ReadError::Io { file, .. } | ReadError::Fabric { file, .. } | ReadError::MissingKey { file, .. } => {
-            at(file, 0, 0)
-        }
-        _ => None,
-    }
 }
 
 /// Does the work of a call, and keeps what went wrong. No panic gets out.
@@ -220,6 +69,6 @@ pub unsafe extern "C" fn texere_error_place(place: *mut texere_place) -> texere_
         None => texere_place { file: null(), line: 0, column: 0 },
     });
     // SAFETY: not null and aligned; the caller vouches for the rest.
-    unsafe { write(place, found) };
+    unsafe { place.write(found) };
     TEXERE_OK
 }

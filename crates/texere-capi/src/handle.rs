@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
 use crate::argument::check;
-use crate::error::Failure;
+use crate::failure::Failure;
 
 /// A kind of handle.
 pub(crate) trait Handle {

@@ -32,6 +32,7 @@ mod cloth;
 mod design;
 mod device;
 mod error;
+mod failure;
 mod handle;
 mod plan;
 mod run;

@@ -10,6 +10,7 @@ use texere::{Pipeline, Settings, Vertex, Yarns};
 use crate::argument::{check, check_sized, slice_mut, text};
 use crate::device::{Device, texere_device};
 use crate::error::guard;
+use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::run::{reporter, texere_run};
 use crate::settings::{chosen, texere_settings};
@@ -88,11 +89,7 @@ pub struct texere_draw {
 }
 
 impl Planned {
-    fn new(
-        yarns: Arc<Yarns>,
-        device: Arc<Device>,
-        settings: Settings,
-    ) -> Result<Self, crate::error::Failure> {
+    fn new(yarns: Arc<Yarns>, device: Arc<Device>, settings: Settings) -> Result<Self, Failure> {
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let limits = Limits::default().min(&device.backend.info().limits);
         let chunks: Vec<Chunk> = plan.chunks(&limits)?.collect();
@@ -130,7 +127,7 @@ impl Planned {
         vertices: &mut [Vertex],
         indices: &mut [u32],
         mut progress: impl FnMut(f64) -> std::ops::ControlFlow<()>,
-    ) -> Result<(), crate::error::Failure> {
+    ) -> Result<(), Failure> {
         let mut session = Session::new(&*self.device.backend, self.plan.clone())?;
         let mut tell = |done: u64| match progress(done as f64 / self.chunks.len().max(1) as f64) {
             std::ops::ControlFlow::Continue(()) => Ok(()),

@@ -4,7 +4,8 @@ use texere::Settings;
 use texere::mesh::{Frame, Topology};
 
 use crate::argument::{check_sized, sized};
-use crate::error::{Failure, guard};
+use crate::error::guard;
+use crate::failure::Failure;
 use crate::handle::get;
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;

@@ -6,7 +6,8 @@ use texere::yarn::Halves;
 use texere::{ControlPoint, Yarn, Yarns};
 
 use crate::argument::{check, check_sized, sized, slice, slice_mut, text};
-use crate::error::{Failure, guard};
+use crate::error::guard;
+use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::status::texere_status;
 

@@ -1,4 +1,6 @@
 //! The C examples, compiled by the system's compiler and run, give the meshes that Rust gives.
+
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 #![cfg(target_os = "linux")]
 
 use std::path::{Path, PathBuf};

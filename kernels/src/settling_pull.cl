@@ -12,8 +12,8 @@
 #define WEIGHTED_SLOT 8u
 #define BLOCK_SLOT 9u
 
-// What an interval has seen, and the share by which its length is off. Of several, the least of the
-// first two and the most of the others count.
+// What an interval has seen, and the share by which its length is off. Two intervals together have
+// the least of the first two components and the most of the others.
 float4 seen_by_both(float4 one, float4 other) {
     return (float4)(fmin(one.xy, other.xy), fmax(one.zw, other.zw));
 }

@@ -73,7 +73,8 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// - Control points come within the plan's range. Results of earlier control points are not read
 ///   afterwards.
-/// - If the plan needs a scan, one comes before any stage, and again after each upload.
+/// - If the plan needs a scan, one comes between the last of any uploads and the next stage.
+///   Several uploads in a row take one scan.
 /// - Every chunk is one of the plan's own or a patch of one: the chunk with only some rows of its
 ///   block table, whose results have the places that they have in the whole chunk. A chunk is
 ///   loaded into a slot before a stage runs for it there. While a chunk's results are still wanted,

@@ -174,7 +174,7 @@ impl<'a> Resting<'a> {
 
     /// Makes the cloth. The result is `Ok` also where the yarns don't come to rest:
     /// [`Cloth::report`] then says so. Yarns that can't settle at all stay where the structure
-    /// places them.
+    /// places them, and the report says why.
     ///
     /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish
     /// that its structure does not have, where a device fails, where `progress` asked to stop, and

@@ -51,7 +51,7 @@
 //!
 //! A WIF draft read by itself has no finish, so [`Design::rest`] leaves its yarns as placed unless
 //! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` also where yarns can't
-//! come to rest: [`Cloth::report`] says so.
+//! come to rest: [`Cloth::report`] then says so.
 //!
 //! # What to take
 //!

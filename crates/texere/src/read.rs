@@ -5,9 +5,9 @@
 //! [`read_from`](crate::read_from) takes them from memory.
 //!
 //! A WIF draft read by itself has no finish, so [`Design::rest`](crate::Design::rest) leaves its
-//! yarns as placed unless [`Design::settle`](crate::Design::settle) is set to true. After it,
-//! [`Cloth::report`](crate::Cloth::report) says whether yarns are at rest:
-//! [`run`](crate::rest::Resting::run) is `Ok` also where they can't come to rest.
+//! yarns as placed unless [`Design::settle`](crate::Design::settle) is set to true.
+//! [`run`](crate::rest::Resting::run) is `Ok` also where yarns can't come to rest:
+//! [`Cloth::report`](crate::Cloth::report) then says so.
 //!
 //! | to | take |
 //! |---|---|

@@ -88,8 +88,8 @@ impl Crate {
         if !found.is_empty() {
             return found;
         }
-        // A name of the module's own hides those that a `*` brings in. That also ends the search for
-        // the path before a `*`, which would else go through every `*` again.
+        // A name of the module's own hides those that a `*` brings in. That also ends the search
+        // for the path before a `*`, which would else go through every `*` again.
         for used in module.uses.iter().filter(|used| used.name == "*") {
             for (meaning, _) in self.meanings(number, &used.path, left) {
                 if let Meaning::Module(all) = meaning {

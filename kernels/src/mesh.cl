@@ -6,7 +6,7 @@
 // workgroup.
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
-// even number. So they hold floats of at most one normal and one position.
+// even number. The four hold floats of at most one normal and one position.
 float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float4 normal_point, float4 position_point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, normal_point);

@@ -12,8 +12,7 @@
 #define WEIGHTED_SLOT 8u
 #define BLOCK_SLOT 9u
 
-// What an interval has seen, and the share by which its length is off. Of several, the least of the
-// first two and the most of the others count.
+// What both have seen: the least distances and radii, the most of lengths and steps.
 float4 seen_by_both(float4 one, float4 other) {
     return (float4)(fmin(one.xy, other.xy), fmax(one.zw, other.zw));
 }

@@ -3,9 +3,9 @@
 // share.wgsl is the twin of this file.
 
 // A lane's share of the stores of a workgroup's rings, which all have as many stores. A lane makes
-// store number `store` of ring `ring` and of each `step`th ring after it. So it fetches its part of
-// the outline or of the pattern only once. Where a ring has more stores than the workgroup has
-// lanes, a lane goes on `across` stores further.
+// store number `store` of ring `ring` and of each `step`th ring after it. A lane thus fetches its
+// part of the outline or of the pattern only once. Where a ring has more stores than the workgroup
+// has lanes, a lane goes on `across` stores further.
 typedef struct {
     uint store;
     uint across;

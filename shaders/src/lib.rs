@@ -29,7 +29,7 @@ pub mod picture;
 pub mod settling;
 
 /// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every
-/// device allows. As few workgroups as possible are without work, since these take time too.
+/// device allows. The fewest possible workgroups are without work, since these take time too.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));

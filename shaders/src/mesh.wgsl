@@ -18,7 +18,7 @@ const MESH_GROUP = 128u;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
-// even number. So they hold floats of at most one normal and one position.
+// even number. The four hold floats of at most one normal and one position.
 fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, normal_point);

@@ -19,7 +19,7 @@ use texere_gpu::{
 };
 use texere_shaders::{ALL, Access, Shader, UNPACK, crossings, picture, settling};
 
-/// Those of meshes and those that bring yarns and crossings to rest.
+/// The shaders of meshes and those that bring yarns and crossings to rest.
 fn all() -> impl Iterator<Item = &'static Shader> {
     ALL.into_iter().chain(settling::ALL).chain(crossings::ALL)
 }

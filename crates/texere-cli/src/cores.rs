@@ -9,8 +9,8 @@ use rayon::{ThreadBuilder, ThreadPoolBuilder};
 /// Starts a thread for each core, or as many as the system gives. Without any, the main thread does
 /// all the work.
 ///
-/// Rayon would start its threads at first use, and panic if one can't be started. So they are
-/// started first, and rayon gets those that there are.
+/// Rayon would start its threads at first use, and panic if one can't be started. This starts them
+/// first, and rayon gets those that there are.
 pub(crate) fn start() {
     let (mut workers, wanted) = (Vec::new(), wanted());
     while workers.len() < wanted {

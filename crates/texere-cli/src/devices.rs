@@ -58,7 +58,7 @@ const fn can(can: Capabilities) -> [(&'static str, bool); 6] {
     let Capabilities { settle, settle_crossings, edit, attributes, pack, draw } = can;
     [
         ("settle", settle),
-        ("settle-crossings", settle_crossings),
+        ("settle_crossings", settle_crossings),
         ("edit", edit),
         ("attributes", attributes),
         ("pack", pack),

@@ -17,7 +17,7 @@ pub(crate) fn line(text: impl fmt::Display) -> String {
     cut(&escaped).into_owned()
 }
 
-/// [`line`] for each line of a text.
+/// [`line()`] for each line of a text.
 pub(crate) fn lines(text: &str) -> String {
     text.lines().map(|each| line(each) + "\n").collect()
 }

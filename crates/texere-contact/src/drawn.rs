@@ -116,7 +116,7 @@ impl Default for Found {
 }
 
 impl Found {
-    /// Both measures together. Of equal widths the lower yarn's place is kept.
+    /// Both measures together. If widths are equal, the lower yarn's place is kept.
     fn and(self, other: Self) -> Self {
         let narrower = if other.width < self.width { other } else { self };
         Self {

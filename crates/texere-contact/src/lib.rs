@@ -22,7 +22,7 @@
 //! let found = clearance(&yarns, &Settings::default())?;
 //! assert!(found.min < CLEAR && found.piercing == 1);
 //! assert_eq!(found.worst[0].places.map(|place| place.yarn), [0, 1]);
-//! assert_eq!(length_mm(&yarns, 0.0), 4.0);
+//! assert_eq!(length_mm(&yarns), 4.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

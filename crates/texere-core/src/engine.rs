@@ -73,7 +73,8 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// - Control points come within the plan's range. Results of earlier control points are not read
 ///   afterwards.
-/// - If the plan needs a scan, one comes before any stage, and again after each upload.
+/// - If the plan needs a scan, it comes after any number of uploads, before the next stage. A
+///   session scans all yarns at once, a live mesh each run of neighbouring yarns that have changed.
 /// - Every chunk is one of the plan's own or a patch of one: the chunk with only some rows of its
 ///   block table, whose results have the places that they have in the whole chunk. A chunk is
 ///   loaded into a slot before a stage runs for it there. While a chunk's results are still wanted,

@@ -10,7 +10,7 @@ use crate::turn::atan2_turns;
 pub enum Frame {
     /// The section's side lies level (at right angles to z) and its up points out of the fabric:
     /// right for flat yarns in cloth. It is the paper's equation 7 turned by half a turn. It would
-    /// flip where a yarn passes through the vertical. So a yarn that is
+    /// flip where a yarn passes through the vertical. A yarn that is
     /// [steep](crate::Layout::is_steep) anywhere is carried along instead, and the outline of a
     /// flattened one [leans](crate::Layout::ups) there.
     #[default]

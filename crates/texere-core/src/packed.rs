@@ -102,9 +102,9 @@ impl Quantum {
 ///
 /// The bits of a coordinate above these 21 are not kept. A vertex lies within the quantum's
 /// [reach](Quantum::reach) of a place that the reader names, such as the middle of the cloth, the
-/// eye, or a control point beside it, and that place supplies the high bits. So the packed bits
-/// depend on the position alone, not on a block, a chunk or a cap: equal positions are packed
-/// alike, and unpack alike near any place. Where a cloth is cut apart there are no cracks.
+/// eye, or a control point beside it, and that place supplies the high bits. The packed bits depend
+/// on the position alone, not on a block, a chunk or a cap: equal positions are packed alike, and
+/// unpack alike near any place. Where a cloth is cut apart there are no cracks.
 ///
 /// **Errors of rounding**: half a quantum in each coordinate, 6.6e-5 rad in the normal.
 ///

@@ -2,8 +2,8 @@
 //! uses.
 //!
 //! A roll adds up over millions of rings. In `f32` radians it would lose digits as it grows, and a
-//! sum would depend on its order. As a `u32` fraction of a turn, addition wraps and is associative
-//! to the bit, so serial, parallel, chunked and GPU scans agree whatever their order.
+//! sum would depend on its order. Addition of `u32` fractions of a turn wraps and is associative to
+//! the bit, so serial, parallel, chunked and GPU scans agree whatever their order.
 //!
 //! The polynomials are those of Moshier's Cephes library (`sinf`, `cosf`, `atanf`, single
 //! precision, 1992). The arctangent's coefficients are divided by 2π so that the result is in

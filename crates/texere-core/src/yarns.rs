@@ -134,8 +134,8 @@ impl Yarns {
         }
         let unit = |(point, up): (usize, &[f32; 3])| {
             let up = Vec3::from_array(*up);
-            // A vector of length 1, up to rounding, stays as it is. So ups that were read from
-            // yarns are the same to the bit when they are given again.
+            // A vector of length 1, up to rounding, stays as it is. Ups that were read from yarns
+            // are therefore the same to the bit when they are given again.
             let unit = |up: Vec3| {
                 let is_unit = (up.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
                 if is_unit { Some(up) } else { up.try_normalize() }

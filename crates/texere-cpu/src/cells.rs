@@ -69,7 +69,7 @@ impl Grid {
             let open = i64::from(extent.high[axis]) - i64::from(extent.low[axis]) + 1;
             if repeats[axis] { i64::from(plan.period()[axis]) } else { open.max(1) }
         });
-        // As many as there can be while each has the size at least.
+        // The most cells of which each has the size at least.
         let mut count = spans.map(|span| (span / size).max(1));
         while count[0] * count[1] > most {
             size *= 2;

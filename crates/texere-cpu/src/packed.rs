@@ -7,7 +7,7 @@ use crate::caps::end_normal;
 use crate::engine::Work;
 
 /// Writes the packed vertices of caps: the positions of the end ring again, with the end's own
-/// normal. Those of tubes must be there.
+/// normal. The packed vertices of tubes must be there already.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: &mut [PackedVertex]) {
     let sides = work.plan.settings().sides as usize;
     for cap in chunk.caps() {

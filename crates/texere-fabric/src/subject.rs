@@ -6,7 +6,7 @@ use crate::warp::WarpError;
 use crate::weft::WeftError;
 use crate::{FabricError, FinishError, ThreadError, WovenError};
 
-// As in the core, no match has an arm for all other variants.
+// No match has an arm for all other variants, as none has in the core.
 
 impl FabricError {
     /// The part of the cloth that the error is about. None where no design is at fault: memory, a

@@ -124,7 +124,8 @@ impl fmt::Debug for Resting<'_> {
 impl Design {
     /// Starts from the design to its cloth. [`Resting::run`] makes the cloth on `device`: it places
     /// the yarns, stretches the cloth and lets it come to rest, as the design's `settle`, `stretch`
-    /// and `finish` say.
+    /// and `finish` say. A WIF draft read by itself has no finish, so its yarns stay as placed
+    /// unless [`Design::settle`] is set to true.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -171,8 +172,9 @@ impl<'a> Resting<'a> {
         Self { progress: Box::new(progress), ..self }
     }
 
-    /// Makes the cloth. Yarns that can't come to rest stay where the structure places them, and
-    /// [`Cloth::report`] says why.
+    /// Makes the cloth. The result is `Ok` also where the yarns don't come to rest:
+    /// [`Cloth::report`] then says so. Yarns that can't settle at all stay where the structure
+    /// places them, and the report says why.
     ///
     /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish
     /// that its structure does not have, where a device fails, where `progress` asked to stop, and

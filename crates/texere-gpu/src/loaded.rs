@@ -5,9 +5,9 @@ use texere_core::backend::{Chunk, Plan, TablesId};
 
 /// The chunk whose tables lie in a slot of an engine.
 ///
-/// Kernels check no bounds. They trust the tables of a chunk, which its plan has counted. So an
-/// engine checks, before it runs them, that the chunk is of its own plan and is the one that it has
-/// loaded.
+/// Kernels check no bounds. They trust the tables of a chunk, which its plan has counted. An engine
+/// therefore checks, before it runs them, that the chunk is of its own plan and is the one that it
+/// has loaded.
 ///
 /// ```
 /// use texere_core::backend::Plan;

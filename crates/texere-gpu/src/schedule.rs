@@ -23,7 +23,7 @@ pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) ->
 /// and nothing else. `draw`: whether pictures are drawn through its interface.
 ///
 /// ```
-/// use texere_core::Schedule;
+/// use texere_core::backend::Schedule;
 /// use texere_gpu::capabilities;
 /// assert!(capabilities(Schedule::PerRing, false).pack);
 /// assert!(!capabilities(Schedule::PerYarn, false).pack);

@@ -31,8 +31,8 @@ pub(crate) enum Arg<'a> {
     Value(&'a [u8]),
 }
 
-/// The most workgroups of one launch: 16 million rings, a few milliseconds on a GPU. So no launch
-/// of a large chunk runs into a watchdog.
+/// The most workgroups of one launch: 16 million rings, a few milliseconds on a GPU. Launches of
+/// this size run into no watchdog.
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {

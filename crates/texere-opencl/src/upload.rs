@@ -183,7 +183,7 @@ impl Flight<'_> {
                 return;
             }
             if let Err(error) = self.take(first) {
-                // Of several errors the first is reported.
+                // The first of several errors is reported.
                 let _ = self.failed.set(error);
             }
         }

@@ -119,7 +119,7 @@ impl Camera {
 
     /// Where a point relative to the target lies in clip space.
     pub(crate) fn clip_from_local(&self) -> DMat4 {
-        // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.
+        // The planes enclose the fabric closely, since depth has only 24 bits to tell yarns apart.
         let [near, far] = self.depths();
         let (toward, up) = (self.toward.as_dvec3(), self.up.as_dvec3());
         let aspect = f64::from(self.aspect());

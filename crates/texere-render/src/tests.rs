@@ -310,17 +310,17 @@ fn pictures_are_those_of_the_mesh() {
     });
     for (cloth, yarns) in [("twill", TWILL.yarns()), ("flattened", flat), ("bent", bent.unwrap())] {
         let extent = Extent::of(&yarns);
-        // Threads of one and a half pixels, and less: a dozen triangles for each sample. And some
-        // triangles of many pixels.
+        // Threads of one and a half pixels, and less: a dozen triangles for each sample. The near
+        // view has triangles of many pixels.
         let small = [0.6, 1.1].map(|scale| ("small", Camera::true_scale(&extent, scale).unwrap()));
         let near = [("near", Camera::close_up(&extent, [5.0, 3.5], 0.4, SIZE).unwrap())];
         for (name, camera) in cameras(&extent).into_iter().chain(small).chain(near) {
             let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
             let judged = mesh_path::judge(&mut scene, &camera);
             let off = difference(&judged.pictures[0], &judged.pictures[1]);
-            // Samples on an edge may fall to either side of it. So close together as in small
-            // pictures, edges are everywhere, and normals beyond a triangle's edge, as rasterisers
-            // have them in a pixel's middle, are all kinds.
+            // Samples on an edge may fall to either side of it. Small pictures have edges
+            // everywhere, and all kinds of normals beyond a triangle's edge, as rasterisers have
+            // them in a pixel's middle.
             println!("{cloth} {name}: samples {:.5}, picture {off:.4}", judged.off);
             let (most, tolerance) = if name == "small" { (0.01, 0.15) } else { (0.001, TOLERANCE) };
             assert!(judged.off <= most && off <= tolerance, "{cloth} {name}: {} {off}", judged.off);
@@ -328,7 +328,7 @@ fn pictures_are_those_of_the_mesh() {
     }
 }
 
-/// The same with yarns three quarters as high as wide.
+/// A copy whose yarns are three quarters as high as wide.
 fn flattened(yarns: &Yarns) -> Yarns {
     let mut flat = yarns.clone();
     for yarn in 0..yarns.layout().yarns().len() {

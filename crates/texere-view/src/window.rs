@@ -56,8 +56,8 @@ impl View {
         let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
             let render = context.wgpu_render_state.clone().ok_or("no device")?;
             // A device does its work in order, and a processor takes seconds for a cloth: the
-            // window would wait behind it, and could not be closed. So the cloth has a device of
-            // its own there, from which a copy costs next to nothing.
+            // window would wait behind it, and could not be closed. The cloth therefore has a
+            // device of its own there, from which a copy costs next to nothing.
             let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
             let renderer = if is_apart {
                 texere::picture::open_renderer(&self.device)?

@@ -129,6 +129,8 @@ impl Workshop {
                 self.view.subdivisions = Some(settings.subdivisions);
                 Change::Scene
             }
+            // The slider asks in every frame until the cloth has the tension that it shows.
+            Order::Tension(tension) if tension == self.view.tension => Change::Nothing,
             Order::Tension(tension) => {
                 self.view.tension = tension;
                 Change::Yarns

@@ -61,9 +61,9 @@ impl WgpuBackend {
         adapters.iter().enumerate().map(describe).collect()
     }
 
-    /// The features and limits that [`WgpuBackend::open`] requests: the adapter's limits, timestamp
-    /// queries and [`LONG_ATOMICS`], as far as it has them. A program that opens a device itself
-    /// uses it before [`WgpuBackend::from_device`].
+    /// The features and limits that [`WgpuBackend::open`] requests: the adapter's limits, and
+    /// timestamp queries and [`LONG_ATOMICS`] where it offers them. A program that opens a device
+    /// itself uses it before [`WgpuBackend::from_device`].
     #[must_use]
     pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {

@@ -7,8 +7,8 @@ use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
 use texere_gpu::capabilities;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
-/// The default limit of the blocks of a launch: some 16 million rings. So no launch takes long
-/// enough for a watchdog to end it, even on a software device.
+/// The default limit of the blocks of a launch: some 16 million rings. Launches of this size take
+/// too little time for a watchdog to end them, even on a software device.
 pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
 /// Features with which a picture finds the depth and the triangle of a sample at once. Without them

@@ -91,7 +91,7 @@ impl WgpuEngine {
     /// buffers. None where the mesh is not on a wgpu device. [`draw`](fn@crate::draw) draws the
     /// whole mesh.
     ///
-    /// A live mesh has room between its yarns, in which triangles of earlier edits may lie. So draw
+    /// A live mesh has room between its yarns, in which triangles of earlier edits may lie. Draw
     /// what [`Plan::chunk_draws`] says of the mesh's current plan, and never a chunk from its first
     /// to its last index.
     ///

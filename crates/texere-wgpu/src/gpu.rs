@@ -81,8 +81,8 @@ impl Gpu {
         BackendError::DeviceLost { device: self.name.clone(), source: Some(source.into()) }
     }
 
-    /// Runs `work` within error scopes. Of several errors it returns lack of memory before what
-    /// followed from it.
+    /// Runs `work` within error scopes. Lack of memory is returned before the errors that followed
+    /// from it.
     pub(crate) fn caught<T>(&self, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
         let scopes = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory]
             .map(|filter| self.device.push_error_scope(filter));

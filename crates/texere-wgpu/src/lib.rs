@@ -18,8 +18,8 @@
 //!
 //! Properties of wgpu that show:
 //!
-//! - wgpu clears a fresh buffer before its first use. So the first chunks of a session take longer
-//!   than later ones, which take their memory again.
+//! - wgpu clears a fresh buffer before its first use. The first chunks of a session therefore take
+//!   longer than later ones, which take their memory again.
 //! - wgpu does not report a device's memory, so chunks are cut to what one binding may hold. Where
 //!   that is more than the memory, set stricter limits with [`WgpuBackend::with_limits`].
 //! - A software device such as llvmpipe silently ends a lane that loops for long. On such a device

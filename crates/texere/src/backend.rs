@@ -1,4 +1,11 @@
-//! Everything to write a backend with, and to drive one chunk by chunk.
+//! What a backend is written with, and what drives one chunk by chunk.
+//!
+//! [docs/BACKENDS.md](https://github.com/texere/texere/blob/main/docs/BACKENDS.md) writes a backend
+//! step by step. The rest of the names that a backend needs are in [`mesh`](crate::mesh)
+//! ([`Limits`](crate::mesh::Limits), [`MeshPiece`](crate::mesh::MeshPiece),
+//! [`Attribute`](crate::mesh::Attribute), [`PackedVertex`](crate::mesh::PackedVertex)) and at the
+//! root ([`Backend`](crate::Backend), [`BackendError`](crate::BackendError),
+//! [`DeviceInfo`](crate::DeviceInfo)).
 //!
 //! ```text
 //! Yarns ──> Plan ──> Session ──> Engine, chunk by chunk ──> MeshMut

@@ -49,6 +49,10 @@
 //! # }
 //! ```
 //!
+//! A WIF draft read by itself has no finish, so [`Design::rest`] leaves its yarns as placed unless
+//! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` also where yarns can't
+//! come to rest: [`Cloth::report`] then says so.
+//!
 //! # What to take
 //!
 //! | to | take |
@@ -58,7 +62,7 @@
 //! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`]; [`yarn`] |
 //! | let cloth come to rest | [`Design::rest`]; [`rest`] |
 //! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
-//! | save cloth at rest, and read it again without settling | [`write::yarns`], [`read::yarns`] |
+//! | save yarns, such as cloth at rest, and read them again without settling | [`write::yarns`], [`read::yarns`] |
 //! | write a mesh larger than memory, or a format of your own | [`write::stream`], [`Pipeline::stream`] |
 //! | have a mesh of only what lies in a rectangle | [`Pipeline::within`] |
 //! | edit a cloth and keep its mesh on a device | [`Live`] |

@@ -4,6 +4,11 @@
 //! [`texere::read`](fn@crate::read) reads a design's file and the files that it names;
 //! [`read_from`](crate::read_from) takes them from memory.
 //!
+//! A WIF draft read by itself has no finish, so [`Design::rest`](crate::Design::rest) leaves its
+//! yarns as placed unless [`Design::settle`](crate::Design::settle) is set to true.
+//! [`run`](crate::rest::Resting::run) is `Ok` also where yarns can't come to rest:
+//! [`Cloth::report`](crate::Cloth::report) then says so.
+//!
 //! | to | take |
 //! |---|---|
 //! | read yarns that were saved, without settling them again | [`yarns`], [`yarns_from`], which give [`SavedYarns`] |

@@ -1,13 +1,14 @@
 //! Files: meshes in pieces, pictures, drafts and designs.
 //!
-//! [`texere::write`](fn@crate::write) writes a whole mesh. Each function but [`file()`] has a twin
-//! whose name ends in `_to`. The twin writes the same bytes to a writer of the caller's.
+//! [`texere::write`](fn@crate::write) writes a whole mesh. Each function that writes a file, except
+//! [`file()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of
+//! the caller's.
 //!
 //! | to | take |
 //! |---|---|
 //! | write a mesh larger than memory | [`stream`], [`stream_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
-//! | save yarns at rest, or a repeat of them | [`yarns`], [`repeat`] |
+//! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
 //! | write a design that is read again | `wif`, `toml` (features of these names) |
 //! | write a draft as a picture | `draft`, `knit_draft`, `warp_draft` (feature `pictures`) |
 //! | write a picture | `picture` (feature `pictures`) |

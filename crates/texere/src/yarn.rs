@@ -15,6 +15,7 @@
 //! use texere::yarn::twist_from_turns_per_m;
 //! use texere::{ControlPoint, Yarn, Yarns};
 //! let mut yarns = Yarns::builder();
+//! // x, y and z, then the radius, all in mm.
 //! let points = [0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
 //! yarns.yarn(Yarn { twist: twist_from_turns_per_m(500.0), ..Yarn::default() }, &points);
 //! let yarns = yarns.build()?;

@@ -35,8 +35,8 @@ fn screen_scale() -> vec4<f32> {
     return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
-// Near 3 * 2^22 floats lie 1 apart, and their last bits count them. So a sum rounds to whole
-// numbers. A conversion takes a GPU eight times as long.
+// Near 3 * 2^22 floats lie 1 apart, and their last bits count them. A sum with ROUNDER rounds to
+// whole numbers. A conversion takes a GPU eight times as long.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
 

@@ -2,7 +2,7 @@
 //
 // The rules are those of any rasteriser: corners are rounded to 1/256 of a pixel, edges are tested
 // in whole numbers, and a sample on an edge belongs to the triangle whose top or left edge it is.
-// So triangles with a common edge leave no sample out, and cover none twice.
+// Triangles with a common edge thus leave no sample out, and cover none twice.
 
 fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;

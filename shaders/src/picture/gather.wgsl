@@ -2,9 +2,9 @@
 //
 // The plain mean of the samples in a pixel shows false waves where threads are finer than pixels:
 // threads of two thirds of a pixel come out as waves of two pixels, a fifth as strong as the
-// threads. More samples don't help, for the mean itself does it. So on such threads each pixel is a
-// mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines: a perfect
-// fit for signal and image processing"). It leaves a tenth of those waves.
+// threads. More samples don't help, for the mean itself does it. On such threads each pixel is
+// therefore a mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines:
+// a perfect fit for signal and image processing"). It leaves a tenth of those waves.
 
 @group(1) @binding(1) var lit_samples: texture_2d<u32>;
 // Red, green, blue and alpha, sRGB.

@@ -1,7 +1,7 @@
 // Hairs: fibres that stand off their yarns. After fabric.wgsl.
 //
 // Each gap between two rings has its own hairs, from a hash of its yarn, its ring and the hair's
-// number. So they are the same however the fabric is cut into chunks, and in every shader.
+// number. The hairs are the same however the fabric is cut into chunks, and in every shader.
 
 // Hairs of a gap at most, and straight parts of each. Rust: texere_render's hairs.rs, with the next
 // one.

@@ -2,8 +2,8 @@
 // and hair.wgsl.
 //
 // A fibre is drawn as a ribbon that faces the eye, at its true width. Where that is less than the
-// distance of samples, it covers as few samples as its area does. So thin fibres come out fainter,
-// not thicker.
+// distance of samples, it covers as few samples as its area does. Thin fibres thus come out
+// fainter, not thicker.
 
 const HAIR_GROUP = 128u;
 

@@ -58,8 +58,8 @@ const FIRST_SAMPLE_Y = 32;
 
 // The cyclic shift of the pattern in this pixel, and the further shift in each of its rows of
 // samples, 1/256 pixels. Threads finer than pixels would beat with a pattern that is the same
-// everywhere. So on them each pixel has its own shift, by a hash of its place, and what is finer
-// than samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
+// everywhere. On such threads each pixel has its own shift, by a hash of its place, and what is
+// finer than samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
 fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     if view.spread == 0.0 {
         return vec2(0);

@@ -124,7 +124,7 @@ pub(crate) struct DraftArgs {
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
     pub(crate) output: Option<PathBuf>,
     /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft
-    /// is, end 1 on the left. Of a knit a row for each course, in the symbols of its charts
+    /// is, end 1 on the left. A knit has a row for each course, in the symbols of its charts
     #[arg(long, required_unless_present = "output")]
     pub(crate) text: bool,
     /// Show the back of the cloth, turned over sideways: end 1 on the right

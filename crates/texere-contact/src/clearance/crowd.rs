@@ -69,7 +69,7 @@ impl Crowd {
         if self.fill > 1.0 { self.fill.sqrt().recip() } else { f64::INFINITY }
     }
 
-    /// The more crowded of two. Of two alike the first along the yarns counts.
+    /// The more crowded of two. If both are equally crowded, the first along the yarns counts.
     pub(super) fn worse(self, other: Self) -> Self {
         let place = |crowd: &Self| (crowd.place.yarn, crowd.place.interval);
         let order = self.fill.total_cmp(&other.fill).then(self.intervals.cmp(&other.intervals));

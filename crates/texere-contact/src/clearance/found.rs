@@ -19,7 +19,7 @@ pub(super) struct Found {
     pub(super) crowd: Option<Crowd>,
     /// Pairs of intervals that were looked at.
     pub(super) pairs: u64,
-    /// A ratio above which a contact is not among the worst.
+    /// Contacts above this ratio are counted, but not kept.
     bar: f64,
     /// How many of the worst are kept.
     most: usize,
@@ -92,8 +92,8 @@ impl Found {
     }
 }
 
-/// Worst first. Of two alike the first along the yarns comes first, in whatever order they were
-/// found.
+/// Worst first. Equal ratios are ordered along the yarns, so the order of the search does not
+/// matter.
 fn by_ratio(a: &Contact, b: &Contact) -> Ordering {
     let place = |contact: &Contact| contact.places.map(|place| (place.yarn, place.interval));
     a.ratio.total_cmp(&b.ratio).then_with(|| place(a).cmp(&place(b)))

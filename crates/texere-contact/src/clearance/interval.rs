@@ -263,7 +263,7 @@ impl Chords {
             for column in 0..columns {
                 let own = (row + 1) * ROW + column + 1;
                 let here = near[own];
-                // Of two pairs alike the first counts.
+                // If two pairs are equally near, the first counts.
                 let before = [own - ROW - 1, own - ROW, own - ROW + 1, own - 1];
                 let after = [own + 1, own + ROW - 1, own + ROW, own + ROW + 1];
                 let least_of = |before: &[usize], after: &[usize]| {

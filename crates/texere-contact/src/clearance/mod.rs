@@ -60,7 +60,7 @@ pub struct Clearance {
     /// Number of contacts nearer than 1 by more than [`CLEARANCE_ACCURACY`]. Threads that touch by
     /// construction have many, since splines between their control points come to 0.99.
     pub below_one: u64,
-    /// Number of contacts that pierce: nearer than [`CLEAR`](crate::CLEAR).
+    /// Number of contacts that pierce: nearer than [`CLEAR`].
     pub piercing: u64,
     /// The worst contacts, [`CONTACTS_LISTED`] at most, worst first.
     pub worst: Vec<Contact>,

@@ -1,4 +1,5 @@
-//! Whether two intervals of round yarns come nearer to one another anywhere than is known.
+//! Whether two intervals of round yarns come nearer to one another anywhere than the nearest
+//! approach found so far.
 //!
 //! Both are halved until bounds decide it.
 
@@ -6,7 +7,7 @@ use glam::{DVec2, DVec4, Vec4Swizzles};
 
 use super::interval::{Cubic, closest, off_chord};
 
-/// The most halvings of an interval. Pieces so short are as near as their middles are.
+/// The most halvings of an interval. Pieces this short are judged by one point each.
 const HALVINGS: u32 = 12;
 
 /// A piece of an interval: centreline and radius as one Bézier polygon in four dimensions.
@@ -70,9 +71,9 @@ impl Piece {
 /// A place where the distance of two round yarns over the sum of their radii is less than `below`,
 /// if there is one.
 ///
-/// Two pieces are at least as far apart as their chords, less how far they lie from these. Pieces
-/// that may come nearer than `below` are halved. The search finds the nearer of two approaches in
-/// one valley, where the chords of the main search see only one.
+/// Two pieces are at least as far apart as their chords, minus each piece's distance from its
+/// chord. Pieces that may come nearer than `below` are halved. The search finds the nearer of two
+/// approaches in one valley, where the chords of the main search see only one.
 pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
     let [floor, other_floor] = [one, other].map(|cubic| cubic.floors()[0]);
     if below <= 0.0 {

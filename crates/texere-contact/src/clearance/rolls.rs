@@ -19,7 +19,7 @@ pub(super) struct Rolls {
     twists: Vec<Option<(Frame, f32)>>,
     /// The roll at the beginning of each interval; empty where no roll matters.
     starts: Vec<Turn>,
-    /// The share of a closed yarn's whole turn that each ring takes back, turns.
+    /// The share of a closed yarn's whole turn that each ring gives back, turns.
     given_back: Vec<f64>,
 }
 
@@ -28,7 +28,8 @@ pub(super) struct Rolls {
 pub(super) struct IntervalRolls {
     /// Rolls at its rings and at its end, turns, without jumps; empty where they don't matter.
     at_rings: Vec<f64>,
-    /// Of a rotation-minimising frame: the twist (turns per mm) and what a ring takes back (turns).
+    /// For a rotation-minimising frame: twist (turns per mm), and the turn that each ring gives
+    /// back (turns).
     minimizing: Option<(f32, f64)>,
 }
 
@@ -72,7 +73,7 @@ impl Rolls {
         self.twists[yarn].is_some()
     }
 
-    /// Writes the roll at each control point of a yarn, and returns what each ring takes back,
+    /// Writes the roll at each control point of a yarn, and returns what each ring gives back,
     /// turns.
     fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, ContactError> {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);
@@ -169,8 +170,8 @@ impl IntervalRolls {
         self.at_rings.is_empty()
     }
 
-    /// Whether the rolls turn a section that is carried along, against the upright frame; else they
-    /// turn the section inside its outline.
+    /// Whether the frame is rotation-minimising. Rolls then count from the upright frame; otherwise
+    /// they count from the frame along which the yarn is flattened, which may lean.
     pub(super) fn is_carried(&self) -> bool {
         self.minimizing.is_some()
     }

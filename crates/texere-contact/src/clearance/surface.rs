@@ -28,7 +28,7 @@ pub(super) struct Surface<'a> {
 pub(super) struct Stand {
     pub(super) centre: DVec3,
     pub(super) tangent: DVec3,
-    /// The upright frame's side and up.
+    /// Side and up of the frame along which the yarn is flattened.
     frame: [DVec3; 2],
     /// Half width and half height.
     sizes: DVec2,

@@ -29,12 +29,14 @@ use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
 use super::tubes::{self, Nearest};
 
-/// Points tried of an outline: without lobes and corners, and with them.
+/// Points tried of an outline without lobes and corners.
 const POINTS: usize = 48;
+
+/// Points tried of any other outline.
 const POINTS_LOBED: usize = 96;
 
-/// The step along the yarn between sections that are tried, in the sum of both yarns' least half
-/// widths or heights.
+/// The step along the yarn between sections that are tried, as a share of the sum of both yarns'
+/// least half widths or heights.
 const STEP: f64 = 0.25;
 
 /// The step along the yarn between sections that are tried, in turns of either yarn's roll. The
@@ -42,7 +44,7 @@ const STEP: f64 = 0.25;
 const STEP_TURNS: f64 = 1.0 / 72.0;
 
 /// The height of lobes and flat sides, as a share of the reach of both surfaces, up to which they
-/// don't show. So fine a yarn may turn at will beside such a thick one.
+/// don't show. Turns of a yarn with less relief than this need no finer steps.
 const RELIEF: f64 = 1e-3;
 
 /// The most sections of an interval that are tried.
@@ -52,19 +54,18 @@ const SECTIONS_MAX: usize = 4096;
 /// start there: as much as a lobe rises between two places.
 const SLACK: f64 = 0.015;
 
-/// The number of descents after which only places start one that touch at less than the least
-/// growth so far.
+/// Once descents have this many starts and ends, [`SLACK`] no longer counts: only a place of lesser
+/// growth than the least so far starts another.
 const PLACES: usize = 16;
 
 /// The growth below which no lesser one is looked for: the surfaces pierce one another deeply.
 const DEEP: f64 = 0.25;
 
-/// How much further than its surface a point may lie from the other yarn's tangent and still be
+/// How many times as far as the surface a point may lie from the other yarn's tangent and still be
 /// inside, where the yarn bends.
 const BENT: f64 = 1.3;
 
-/// How far the place that a point is level with may lie from where the yarn's tangent has it, in
-/// intervals.
+/// The largest error, in intervals, of the tangent's estimate of the place level with a point.
 const SLANT: f64 = 0.2;
 
 /// The cosine of the angle up to which an interval may turn and still have a single place level
@@ -77,8 +78,10 @@ const SAME: f64 = 1e-3;
 /// The last steps of a descent, as a share of the steps between places that are tried.
 const FINEST: f64 = 1.0 / 32.0;
 
-/// The error of the tubes' ratio: where their steps have not converged, and where they have.
+/// The largest error of the tubes' ratio where their steps have not converged.
 const OFF: f64 = 0.1;
+
+/// The largest error of the tubes' ratio where their steps have converged.
 const OFF_ENDED: f64 = 0.01;
 
 /// The accuracy of a growth.
@@ -117,7 +120,8 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest)
         return within(surfaces, &tubes, found);
     }
     if tubes.ended {
-        // The point in which the tubes touch is clear of the true surface. The tubes have to do.
+        // The point in which the tubes touch is clear of the true surface, so the tubes' own ratio
+        // is returned.
         return own(surfaces, (tubes.place, tubes.ratio));
     }
     let [one, other] = surfaces;
@@ -145,8 +149,8 @@ fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     }
 }
 
-/// Whether the second surface is the thinner one. Points of the thinner one are tried, so that none
-/// of its shape falls between two points of the other.
+/// Whether the second surface is the thinner one. Points of the thinner one are tried, because the
+/// points tried on a thicker surface would lie too far apart for it.
 fn exchanged([one, other]: [&Surface<'_>; 2]) -> bool {
     other.side.cubic.half_bound() < one.side.cubic.half_bound()
 }
@@ -230,7 +234,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let [thin, thick] = self.surfaces;
         let (low, high) = (thin.side.held(f64::NEG_INFINITY), thin.side.held(f64::INFINITY));
         let mut rounds = shares(POINTS_LOBED);
-        // Corners may be narrower than the steps between those.
+        // Corners may be narrower than the steps between these places.
         rounds.extend(shares(thin.side.support.corners()));
         let sections = self.sections();
         let steps = DVec2::new((high - low) / sections as f64, 1.0 / POINTS_LOBED as f64);
@@ -294,7 +298,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
                 continue;
             }
-            // Other points lie level with a place of a neighbour of the other yarn's interval.
+            // Points beyond that belong to the other yarn's neighbouring intervals.
             let level_with = beside + along / speed;
             let at = DVec2::new(t, round);
             if level_with < low - SLANT || level_with > high + SLANT || tried.is_near(at, 2.0 * steps) {
@@ -335,7 +339,9 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
     }
 
     /// How much more the other surface must grow to meet a point of a section grown by `growth`,
-    /// and the parameter where it does. None where that is far.
+    /// and the parameter where it does. None where the point lies out of the other surface's reach
+    /// at `growth`, where the place belongs to another interval, or where the other yarn has no
+    /// direction there.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
         let (needed, other) = self.surfaces[1].growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))

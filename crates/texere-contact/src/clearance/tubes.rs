@@ -183,7 +183,7 @@ impl<'a> Meeting<'a> {
             }
         }
         let (best, angle) = if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
-        // Each takes half of the way. Of two that run against one another both go forward or both
+        // Each takes half of the way. If the yarns run against one another, both go forward or both
         // back.
         let forward = tangent.dot(tangent_b).signum();
         let offset = 0.5 * along * DVec2::new(1.0, -forward) / self.speeds();

@@ -49,8 +49,8 @@ impl Found {
     }
 }
 
-/// Worst first. Of two alike the first along the yarns comes first, in whatever order they were
-/// found.
+/// Worst first. Equal changes are ordered along the yarns, so the order of the search does not
+/// matter.
 fn by_change(a: &Passage, b: &Passage) -> Ordering {
     let place = |passage: &Passage| passage.places.map(|place| (place.yarn, place.interval));
     b.change.abs().total_cmp(&a.change.abs()).then_with(|| place(a).cmp(&place(b)))

@@ -41,8 +41,8 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Whether the interval has moved further than its margin. Of two intervals that have met
-    /// without being near before, one has.
+    /// Whether the interval has moved further than its margin. If two intervals have met without
+    /// being near before, one of them has.
     pub(super) fn is_far(&self) -> bool {
         self.moved > self.margin
     }

@@ -24,8 +24,8 @@
 //! ```
 //!
 //! A term of several crossings is computed by each of them, which keeps the slopes in its own
-//! unknowns. So everything is gathered and nothing is scattered. The sum over all crossings counts
-//! each term once.
+//! unknowns. Everything is thus gathered and nothing is scattered. The sum over all crossings
+//! counts each term once.
 
 use super::{
     CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Set, Site, StraightPassage, ThreadState,

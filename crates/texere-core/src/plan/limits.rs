@@ -7,7 +7,7 @@ use crate::definitions::SIDES_MAX;
 /// The limits that chunks are cut to.
 ///
 /// By default a buffer of a chunk has at most 64 MiB: with six sides some 466,000 rings and 5.6
-/// million triangles. So two chunks take less than 300 MB whatever the fabric, progress comes in
+/// million triangles. Two such chunks take less than 300 MB whatever the fabric, progress comes in
 /// steps of that size, and a cancellation takes effect at the next one. A larger chunk would only
 /// save a launch.
 ///

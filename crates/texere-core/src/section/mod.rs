@@ -81,8 +81,8 @@ pub struct SectionPoint {
 const _: () = assert!(size_of::<SectionPoint>() == 16);
 
 impl SectionPoint {
-    /// Position · normal: the share of the radius' growth that this point's surface feels. It is 1
-    /// all round a circle.
+    /// Position · normal: how far the surface moves along its normal here when the radius grows by
+    /// 1. It is 1 all round a circle.
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.x * self.normal_x + self.y * self.normal_y

@@ -19,9 +19,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
 // SAFETY, for all blocks in this file: the instructions need AVX2. An `Avx2` proves that the
-// processor has it, since `detect` alone makes one. So does a vector or a mask, since it is made
-// with an `Avx2` or from another of them: their fields are private, and nothing outside this file
-// makes one. What is said at a block is about its pointers.
+// processor has it, since `detect` alone makes one. A vector or a mask proves it too, since it is
+// made with an `Avx2` or from another of them: their fields are private, and nothing outside this
+// file makes one. What is said at a block is about its pointers.
 
 /// Proof that the processor has AVX2.
 #[derive(Debug, Clone, Copy)]

@@ -20,9 +20,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
 // SAFETY, for all blocks in this file: the instructions need AVX-512 F and DQ. An `Avx512` proves
-// that the processor has them, since `detect` alone makes one. So does a vector or a mask, since it
-// is made with an `Avx512` or from another of them: their fields are private, and nothing outside
-// this file makes one. What is said at a block is about its pointers.
+// that the processor has them, since `detect` alone makes one. A vector or a mask proves it too,
+// since it is made with an `Avx512` or from another of them: their fields are private, and nothing
+// outside this file makes one. What is said at a block is about its pointers.
 
 /// Proof that the processor has AVX-512, its parts F and DQ.
 #[derive(Debug, Clone, Copy)]

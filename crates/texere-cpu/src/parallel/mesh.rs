@@ -81,7 +81,7 @@ impl Job for MeshJob<'_> {
 struct MeshPiece<'a> {
     maker: &'a Maker<'a>,
     blocks: &'a [Block],
-    /// Floats of the vertices of a ring, as many as it has indices.
+    /// Floats of the vertices of a ring, which has an equal number of indices.
     floats: usize,
     out: Lines<'a>,
     scratch: &'a mut [Line],
@@ -113,7 +113,7 @@ impl Piece for MeshPiece<'_> {
 /// Where a mesh goes.
 struct MeshSink<'a> {
     surface: &'a Surface<'a>,
-    /// Floats of the vertices of a ring, as many as it has indices.
+    /// Floats of the vertices of a ring, which has an equal number of indices.
     floats: usize,
     vertices: Way<'a>,
     indices: Option<IndexLines<'a>>,

@@ -124,7 +124,7 @@ const _: () = assert!(Quantum::BITS == 21);
 #[cfg_attr(optimized, inline(always))]
 fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     let quanta = mm * simd.splat(quantum.per_mm());
-    // Of two that are as near, either does: their lowest bits are the same.
+    // Where two whole numbers of turns are equally near, either does: the lowest bits are the same.
     let turns = (quanta * simd.splat(1.0 / Quantum::WRAP) + simd.splat(0.5)).floor();
     let rest = quanta - turns * simd.splat(Quantum::WRAP);
     (rest + simd.splat(PackedVertex::ROUNDING)).to_bits().masked((1 << Quantum::BITS) - 1)

@@ -38,7 +38,7 @@ pub(super) struct Cubics<S: Simd> {
     at_rest: S::Floats,
     /// The least half height.
     floor: S::Floats,
-    /// Half widths. Those of a round yarn have no meaning: its half width is its half height.
+    /// Half widths. A round yarn's have no meaning: its half width is its half height.
     pub(super) half_width: Widths<S>,
 }
 

@@ -4,8 +4,8 @@
 //! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
 //! gives a column for each quarter of four rings. A column's lanes hold the same quarter of the
 //! next four rings, and so on. Quarters of four consecutive columns are a line. Columns pass
-//! through memory, aligned and read as they were stored. So they need not wait for the lines before
-//! them, which are slow to go past the caches.
+//! through memory, aligned and read as they were stored. Reads thus need not wait for the lines
+//! before them, which are slow to go past the caches.
 
 use super::lines::Lines;
 use super::runs::take;

@@ -128,8 +128,8 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     }
 }
 
-/// Writes all vertices of a vector of rings ring after ring, the last vertices first. So a store
-/// that reaches over the end of its ring is overwritten by the next ring's own.
+/// Writes all vertices of a vector of rings ring after ring, the last vertices first. A store that
+/// reaches over the end of its ring is overwritten by the next ring's own.
 #[cfg_attr(optimized, inline(always))]
 fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;

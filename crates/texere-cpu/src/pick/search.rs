@@ -63,8 +63,8 @@ struct Nearest {
 }
 
 impl Nearest {
-    /// The order of hits. Of two at the same distance the first along the yarns counts, so that a
-    /// hit does not depend on the order in which boxes are visited.
+    /// The order of hits. Hits at equal distances are ordered along the yarns, so that a hit does
+    /// not depend on the order in which boxes are visited.
     fn order(&self) -> (f64, u32, u32, Option<bool>, u32) {
         let MeshPlace { yarn, ring, side, cap } = self.place;
         (self.touch.along, yarn, ring, cap.map(|end| end == End::Finish), side)

@@ -8,7 +8,7 @@ use super::beam::Beam;
 /// up to one round all.
 ///
 /// Node 1 is the root, nodes 2i and 2i + 1 lie below node i, and the last half of all nodes are
-/// leaves. The leaves in the lowest level hold the first boxes of the row. So each node holds
+/// leaves. The leaves in the lowest level hold the first boxes of the row. Each node thus holds
 /// consecutive boxes, and at least a third of its parent's.
 #[derive(Debug)]
 pub(super) struct BoxTree {

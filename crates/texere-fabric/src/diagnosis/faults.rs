@@ -48,7 +48,7 @@ pub struct Faults {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ClothFault {
-    /// A place holds several times as much yarn as it has room for.
+    /// A place holds several times as much yarn as there is room for.
     Crowded,
     /// Threads pierce one another, or themselves.
     Pierces,

@@ -43,7 +43,7 @@ impl Finished {
         }
     }
 
-    /// Whether the cloth is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR))
+    /// Whether the cloth is at rest: no surface pierces another ([`CLEAR`])
     /// or folds, and yarns of a knit keep their lengths and their linking. `check` finds no
     /// piercing and no fold then.
     #[must_use]

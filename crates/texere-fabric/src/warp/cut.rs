@@ -64,7 +64,8 @@ impl WarpKnitted {
         Ok(yarns)
     }
 
-    /// Whether the first lap of a guide makes a loop. The same loop follows above the cloth.
+    /// Whether the first lap of a guide makes a loop. The lap that follows above the cloth is
+    /// equal.
     fn begins_with_loop(&self, origin: Origin) -> bool {
         let Origin::Guide { bar, guide } = origin else { return false };
         let bar = self.bars().get((bar as usize).wrapping_sub(1));

@@ -50,8 +50,8 @@ pub(super) struct Loops {
 }
 
 impl Loops {
-    /// Ranks the loops of `laid`, all laps of a repeat in order. `size` is the number of wales and
-    /// of courses.
+    /// Ranks the loops of `placed`, all laps of a repeat in order. `size` is the number of wales
+    /// and of courses.
     pub(super) fn new(placed: Vec<PlacedLap>, bars: &[Bar], size: [u32; 2]) -> Result<Self, OutOfMemory> {
         let needles = size[0] as usize * size[1] as usize;
         let (mut shares, mut all, mut own) = (Vec::new(), Vec::new(), Vec::new());

@@ -14,11 +14,11 @@
 //!   loops on one needle come through all loops of the course below, so that the legs of each lie
 //!   in front of the heads of all. The order on a needle is by bar from the front, then by guide:
 //!   the first loop is the foremost on the face.
-//! - **Underlaps** lie on the back. Those of the front bar lie furthest back.
+//! - **Underlaps** lie on the back. The front bar's underlaps lie furthest back.
 //! - **A lap round two needles** makes a loop on each, joined as by an underlap.
 //! - **An inlay** makes no loop. Its yarn goes up between two wales. From one space to another it
 //!   passes behind the legs and heads of loops, and in front of the underlaps of bars further
-//!   forward. Those underlaps hold it.
+//!   forward, which hold it.
 //!
 //! Yarns need not be clear of one another here, but they have to be linked as in the cloth
 //! (`loops_are_drawn_through_those_below`). Settling makes them clear (`warp_knits_come_to_rest`).
@@ -285,9 +285,9 @@ impl<'a> Cloth<'a> {
         let behind = self.behind(placed.bar as usize) + BESIDE * f64::from(share.own_rank);
         let slant = if self.loops.steep[placed.bar as usize] { SLANT_STEEP } else { SLANT };
         let bulge = (BULGE * diameter).min(BULGE_MOST * wale_mm);
-        // Loops of bars that lap alike would lie in one another, and are shifted sideways. Of other
-        // bars, a loop that is further forward at its legs is further back at its feet. Its legs
-        // begin wider or narrower, so that yarns pass beside one another on the way.
+        // Loops of bars that lap alike would lie in one another, and are shifted sideways. Where
+        // bars lap differently, a loop that is further forward at its legs is further back at its
+        // feet. Its legs begin wider or narrower, so that yarns pass beside one another on the way.
         let (beside, aside) = if self.loops.alike[placed.bar as usize] {
             (front_most, 0.0)
         } else {

@@ -49,7 +49,7 @@ pub(super) struct Cloth<'a> {
 }
 
 impl Cloth<'_> {
-    /// Lays a yarn. Of one that goes on in the next repeat it lays one round.
+    /// Lays a yarn. A yarn that goes on in the next repeat is laid for one round.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn lay(&self, strand: usize) -> Result<YarnPoints, OutOfMemory> {

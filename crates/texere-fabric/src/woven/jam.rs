@@ -125,8 +125,8 @@ fn crowded(gaps: &[Gap], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
     Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
 }
 
-/// Of threads (thread, room needed, room there is) that lack room: their number, the first, and the
-/// one that lacks most.
+/// The number of threads that lack room, the first, and the one that lacks most. A thread comes
+/// with the room that it needs and the room that there is.
 fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
     threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
         Some(match found {

@@ -23,8 +23,8 @@ pub struct Sett {
     /// Threads to the cm, in the mean.
     pub per_cm: f64,
     /// How often a thread of the other set changes sides on its way over one of this set, 0 to 1: 1
-    /// in plain weave, 2/n in a satin of n. Of a cloth of several levels, within each level, in the
-    /// mean.
+    /// in plain weave, 2/n in a satin of n. In a cloth of several levels, changes within each level
+    /// count, in the mean.
     pub interlacings: f64,
     /// The greatest sett by the rule of ends and intersections: where a thread changes sides it
     /// takes the room of one more thread. Levels have it each, so that a double cloth has room for

@@ -51,8 +51,8 @@ impl Knit {
         (threads.iter().map(yarn).collect(), materials, sections)
     }
 
-    /// Knits the program on a machine, and makes a design of the stitches. `file` is the design's
-    /// own.
+    /// Knits the program on a machine, and makes a design of the stitches. `file` is the path of
+    /// the design.
     pub(super) fn design(
         self,
         file: &Path,

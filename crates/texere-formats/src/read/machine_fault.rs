@@ -6,7 +6,7 @@
 pub struct MachineFault {
     /// The place in the program, and the fault.
     pub message: String,
-    /// Whether a machine could not do it. A fault that is no error can be knitted, but the cloth
-    /// may not be what was meant.
+    /// Whether a machine could not do it. If false, the program can be knitted, but the cloth may
+    /// not be what was meant.
     pub is_error: bool,
 }

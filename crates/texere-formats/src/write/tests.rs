@@ -11,7 +11,7 @@ use super::feed::Feed;
 use super::target::Target;
 use super::{Format, WriteError};
 
-/// A file on a disk that is full after so many bytes more.
+/// A file on a disk that is full after `room` bytes more.
 #[derive(Debug)]
 struct Failing {
     file: NamedTempFile,

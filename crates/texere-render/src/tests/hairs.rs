@@ -1,5 +1,5 @@
 //! Fibres that stand off yarns: as long as they are said to be, the same in every picture, and none
-//! where nobody would see them.
+//! where they would not be seen.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::{Background, Camera, Extent, Picture, Pose, Quality, Renderer};
 /// A cotton fibre's width, mm: `HAIR_WIDTH` of `hair.wgsl`.
 const WIDTH_MM: f64 = 0.012;
 
-/// The same yarns with this hairiness.
+/// A copy of the yarns with this hairiness.
 pub(super) fn hairy(yarns: &Yarns, hairiness: f32) -> Yarns {
     let mut hairy = yarns.clone();
     let materials = yarns.materials().iter().map(|material| Material { hairiness, ..material.clone() });
@@ -123,8 +123,8 @@ fn a_hair_is_seen_as_its_yarn() {
     assert!(beside > 20 && over > 20, "{beside} {over}");
 }
 
-/// By Cauchy and Crofton: seen from all sides, a curve is pi / 4 as long as it is in the mean. So
-/// what hairs cover of pictures is their length times pi / 4 of their width, however they bend. The
+/// By Cauchy and Crofton: seen from all sides, a curve is pi / 4 as long as it is in the mean. What
+/// hairs cover of pictures is thus their length times pi / 4 of their width, however they bend. The
 /// yarns that they stand off are so thin that they hide nothing.
 #[test]
 fn hairs_are_as_long_as_their_yarn_says() {

@@ -5,7 +5,7 @@
 // cap.
 struct Run {
     yarn: u32,
-    // Of the yarn.
+    // The number of the run's first ring in its yarn.
     first_ring: u32,
     // Rings that quads start from: none of a cap.
     gaps: u32,

@@ -110,8 +110,8 @@ fn triangles(plan: &Plan, chunk: &Chunk) -> (Vec<Run>, Vec<[u32; 4]>) {
 /// What the judge says of a picture.
 #[derive(Debug)]
 pub(super) struct Judgement {
-    /// Of the samples that show a yarn the share in which the mesh has another one, or at another
-    /// depth.
+    /// The share of samples, among those that show a yarn, in which the mesh has another one, or at
+    /// another depth.
     pub(super) off: f64,
     /// The picture as the scene draws it, and as the mesh shows it.
     pub(super) pictures: [RgbImage; 2],

@@ -309,7 +309,7 @@ fn chunks_of_pictures_fit_a_binding() {
     }
 }
 
-/// Of yarns that an eye looks at from outside only the outside is drawn; one that the near plane
+/// A yarn that an eye looks at from outside is drawn only on its outside; one that the near plane
 /// goes through is seen from inside.
 #[test]
 fn an_eye_in_a_yarn_sees_its_wall() {

@@ -62,8 +62,8 @@ fn waves_of(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
 /// goes up and down over the picture, each way.
 ///
 /// A picture of `pitch` pixels from thread to thread has waves of the cloth at multiples of one
-/// over its repeat, each way. Of those that pixels can show, the neighbourhood is left out; others
-/// must be gone.
+/// over its repeat, each way. The neighbourhood of each wave that pixels can show is left out;
+/// others must be gone.
 fn strangest(grey: &[f64], pitch: f64, repeat: usize) -> (f64, [f64; 2]) {
     let mean = grey.iter().sum::<f64>() / grey.len() as f64;
     // A window that fades at the edges: else they are waves themselves (Harris 1978, that of von

@@ -81,15 +81,19 @@ impl Crate {
             found.push(Meaning::DefinedIn(module.file));
         }
         let Some(left) = left.checked_sub(1) else { return found };
-        for used in &module.uses {
-            // In `use clearance::clearance` the first name is a module, the second an item of it.
-            if used.name == name {
-                found.extend(self.meanings(number, &used.path, left).into_iter().map(|meaning| meaning.0));
-            } else if used.name == "*" {
-                for (meaning, _) in self.meanings(number, &used.path, left) {
-                    if let Meaning::Module(all) = meaning {
-                        found.extend(self.named(all, name, left));
-                    }
+        // In `use clearance::clearance` the first name is a module, the second an item of it.
+        for used in module.uses.iter().filter(|used| used.name == name) {
+            found.extend(self.meanings(number, &used.path, left).into_iter().map(|meaning| meaning.0));
+        }
+        if !found.is_empty() {
+            return found;
+        }
+        // A name of the module's own hides those that a `*` brings in. That also ends the search
+        // for the path before a `*`, which would else go through every `*` again.
+        for used in module.uses.iter().filter(|used| used.name == "*") {
+            for (meaning, _) in self.meanings(number, &used.path, left) {
+                if let Meaning::Module(all) = meaning {
+                    found.extend(self.named(all, name, left));
                 }
             }
         }

@@ -95,7 +95,7 @@ pub enum ChartError {
         /// Most taken, either way.
         limit: u32,
     },
-    /// A yarn with too large a number: no machine has so many carriers.
+    /// A yarn with too large a number: no machine has that many carriers.
     #[error("the chart's yarn {yarn}, counted from 0, is none of {limit}")]
     Yarn {
         /// The yarn.

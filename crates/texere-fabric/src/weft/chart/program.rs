@@ -178,8 +178,8 @@ impl Knitter<'_> {
         for &(_, _, wale) in &moves {
             self.transfer(wale as i32, Bed::Front, wale as i32, self.source(course, wale));
         }
-        // Moves to the right come before moves to the left. Of two loops that come to one needle,
-        // the left one thus comes first.
+        // Moves to the right come before moves to the left. Where two loops come to one needle, the
+        // left one thus comes first.
         moves.sort_by_key(|&(behind, by, wale)| (behind, -by, wale));
         let mut racked = 0;
         for (_, by, wale) in moves {

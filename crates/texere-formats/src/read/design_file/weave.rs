@@ -167,8 +167,8 @@ impl Notated<'_> {
     }
 }
 
-/// The weave of each colour of the paper. The inner error refuses a colour that has none. Colours
-/// that are in the table only are warned of.
+/// The weave of each colour of the paper. The inner error refuses a colour that has none. Warns of
+/// colours that are in the table but not in the paper.
 fn of_colors(
     source: &Source<'_>,
     paper: &PointPaper,

@@ -210,8 +210,8 @@ impl Samples {
             bits: first(all(Tag::BitsPerSample)?).unwrap_or(1).into(),
             are_numbers: all(Tag::SampleFormat)?.iter().all(|format| *format == 1),
             alpha: alpha.and_then(|place| (count + place).checked_sub(extra.len())),
-            // Some programs write palettes in a range of 255. As in libtiff, a palette without
-            // greater numbers is such a palette.
+            // Some programs write palettes in a range of 255. A palette without greater numbers is
+            // taken as such a palette, as libtiff does.
             shift: if map.iter().all(|value| *value < 256) { 0 } else { 8 },
             map,
             orientation: Orientation(first(all(Tag::Orientation)?).unwrap_or(1)),

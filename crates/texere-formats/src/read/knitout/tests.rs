@@ -320,7 +320,7 @@ fn hostile_bytes_are_read_or_refused() {
     let long = "x".repeat(1 << 22);
     assert!(refusal(&long).chars().count() < 300);
     assert!(refusal(&format!("{HEAD}knit + f1 {long}")).chars().count() < 300);
-    // As many different sets, extensions and headers as lines.
+    // Sets, extensions and headers that differ from line to line.
     let names: String =
         (0..100_000).map(|number| format!(";;H{number}: {number}\n;;Yarn-{number}: {long:.40}\n")).collect();
     let sets: String = (0..200_000)

@@ -89,7 +89,7 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Runs all operations once. Of the previous round, only the loops on needles are kept.
+    /// Runs all operations once. Only the loops on needles are kept of the previous round.
     pub(super) fn all(&mut self) -> Result<(), FabricError> {
         let loops = self.passes.len();
         self.carriers = Carriers::new(self.program.carriers.len(), self.program.repeat.is_some());

@@ -54,8 +54,8 @@
 typedef enum texere_status {
   // The call did what it is for.
   TEXERE_OK = 0,
-  // A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind, or
-  // a value out of its range.
+  // A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind,
+  // or a value out of its range.
   TEXERE_ARGUMENT = 1,
   // The design can't be read, or its cloth can't be made.
   TEXERE_DESIGN = 2,
@@ -105,8 +105,8 @@ typedef struct texere_report {
 } texere_report;
 
 // Gives the bytes of a file that a design names, such as a picture: sets `*data` and `*size`, and
-// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid until
-// the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
+// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid
+// until the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
 typedef int32_t (*texere_file_callback)(void *user,
                                         const char *path,
                                         size_t path_length,
@@ -258,9 +258,9 @@ const char *texere_version(void);
 // Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
 // design asks for it. `run` may be null.
 //
-// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are placed:
-// `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be made, and
-// with TEXERE_CANCELLED where `run` was cancelled.
+// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are
+// placed: `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be
+// made, and with TEXERE_CANCELLED where `run` was cancelled.
 enum texere_status texere_cloth_rest(const struct texere_design *design,
                                      const struct texere_device *device,
                                      const struct texere_run *run,
@@ -276,8 +276,8 @@ enum texere_status texere_cloth_placed(const struct texere_design *design,
 enum texere_status texere_cloth_report(const struct texere_cloth *cloth,
                                        struct texere_report *report);
 
-// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid until
-// the cloth is freed.
+// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
+// until the cloth is freed.
 //
 // Fails with TEXERE_ARGUMENT where there are fewer.
 enum texere_status texere_cloth_warning(const struct texere_cloth *cloth,
@@ -415,7 +415,8 @@ enum texere_status texere_yarns_new(const struct texere_yarn_arrays *arrays,
 
 // Reads yarns that were saved in a `.yarns` file.
 //
-// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no yarns.
+// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no
+// yarns.
 enum texere_status texere_yarns_read(const char *path,
                                      size_t path_length,
                                      struct texere_yarns **out);

@@ -73,9 +73,9 @@ impl Cloth {
 /// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
 /// design asks for it. `run` may be null.
 ///
-/// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are placed:
-/// `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be made, and
-/// with TEXERE_CANCELLED where `run` was cancelled.
+/// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are
+/// placed: `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be
+/// made, and with TEXERE_CANCELLED where `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_rest(
     design: *const texere_design,
@@ -132,8 +132,8 @@ pub unsafe extern "C" fn texere_cloth_report(
     })
 }
 
-/// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid until
-/// the cloth is freed.
+/// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
+/// until the cloth is freed.
 ///
 /// Fails with TEXERE_ARGUMENT where there are fewer.
 #[unsafe(no_mangle)]

@@ -21,8 +21,8 @@ impl Handle for texere_design {
 }
 
 /// Gives the bytes of a file that a design names, such as a picture: sets `*data` and `*size`, and
-/// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid until
-/// the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
+/// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid
+/// until the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
 pub type texere_file_callback = Option<
     unsafe extern "C" fn(
         user: *mut c_void,

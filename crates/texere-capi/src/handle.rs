@@ -1,7 +1,7 @@
 //! Handles: numbers in the shape of pointers, and what they stand for.
 //!
-//! A handle is never followed. It is looked up in a table, so one that was freed, that is of another
-//! kind, or that is any number at all ends in an error.
+//! A handle is never followed. It is looked up in a table, so one that was freed, that is of
+//! another kind, or that is any number at all ends in an error.
 
 use std::any::Any;
 use std::collections::HashMap;

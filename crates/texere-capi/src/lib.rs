@@ -10,8 +10,8 @@
 //!
 //! # How calls work
 //!
-//! - A function that can fail gives a [`texere_status`]. [`texere_error_message`] says in words what
-//!   went wrong, and [`texere_error_place`] where in a design's file.
+//! - A function that can fail gives a [`texere_status`]. [`texere_error_message`] says in words
+//!   what went wrong, and [`texere_error_place`] where in a design's file.
 //! - Handles are numbers in the shape of pointers. The library looks each of them up, so a handle
 //!   that was freed, or that is of another kind, is refused and never followed.
 //! - A `_free` function takes a null handle, and one that was freed already.

@@ -6,8 +6,8 @@
 pub enum texere_status {
     /// The call did what it is for.
     TEXERE_OK = 0,
-    /// A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind, or
-    /// a value out of its range.
+    /// A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind,
+    /// or a value out of its range.
     TEXERE_ARGUMENT = 1,
     /// The design can't be read, or its cloth can't be made.
     TEXERE_DESIGN = 2,

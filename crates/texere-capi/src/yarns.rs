@@ -130,7 +130,8 @@ pub unsafe extern "C" fn texere_yarns_new(
 
 /// Reads yarns that were saved in a `.yarns` file.
 ///
-/// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no yarns.
+/// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no
+/// yarns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_read(
     path: *const c_char,

@@ -65,8 +65,8 @@ fn a_weave_a_knit_and_a_warp_knit_have_the_meshes_of_rust() {
 fn a_programs_own_yarns_are_meshed_and_saved() {
     let folder = tempfile::tempdir().unwrap();
     let program = compiled("yarns", folder.path());
-    // A ring of 4 intervals has 9 rings, its last one its first again; the other yarn has 5. Gaps of
-    // 12 sides have 24 triangles, and two caps 10 each.
+    // A ring of 4 intervals has 9 rings, its last one its first again; the other yarn has 5. Gaps
+    // of 12 sides have 24 triangles, and two caps 10 each.
     assert_eq!(printed(&program, &[&folder.path().join("two.yarns")]), "14 rings, 308 triangles\n");
 }
 

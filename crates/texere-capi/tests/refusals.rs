@@ -176,7 +176,8 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     sizes!(texere_yarn_counts, |counts| texere_yarns_counts(own.yarns, &mut counts));
     sizes!(texere_yarn_arrays, |arrays| texere_yarns_new(&arrays, &mut null_mut()));
     sizes!(texere_counts, |counts| texere_plan_counts(own.plan, &mut counts));
-    // Numbers of values that are not those of the plan or of the yarns, and null arrays of the right ones.
+    // Numbers of values that are not those of the plan or of the yarns, and null arrays of the
+    // right ones.
     case!(texere_yarns_points(own.yarns, &mut 0, 1, &mut texere_point::default(), 1));
     case!(texere_plan_mesh(own.plan, null(), null_mut(), 1, null_mut(), 1));
     case!(texere_cloth_warning(own.cloth, u64::MAX, &mut null()));

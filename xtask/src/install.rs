@@ -24,7 +24,9 @@ pub(crate) fn run(steps: &mut Steps, arguments: &[String]) {
         return;
     }
     match std::path::absolute(prefix).and_then(|prefix| lay(&prefix)) {
-        Ok(()) => println!("\npkg-config --cflags --libs texere, with PKG_CONFIG_PATH={prefix}/lib/pkgconfig"),
+        Ok(()) => {
+            println!("\npkg-config --cflags --libs texere, with PKG_CONFIG_PATH={prefix}/lib/pkgconfig")
+        }
         Err(error) => steps.fail(format!("{prefix}: {error}")),
     }
 }
@@ -44,9 +46,14 @@ fn lay(prefix: &Path) -> io::Result<()> {
     }
     let version = env!("CARGO_PKG_VERSION");
     let fill = |text: &str| {
-        text.replace("@PREFIX@", &prefix.to_string_lossy()).replace("@VERSION@", version).replace("@ABI@", ABI)
+        text.replace("@PREFIX@", &prefix.to_string_lossy())
+            .replace("@VERSION@", version)
+            .replace("@ABI@", ABI)
     };
     fs::write(pkgconfig.join("texere.pc"), fill(include_str!("install/texere.pc")))?;
     fs::write(cmake.join("texere-config.cmake"), fill(include_str!("install/texere-config.cmake")))?;
-    fs::write(cmake.join("texere-config-version.cmake"), fill(include_str!("install/texere-config-version.cmake")))
+    fs::write(
+        cmake.join("texere-config-version.cmake"),
+        fill(include_str!("install/texere-config-version.cmake")),
+    )
 }

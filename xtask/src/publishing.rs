@@ -34,7 +34,9 @@ fn lack(package: &Package, published: &BTreeSet<&str>, files: &BTreeSet<&str>) -
     if let Some(missing) = BESIDE.iter().find(|name| !files.contains(*name)) {
         return Some(format!("has no {missing}"));
     }
-    let is_source = |path: &str| ["src/", "examples/"].iter().any(|folder| path.starts_with(folder));
+    // A header is what C programs link the package by.
+    let is_source =
+        |path: &str| ["src/", "examples/", "include/"].iter().any(|folder| path.starts_with(folder));
     let cargos = ["build.rs", "Cargo.lock", "Cargo.toml.orig", ".cargo_vcs_info.json"];
     let known = |path: &&&str| is_source(path) || BESIDE.contains(*path) || cargos.contains(*path);
     if let Some(path) = files.iter().find(|path| !known(path)) {

@@ -104,7 +104,7 @@ pub unsafe extern "C" fn texere_cloth_placed(
     guard(|| {
         // SAFETY: the caller vouches for `out`.
         unsafe { clear(out) }?;
-        let cloth = (*get(design)?).clone().placed()?;
+        let cloth = (*get(design)?).clone().placed(0.0)?;
         // SAFETY: as above.
         unsafe { give(out, Cloth::new(cloth)) }
     })

@@ -119,14 +119,12 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
 
 fn report(design: Design, said: &[String], args: &InspectArgs) -> Result<Report, Fail> {
     let (cloth, mut settling) = if args.counts {
-        (design.placed()?, None)
+        (design.placed(args.settings.tension())?, None)
     } else {
         settling::cloth(design, &args.settling, args.settings.tension(), || texere::open("cpu"))?
     };
     let mut warnings = cloth.warnings();
     let (design, yarns) = cloth.into_parts();
-    // Yarns at rest have that tension already.
-    let yarns = yarns.with_tension(args.settings.tension())?;
     let settings = args.settings.of(&yarns);
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let counts = *Plan::new(yarns.layout().clone(), settings)?.counts();

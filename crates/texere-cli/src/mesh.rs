@@ -27,8 +27,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let (cloth, settling) =
         settling::cloth(design, &args.settling, args.settings.tension(), || Ok(&*device))?;
     let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
-    // Yarns at rest have that tension already.
-    let yarns = cloth.into_parts().1.with_tension(args.settings.tension())?;
+    let yarns = cloth.into_parts().1;
     let written = written(args, &yarns, &*device, output)?;
     for warning in warnings {
         print::text(&format!("warning: {}\n", line(warning)))?;

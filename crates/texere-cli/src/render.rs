@@ -70,8 +70,6 @@ impl Shown {
         let (cloth, settling) = stages
             .time("yarns", || settling::cloth(design, &args.settling, args.settings.tension(), open))?;
         let (design, yarns) = cloth.into_parts();
-        // Yarns at rest have that tension already.
-        let yarns = yarns.with_tension(args.settings.tension())?;
         let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
         let middles =
             design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default().into_array();

@@ -148,15 +148,18 @@ impl Design {
     }
 
     /// The cloth of the design with its yarns where the structure places them, even if the design
-    /// asks for cloth at rest. No device is needed. The tension of the splines is 0;
-    /// [`Yarns::with_tension`] changes it.
+    /// asks for cloth at rest. No device is needed. `tension` is the tension of the yarns' splines,
+    /// from 0 to below 1; 0 is usual.
     ///
-    /// **Errors**: where the structure can't be made.
-    pub fn placed(self) -> Result<Cloth, Refusal> {
-        match self.yarns() {
-            Ok(yarns) => Ok(Cloth { design: self, report: RestReport::Placed(yarns) }),
-            Err(error) => Err(self.refused(error)),
-        }
+    /// **Errors**: where the structure can't be made, and for a tension out of range.
+    pub fn placed(self, tension: f32) -> Result<Cloth, Refusal> {
+        let yarns = self.placed_yarns(tension)?;
+        Ok(Cloth { design: self, report: RestReport::Placed(yarns) })
+    }
+
+    fn placed_yarns(&self, tension: f32) -> Result<Yarns, Refusal> {
+        let yarns = self.yarns().and_then(|yarns| Ok(yarns.with_tension(tension)?));
+        yarns.map_err(|error| self.refused(error))
     }
 }
 
@@ -181,12 +184,8 @@ impl<'a> Resting<'a> {
     /// for a [tension](Resting::tension) out of range.
     pub fn run(self) -> Result<Cloth, Refusal> {
         let Self { mut design, device, tension, mut progress } = self;
-        let placed = |design: &Design| {
-            let yarns = design.yarns().and_then(|yarns| Ok(yarns.with_tension(tension)?));
-            yarns.map_err(|error| design.refused(error))
-        };
         if !design.settle {
-            return Ok(Cloth { report: RestReport::Placed(placed(&design)?), design });
+            return design.placed(tension);
         }
         let mut done = 0.0;
         if let Some(stretch) = design.stretch.take() {
@@ -201,7 +200,7 @@ impl<'a> Resting<'a> {
         let report = match design.structure.settle(&design.finish, tension, device, on) {
             Ok(finished) => RestReport::Finished(finished),
             Err(FinishError::Crossings(error)) if !matches!(error, CrossingsError::OutOfMemory(_)) => {
-                RestReport::Refused { yarns: placed(&design)?, reason: design.refused(error) }
+                RestReport::Refused { yarns: design.placed_yarns(tension)?, reason: design.refused(error) }
             }
             Err(error) => return Err(design.refused(error)),
         };

@@ -41,7 +41,7 @@ fn cloth_has_the_tension_that_is_asked_for() {
         let placed = asked.clone().rest(&device).tension(0.3).run().unwrap();
         assert!(matches!(placed.report(), RestReport::Placed(_)));
         assert_eq!(placed.yarns().tension(), 0.3, "{text}");
-        assert_eq!(asked.placed().unwrap().yarns().tension(), 0.0, "{text}");
+        assert_eq!(asked.placed(0.0).unwrap().yarns().tension(), 0.0, "{text}");
     }
 }
 

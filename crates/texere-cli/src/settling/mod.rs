@@ -33,8 +33,8 @@ pub(crate) enum SettlingReport {
     },
 }
 
-/// The cloth of a design. If the design or the command line lets its yarns come to rest, they do so
-/// on the device that `open` gives, with splines of `tension`, and there is a report.
+/// The cloth of a design, with splines of `tension`. If the design or the command line lets its
+/// yarns come to rest, they do so on the device that `open` gives, and there is a report.
 pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     mut design: Design,
     args: &SettlingArgs,
@@ -44,7 +44,7 @@ pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     if !args.settles(&design) {
         return match args.settling_plot {
             Some(_) => Err(Fail::nothing_settles()),
-            None => Ok((design.placed()?, None)),
+            None => Ok((design.placed(tension)?, None)),
         };
     }
     if args.settling_plot.is_some() && design.structure.woven().is_some() {

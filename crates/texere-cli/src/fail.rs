@@ -81,6 +81,12 @@ impl Fail {
         }
     }
 
+    /// An `option` of meshes was given, but `path` takes yarns without a mesh.
+    pub(crate) fn needs_mesh(option: &str, path: &Path) -> Self {
+        let path = path.display();
+        Self { code: USAGE, source: format!("{option} needs a mesh: {path} takes yarns without one").into() }
+    }
+
     /// A picture of a turntable that is a link to another of them.
     pub(crate) fn written_twice(path: &Path) -> Self {
         Self {

@@ -1,52 +1,84 @@
 //! `texere mesh`
 
 use std::io::IsTerminal;
+use std::ops::Deref;
 
 use texere::check::counted;
 use texere::write::Output;
-use texere::{Backend, Pipeline, Yarns};
+use texere::{Backend, BackendError, Pipeline, Yarns};
 
 use crate::args::{MeshArgs, is_yarns, undersampled};
 use crate::fail::Fail;
+use crate::settling::SettlingReport;
 use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
-    if let Some(yarns) = reading::saved(&args.design, &args.settings, &args.settling)? {
-        let output = Output::to(&args.output).sparing([&args.design]);
-        let device = drivers::quietly(|| texere::open(&args.device))?;
-        return print::text(&written(args, &yarns, &*device, output)?);
+    let open = || drivers::quietly(|| texere::open(&args.device));
+    if is_yarns(&args.output) {
+        if let Some(option) = args.settings.of_a_mesh() {
+            return Err(Fail::needs_mesh(option, &args.output));
+        }
+        // Only settling needs a device here.
+        return Cloth::new(args, open)?.print(|yarns, output| saved(args, yarns, output));
     }
-    let mut design = reading::design(&args.design)?;
-    if let Some(section) = &args.settings.section {
-        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
-    }
-    let output = Output::to(&args.output).sparing(design.files());
-    let device = drivers::quietly(|| texere::open(&args.device))?;
-    output.check()?;
-    let (cloth, settling) =
-        settling::cloth(design, &args.settling, args.settings.tension(), || Ok(&*device))?;
-    let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
-    let yarns = cloth.into_parts().1;
-    let written = written(args, &yarns, &*device, output)?;
-    for warning in warnings {
-        print::text(&format!("warning: {}\n", line(warning)))?;
-    }
-    if let Some(settling) = settling {
-        print::text(&format!("settling: {}\n", line(settling)))?;
-    }
-    print::text(&written)
+    let device = open()?;
+    Cloth::new(args, || Ok(&*device))?.print(|yarns, output| meshed(args, yarns, &*device, output))
 }
 
-/// Writes the yarns, or their mesh. Returns the lines to print about it.
-fn written(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
-    let path = line(args.output.display());
-    if is_yarns(&args.output) {
-        let bytes = texere::write::yarns(yarns, output)?;
-        let (count, points) = (yarns.layout().yarns().len(), yarns.points().len());
-        let (count, points) = (counted(count, "yarn"), counted(points, "control point"));
-        return Ok(format!("{path}: {count}, {points}, {bytes} bytes\n"));
+/// The yarns of a cloth, what is said of it, and the file that it goes to.
+struct Cloth {
+    yarns: Yarns,
+    output: Output,
+    warnings: Vec<String>,
+    settling: Option<SettlingReport>,
+}
+
+impl Cloth {
+    /// The cloth that `args` name: of a design, or saved.
+    fn new<D: Deref<Target = dyn Backend>>(
+        args: &MeshArgs,
+        open: impl FnOnce() -> Result<D, BackendError>,
+    ) -> Result<Self, Fail> {
+        if let Some(yarns) = reading::saved(&args.design, &args.settings, &args.settling)? {
+            let output = Output::to(&args.output).sparing([&args.design]);
+            output.check()?;
+            return Ok(Self { yarns, output, warnings: Vec::new(), settling: None });
+        }
+        let mut design = reading::design(&args.design)?;
+        if let Some(section) = &args.settings.section {
+            design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
+        }
+        let output = Output::to(&args.output).sparing(design.files());
+        output.check()?;
+        let (cloth, settling) = settling::cloth(design, &args.settling, args.settings.tension(), open)?;
+        let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
+        Ok(Self { yarns: cloth.into_parts().1, output, warnings, settling })
     }
+
+    /// Writes the file, and prints what there is to say, the file's line last.
+    fn print(self, write: impl FnOnce(&Yarns, Output) -> Result<String, Fail>) -> Result<(), Fail> {
+        let written = write(&self.yarns, self.output)?;
+        for warning in self.warnings {
+            print::text(&format!("warning: {}\n", line(warning)))?;
+        }
+        if let Some(settling) = self.settling {
+            print::text(&format!("settling: {}\n", line(settling)))?;
+        }
+        print::text(&written)
+    }
+}
+
+/// Writes the yarns. Returns the line to print about it.
+fn saved(args: &MeshArgs, yarns: &Yarns, output: Output) -> Result<String, Fail> {
+    let bytes = texere::write::yarns(yarns, output)?;
+    let (count, points) = (yarns.layout().yarns().len(), yarns.points().len());
+    let (count, points) = (counted(count, "yarn"), counted(points, "control point"));
+    Ok(format!("{}: {count}, {points}, {bytes} bytes\n", line(args.output.display())))
+}
+
+/// Writes the mesh of the yarns. Returns the lines to print about it.
+fn meshed(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
     let settings = args.settings.of(yarns);
     let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(yarns).settings(settings).progress(progress::reporter(&bar));
@@ -54,8 +86,9 @@ fn written(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output)
     bar.finish_and_clear();
     let warning = undersampled(yarns, &settings).map(|warning| format!("warning: {}\n", line(warning)));
     Ok(format!(
-        "{}{path}: {} triangles, {} vertices, {} bytes, made by {}\n",
+        "{}{}: {} triangles, {} vertices, {} bytes, made by {}\n",
         warning.unwrap_or_default(),
+        line(args.output.display()),
         written.triangles,
         written.vertices,
         written.bytes,

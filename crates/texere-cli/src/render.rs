@@ -82,16 +82,32 @@ fn saved_middles(yarns: &Yarns) -> [Vec<f64>; 2] {
     let mut middles = [Vec::new(), Vec::new()];
     for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
         let points = yarns.yarn_points(number).unwrap_or_default();
-        let middle = |axis: fn(&ControlPoint) -> f32| {
-            points.iter().map(|point| f64::from(axis(point))).sum::<f64>() / points.len() as f64
-        };
         match yarn.origin {
-            Origin::End(_) => middles[0].push(middle(|point| point.x)),
-            Origin::Pick(_) => middles[1].push(middle(|point| point.y)),
+            Origin::End(_) => middles[0].push(median(points, |point| point.x)),
+            Origin::Pick(_) => middles[1].extend(ways(points).map(|way| median(way, |point| point.y))),
             _ => {}
         }
     }
     middles
+}
+
+/// A weft yarn from edge to edge: it turns at a selvedge, and each of its ways is a pick.
+fn ways(points: &[ControlPoint]) -> impl Iterator<Item = &[ControlPoint]> {
+    let goes_right = |at: usize| points[at].x <= points[at + 1].x;
+    let turns = (1..points.len().saturating_sub(1)).filter(move |&at| goes_right(at - 1) != goes_right(at));
+    let mut first = 0;
+    turns.chain([points.len()]).map(move |turn| {
+        let way = &points[first..turn];
+        first = turn;
+        way
+    })
+}
+
+/// The median of a coordinate of the points of a yarn, of which there is one at least.
+fn median(points: &[ControlPoint], coordinate: fn(&ControlPoint) -> f32) -> f64 {
+    let mut all: Vec<f32> = points.iter().map(coordinate).collect();
+    let middle = all.len() / 2;
+    f64::from(*all.select_nth_unstable_by(middle, f32::total_cmp).1)
 }
 
 /// Goes from the file to the pictures. Returns a line for each picture that was written.

@@ -45,24 +45,31 @@ fn a_picture_has_the_size_that_was_asked_for() {
     assert_eq!(png_size(&path), [120, 90]);
 }
 
-/// Saved cloth at rest looks like the cloth from its design.
+/// Saved cloth at rest looks like the cloth from its design, also where the weft is one yarn that
+/// turns at the selvedges.
 #[test]
 fn saved_cloth_is_drawn_as_its_design_is() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let [design, saved] = ["poplin.toml", "poplin.yarns"].map(path);
-    let text = "weave = { notation = \"plain\", ends = 6, picks = 6 }\nyarns.a.diameter_mm = 0.143\n\
-        warp = { yarns = [\"a\"], spacing_mm = 0.19 }\nweft = { yarns = [\"a\"], spacing_mm = 0.35 }\n";
-    std::fs::write(&design, text).unwrap();
-    let yarns = texere::read(&design).unwrap().rest(&*texere::open("cpu").unwrap()).run().unwrap();
-    texere::write::yarns(yarns.yarns(), &saved).unwrap();
-    for view in ["face", "cut-warp", "cut-weft"] {
-        let [own, other] = ["own.png", "other.png"].map(path);
-        for (input, output) in [(&design, &own), (&saved, &other)] {
-            let done = render(&[input, "-o", output, "--size", "80x60", "--view", view]);
-            assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    for selvedge in [false, true] {
+        let text = format!(
+            "weave = {{ notation = \"plain\", ends = 6, picks = 6 }}\nyarns.a.diameter_mm = 0.143\n\
+             warp = {{ yarns = [\"a\"], spacing_mm = 0.19 }}\nweft = {{ yarns = [\"a\"], spacing_mm = 0.35 }}\n\
+             cloth.selvedge = {selvedge}\n"
+        );
+        std::fs::write(&design, text).unwrap();
+        let cloth = texere::read(&design).unwrap().rest(&*texere::open("cpu").unwrap()).run().unwrap();
+        texere::write::yarns(cloth.yarns(), &saved).unwrap();
+        for view in ["face", "cut-warp", "cut-weft"] {
+            let [own, other] = ["own.png", "other.png"].map(path);
+            for (input, output) in [(&design, &own), (&saved, &other)] {
+                let done = render(&[input, "-o", output, "--size", "80x60", "--view", view]);
+                assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+            }
+            let same = std::fs::read(own).unwrap() == std::fs::read(other).unwrap();
+            assert!(same, "{view}, selvedge {selvedge}: another picture");
         }
-        assert!(std::fs::read(own).unwrap() == std::fs::read(other).unwrap(), "{view}: another picture");
     }
     let refused = render(&[&saved, "-o", &path("x.png"), "--settle"]);
     assert_eq!(refused.status.code(), Some(2));

@@ -24,14 +24,15 @@ pub(crate) struct SettingsArgs {
     /// power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
-    /// How sections stand along the yarn: upright, or carried along without turning. Yarns too
-    /// steep to stand upright, such as loops of knits, are carried along in either case
-    #[arg(long, value_enum, default_value_t = FrameArg::Upright)]
-    frame: FrameArg,
-    /// How triangles are encoded in memory, which decides the bytes that `inspect` prints. Files
-    /// hold the same triangles for each
-    #[arg(long, value_enum, default_value_t = TopologyArg::Indexed)]
-    topology: TopologyArg,
+    /// How sections stand along the yarn: upright, which is the default, or carried along without
+    /// turning. Yarns too steep to stand upright, such as loops of knits, are carried along in
+    /// either case
+    #[arg(long, value_enum)]
+    frame: Option<FrameArg>,
+    /// How triangles are encoded in memory, which decides the bytes that `inspect` prints; indexed
+    /// if left out. Files hold the same triangles for each
+    #[arg(long, value_enum)]
+    topology: Option<TopologyArg>,
     /// Close the ends of yarns; pictures always do
     #[arg(long)]
     caps: bool,
@@ -56,19 +57,31 @@ impl SettingsArgs {
         self.tension.unwrap_or(0.0)
     }
 
+    /// The first option given that yarns without a mesh can't show, if there is one.
+    pub(crate) fn of_a_mesh(&self) -> Option<&'static str> {
+        let given = [
+            ("--subdivisions", self.subdivisions.is_some()),
+            ("--sides", self.sides.is_some()),
+            ("--frame", self.frame.is_some()),
+            ("--topology", self.topology.is_some()),
+            ("--caps", self.caps),
+        ];
+        given.into_iter().find_map(|(option, is_given)| is_given.then_some(option))
+    }
+
     /// The settings before the yarns are known.
     pub(crate) fn settings(&self) -> Settings {
         Settings {
             subdivisions: self.subdivisions.unwrap_or(Settings::default().subdivisions),
             sides: self.sides.unwrap_or(Settings::default().sides),
             frame: match self.frame {
-                FrameArg::Upright => Frame::Upright,
-                FrameArg::RotationMinimizing => Frame::RotationMinimizing,
+                None | Some(FrameArg::Upright) => Frame::Upright,
+                Some(FrameArg::RotationMinimizing) => Frame::RotationMinimizing,
             },
             topology: match self.topology {
-                TopologyArg::Indexed => Topology::Indexed,
-                TopologyArg::Shared => Topology::Shared,
-                TopologyArg::None => Topology::None,
+                None | Some(TopologyArg::Indexed) => Topology::Indexed,
+                Some(TopologyArg::Shared) => Topology::Shared,
+                Some(TopologyArg::None) => Topology::None,
             },
             caps: self.caps,
             // Files have no packed vertices.

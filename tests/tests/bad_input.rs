@@ -196,6 +196,16 @@ fn hairiness_out_of_range() {
 }
 
 #[test]
+fn linear_densities_out_of_range() {
+    for tex in [f32::NAN, f32::INFINITY, -30.0, 0.0] {
+        let materials = vec![Material::default(), Material { tex: Some(tex), ..Material::default() }];
+        let layout = Layout::new(vec![Yarn::default()], vec![0, 3], vec![Section::Circle]).unwrap();
+        let given = Yarns::new(layout, materials, straight(3)).unwrap_err();
+        assert!(matches!(given, YarnError::LinearDensity { material: 1, .. }), "{given:?}");
+    }
+}
+
+#[test]
 fn sections_out_of_range() {
     let named = |section: Section, expected: &str| {
         let error = with_section(section.clone());

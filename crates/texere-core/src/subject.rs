@@ -157,7 +157,9 @@ impl YarnError {
             | Self::NotFinite { .. }
             | Self::TooFar { .. }
             | Self::Size { .. } => Subject::Size,
-            Self::UnknownMaterial { .. } | Self::Hairiness { .. } => Subject::Color(Origin::Unknown),
+            Self::UnknownMaterial { .. } | Self::Hairiness { .. } | Self::LinearDensity { .. } => {
+                Subject::Color(Origin::Unknown)
+            }
             Self::UnknownSection { .. } | Self::Section { .. } => Subject::Section(Origin::Unknown),
             Self::Twist { .. } => Subject::Twist(Origin::Unknown),
             Self::OffsetCount { .. }

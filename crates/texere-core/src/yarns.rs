@@ -47,8 +47,8 @@ impl Yarns {
     /// Yarns of a layout, with its materials and its control points. There must be as many points
     /// as the layout says, yarn after yarn.
     ///
-    /// **Errors**: [`YarnError`] for a wrong number of points or materials, a hairiness outside
-    /// \[0, [`HAIRINESS_LIMIT`]\], and for the first control point that is not finite, lies beyond
+    /// **Errors**: [`YarnError`] for a wrong number of points or materials, a material that
+    /// [`check_material`] refuses, and for the first control point that is not finite, lies beyond
     /// [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`],
     /// [`RADIUS_MAX`]\].
     pub fn new(
@@ -235,7 +235,7 @@ impl Yarns {
     /// Replaces the materials. The geometry stays as it is.
     ///
     /// **Errors**: [`YarnError::UnknownMaterial`] if a yarn refers to a missing one, and
-    /// [`YarnError::Hairiness`].
+    /// the errors of [`check_material`].
     pub fn set_materials(&mut self, materials: Vec<Material>) -> Result<(), YarnError> {
         check_materials(&self.layout, &materials)?;
         self.materials = materials.into();
@@ -258,16 +258,23 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
 
 /// Checks a material. Its number, `material`, only appears in errors.
 ///
-/// **Errors**: [`YarnError::Hairiness`] outside \[0, [`HAIRINESS_LIMIT`]\].
+/// **Errors**: [`YarnError::Hairiness`] outside \[0, [`HAIRINESS_LIMIT`]\], and
+/// [`YarnError::LinearDensity`] for a tex that is no positive number.
 ///
 /// ```
 /// use texere_core::{Material, check_material};
 /// assert!(check_material(0, &Material::default()).is_ok());
 /// assert!(check_material(0, &Material { hairiness: f32::NAN, ..Material::default() }).is_err());
+/// assert!(check_material(0, &Material { tex: Some(-30.0), ..Material::default() }).is_err());
 /// ```
-pub fn check_material(material: usize, &Material { hairiness, .. }: &Material) -> Result<(), YarnError> {
+pub fn check_material(material: usize, &Material { tex, hairiness, .. }: &Material) -> Result<(), YarnError> {
     if !(0.0..=HAIRINESS_LIMIT).contains(&hairiness) {
         return Err(YarnError::Hairiness { material, hairiness, limit: HAIRINESS_LIMIT });
+    }
+    if let Some(tex) = tex
+        && !(tex.is_finite() && tex > 0.0)
+    {
+        return Err(YarnError::LinearDensity { material, tex });
     }
     Ok(())
 }

@@ -135,6 +135,14 @@ pub enum YarnError {
         /// The largest accepted.
         limit: f32,
     },
+    /// A linear density that is not finite, 0 or below.
+    #[error("material {material} has {tex} tex, which is no positive number")]
+    LinearDensity {
+        /// Number of the material.
+        material: usize,
+        /// Its linear density, tex.
+        tex: f32,
+    },
     /// A hairiness that is NaN, below 0 or too large.
     #[error("material {material} has a hairiness of {hairiness}, which is not between 0 and {limit}")]
     Hairiness {

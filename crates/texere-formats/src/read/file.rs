@@ -50,7 +50,7 @@ pub(super) fn bytes_of(files: &Files<'_>, path: &Path, limit: u64) -> Result<Vec
     // A byte beyond the limit shows that the file has grown since it was opened.
     let count = file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| match source.kind() {
         std::io::ErrorKind::OutOfMemory => {
-            ReadError::OutOfMemory(OutOfMemory { what: "a design's file", bytes: bytes.len() as u64 })
+            ReadError::OutOfMemory(OutOfMemory { what: "a file that is read", bytes: bytes.len() as u64 })
         }
         _ => ReadError::Io { file: path.into(), source },
     })? as u64;

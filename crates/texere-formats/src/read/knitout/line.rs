@@ -108,7 +108,9 @@ impl<'a> Words<'a> {
     pub(super) fn number(&mut self, expected: &str) -> Result<(f64, &'a str), ReadError> {
         let word = self.needed(expected)?;
         let number = word.parse().ok().filter(|number: &f64| number.abs() <= f64::from(NEEDLE_MAX));
-        number.map(|number| (number, word)).ok_or_else(|| self.line.refused(word, expected))
+        number.map(|number| (number, word)).ok_or_else(|| {
+            self.line.refused(word, format!("{expected}: a number from -{NEEDLE_MAX} to {NEEDLE_MAX}"))
+        })
     }
 
     /// Passes by a direction and a needle, which older writers put before the carriers of `in` and

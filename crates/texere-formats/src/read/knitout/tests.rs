@@ -131,7 +131,10 @@ fn what_is_no_operation_is_refused_with_its_place() {
         ("xfer f1 b1 1", "column 12: \"1\", expected the end of the operation"),
         ("drop f1 b1", "column 9: \"b1\", expected the end"),
         ("rack one", "column 6: \"one\", expected by how many needles"),
-        ("rack nan", "column 6: \"nan\", expected by how many"),
+        (
+            "rack nan",
+            "column 6: \"nan\", expected by how many needles the back bed is moved: a number from -65536 to 65536",
+        ),
         ("rack 1e99", "column 6: \"1e99\", expected by how many"),
         ("stitch 10", "column 10: the line ends, expected how far"),
         ("pause 3", "column 7: \"3\", expected the end"),

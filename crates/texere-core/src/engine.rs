@@ -101,15 +101,19 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Takes all control points from a settler, whose yarns have as many as the plan's. Returns the
     /// bytes that went through the host.
     ///
-    /// Provided: [`take_over_host`]. An engine on the settler's own device takes the points there
-    /// instead.
+    /// The provided method calls [`take_over_host`]. An engine on the settler's own device
+    /// overrides it, so that the points stay there.
     fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<Traffic, BackendError> {
         take_over_host(self, settler)
     }
 
     /// Whether the engine supports [`LiveMesh`](crate::backend::LiveMesh): it has as many slots as
     /// are asked for, works on patches of chunks without touching the chunk's other results, and
-    /// takes edited plans.
+    /// takes edited plans. Its backend says the same in [`Capabilities::edit`].
+    ///
+    /// The provided method answers false.
+    ///
+    /// [`Capabilities::edit`]: crate::Capabilities::edit
     fn is_editable(&self) -> bool {
         false
     }
@@ -119,7 +123,7 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// same plan comes once for each run of neighbouring `yarns`. The tables in all slots are
     /// forgotten, the results stay.
     ///
-    /// Provided: [`BackendError::NoEditing`], for engines that are not
+    /// The provided method fails with [`BackendError::NoEditing`]. It suits engines that are not
     /// [editable](Engine::is_editable).
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
         let _ = (plan, yarns);
@@ -169,7 +173,8 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Works out the length of yarn before each block's start, for the yarns of
     /// [`ScanChunks::yarns`]. Chunks come as in [`Engine::scan`].
     ///
-    /// Provided: [`BackendError::NoAttributes`], for engines that make no attributes.
+    /// The provided method fails with [`BackendError::NoAttributes`]. It suits engines that make no
+    /// attributes, as do those of [`Engine::attributes`] and [`Engine::read_attributes`].
     fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let _ = chunks;
         Err(BackendError::NoAttributes)
@@ -197,7 +202,8 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Makes the packed vertices of `chunk`, in memory of their own in `slot`. They need no mesh,
     /// and no indices are made.
     ///
-    /// Provided: [`BackendError::NoPacking`], for engines that pack no vertices.
+    /// The provided method fails with [`BackendError::NoPacking`]. It suits engines that pack no
+    /// vertices, as does that of [`Engine::read_packed`].
     fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let _ = (slot, chunk);
         Err(BackendError::NoPacking)
@@ -217,8 +223,8 @@ pub trait Engine: Any + fmt::Debug + Send {
 
     /// Stage 2 with its results in the caller's slices.
     ///
-    /// Provided: calls `mesh`, then reads and copies. An engine that can write there directly
-    /// overrides it.
+    /// The provided method calls `mesh`, then reads and copies. An engine that can write there
+    /// directly overrides it.
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         self.mesh(slot, chunk)?;
         let mut copy = |piece: MeshPiece<'_>| {

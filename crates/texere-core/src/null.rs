@@ -11,6 +11,9 @@ use crate::{Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, Devic
 
 /// A backend that writes nothing: outputs keep their contents.
 ///
+/// It takes every call that a session or a live mesh makes, so that tests of the two need no
+/// device. A small backend that makes meshes is explained in docs/BACKENDS.md.
+///
 /// ```
 /// use texere_core::backend::NullBackend;
 /// use texere_core::Backend;

@@ -16,7 +16,9 @@ use crate::upload::Ends;
 /// time stamps, some hundred bytes; the 16 MiB that wgpu maps to upload through, which some drivers
 /// take from the device's memory; rings, 48 bytes each, where
 /// [`Session::trajectory`](texere_core::backend::Session::trajectory) is called; packed vertices,
-/// 12 bytes each, where [`Session::packed`](texere_core::backend::Session::packed) is called.
+/// 12 bytes each, where [`Session::packed`](texere_core::backend::Session::packed) is called;
+/// attributes of vertices and the lengths of yarn before blocks, where
+/// [`Session::attributes`](texere_core::backend::Session::attributes) is called.
 ///
 /// ```
 /// use texere_core::backend::Plan;

@@ -128,7 +128,8 @@ impl Shape {
     }
 
     /// Control points of a plain loop and of the arc to its left. The loop's middle is at x = 0 and
-    /// its feet are at y = 0.
+    /// its feet are at y = 0. Only the search for the depth needs them: `form.rs` places the loops
+    /// of a knit.
     fn plain(&self) -> Vec<DVec3> {
         let at = |x: f64, node: Node| DVec3::new(x, node.up * self.height(), node.z * self.depth);
         let (wale, narrow) = (self.wale, self.narrow());

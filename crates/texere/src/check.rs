@@ -11,7 +11,7 @@
 //! ```
 //! use texere::check::clearance;
 //! use texere::{ControlPoint, Settings, Yarn, Yarns};
-//! // Two straight yarns of radius 0.125 mm cross at a distance of 0.1875 mm: they pierce one another.
+//! // Two straight yarns of radius 0.125 mm cross at a distance of 0.1875 mm, so they pierce.
 //! let mut yarns = Yarns::builder();
 //! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
 //! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));

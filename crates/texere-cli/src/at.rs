@@ -10,16 +10,16 @@ use texere::{Design, Yarns};
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnUnder {
-    /// Its name in a designer's words: `course 3`, `end 12`, `guide bar 1, guide 5`.
+    /// The yarn's name in a designer's words: `course 3`, `end 12`, `guide bar 1, guide 5`.
     yarn: String,
     material: String,
-    /// The height of its centreline, mm.
+    /// The height of the yarn's centreline, mm.
     z_mm: f64,
-    /// The line of a knitout file or the cell of a chart that it comes from; the course of a warp
-    /// knit.
+    /// What made the yarn under the point: a line of a knitout file, a cell of a chart, or a course
+    /// of a warp knit.
     #[serde(skip_serializing_if = "Option::is_none")]
     place: Option<String>,
-    /// The instructions that stand there.
+    /// The instructions in that line or cell.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     instructions: Vec<String>,
 }
@@ -29,7 +29,7 @@ pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2]) -> Vec<Yarn
     let said = |place: &YarnPlace| {
         let NamedPlace { thread, material, program } = design.named(yarns, place);
         let (place_of, instructions) = program.map(|program| (program.place, program.instructions)).unzip();
-        // Guides of a warp knit make all courses.
+        // A guide of a warp knit lays yarn in all courses, so the course is named separately.
         let course =
             || design.structure.warp_knitted().and(place.source).map(|course| format!("course {course}"));
         YarnUnder {

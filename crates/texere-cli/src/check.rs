@@ -20,12 +20,12 @@ use crate::{print, progress, reading, settling, terminal};
 struct Report {
     name: String,
     clean: bool,
-    /// Contacts nearer than this pierce.
+    /// Contacts whose ratio is below this pierce.
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
     drawn: DrawnReport,
-    /// The twist that no usual number of rings shows.
+    /// A warning of twist that a mesh with the usual settings does not show.
     #[serde(skip_serializing_if = "Option::is_none")]
     undersampled: Option<String>,
     /// Only for woven cloth.
@@ -46,7 +46,7 @@ struct Report {
 #[derive(Debug, Serialize)]
 struct EmptyNeedles {
     count: u64,
-    /// The first of them, from 0 at the left.
+    /// The first empty needles, counted from 0 at the left.
     first: Vec<u64>,
 }
 
@@ -57,7 +57,8 @@ impl EmptyNeedles {
     }
 }
 
-/// The faults of a cloth; it is clean where all are none.
+/// The faults of a cloth's yarns, each none if there is no such fault. A clean cloth has none of
+/// them, and no error of the knitting machine.
 #[derive(Debug, Serialize)]
 struct FaultsReport {
     crowded: Option<CrowdReport>,
@@ -72,11 +73,14 @@ struct FaultsReport {
 /// A cloth that does not hang together.
 #[derive(Debug, Serialize)]
 struct Apart {
-    /// Layers of woven cloth; yarns of a knit whose loops are drawn through one another.
+    /// Number of pieces: layers of woven cloth, or groups of yarns of a knit whose loops are drawn
+    /// through one another.
     pieces: u64,
-    /// How many yarns nothing holds, and the first of them.
+    /// Number of yarns that nothing holds.
     loose: u64,
+    /// The first of the yarns that nothing holds.
     loose_yarns: Vec<String>,
+    /// `pieces` and `loose` in a sentence.
     said: String,
 }
 
@@ -88,7 +92,7 @@ struct MachineReport {
 }
 
 impl MachineReport {
-    /// None where the cloth is not knitted.
+    /// None if the cloth is not knitted.
     fn new(design: &Design) -> Option<Self> {
         design.structure.knitted()?;
         let said = |errors| {
@@ -103,7 +107,7 @@ impl MachineReport {
 #[derive(Debug, Serialize)]
 struct Pierces {
     min: f64,
-    /// The contacts that pierce, worst first, as far as `inspect` lists them.
+    /// The contacts that pierce, the worst first, at most as many as `inspect` lists.
     worst: Vec<ContactReport>,
 }
 
@@ -112,7 +116,7 @@ struct Pierces {
 struct Jams {
     ends: usize,
     picks: usize,
-    /// The worst one first.
+    /// The worst jammed threads, the worst one first.
     threads: Vec<Jammed>,
 }
 
@@ -134,8 +138,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     })
     .map_err(|error| design.refused(error))?;
     settling.iter_mut().for_each(|settling| settling.measured(&clearance));
-    // The clearance of settled threads shows whether they have found room; their pitches at the
-    // start do not.
+    // For threads that have settled, only their clearance shows whether they have room. The pitches
+    // of the structure no longer do.
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let jams = if settled { None } else { design.structure.jams() };
     let pieces = design.structure.pieces();
@@ -269,7 +273,7 @@ impl Report {
         text
     }
 
-    /// A line for each fault of the yarns as they are drawn, and of how close they lie.
+    /// Passes to `line` the faults of the yarns as they are drawn, and how close threads lie.
     fn say_faults(&self, clearance: &ClearanceReport, line: &mut impl FnMut(&str, String)) {
         let faults = &self.faults;
         if let Some(crowded) = &faults.crowded {
@@ -310,7 +314,7 @@ impl Report {
         }
     }
 
-    /// Lines for the cures, or a line that says why there are none.
+    /// Passes to `line` the cures, or why there are none, or that the cloth is clean.
     fn say_cures(&self, line: &mut impl FnMut(&str, String)) {
         if self.clean {
             let jam = if self.has_settled() { "" } else { ", no jam" };
@@ -321,7 +325,7 @@ impl Report {
         } else if self.has_settled() && self.setts.is_none() {
             line(
                 "cure",
-                "none was looked for: that is done for yarns as they are before, with --no-settle".into(),
+                "none was looked for: cures are tried on yarns as they are placed, with --no-settle".into(),
             );
         } else if self.cures.is_empty() {
             line(

@@ -11,8 +11,8 @@ use texere::check::{
 /// How near yarns come to one another.
 #[derive(Debug, Serialize)]
 pub(crate) struct ClearanceReport {
-    /// The least ratio of all contacts, 1 where yarns just touch. Where places are crowded it is an
-    /// upper bound; null where all places are crowded.
+    /// The least ratio of all contacts, 1 if yarns just touch. It is an upper bound if some places
+    /// are crowded, and null if all are.
     #[serde(serialize_with = "as_near_as_looked")]
     min: f64,
     contacts: u64,
@@ -35,7 +35,7 @@ pub(crate) struct DrawnReport {
     inwards_at: Option<DrawnPlace>,
 }
 
-/// Where that is.
+/// A place of a mesh.
 #[derive(Debug, Serialize)]
 struct DrawnPlace {
     yarn: String,
@@ -49,18 +49,18 @@ struct DrawnPlace {
 pub(crate) struct CrowdReport {
     /// The volume of the yarns over the room that they have.
     fill: f64,
-    /// Control intervals that lie there.
+    /// Number of control intervals at the place.
     intervals: usize,
-    /// The thickest thread there.
+    /// The thickest thread at the place.
     yarn: String,
     thickness_mm: f64,
-    /// Its distance to the thread before.
+    /// The distance of that thread to the thread before.
     pitch_mm: Option<f64>,
     place_mm: [f64; 3],
     crossing: Option<Crossing>,
 }
 
-/// Numbers of contacts by ratio, in bins of this width from 0 on.
+/// Numbers of contacts by ratio, in bins of width `bin`, of which the first begins at 0.
 #[derive(Debug, Serialize)]
 struct Histogram {
     bin: f64,
@@ -82,7 +82,7 @@ pub(crate) struct ContactReport {
 /// The tightest bend: radius of curvature over how far the section reaches into the bend.
 #[derive(Debug, Serialize)]
 pub(crate) struct CurvatureReport {
-    /// Null where all yarns are straight.
+    /// Null if all yarns are straight.
     pub(crate) min: f64,
     yarn: Option<String>,
     place_mm: Option<[f64; 3]>,
@@ -102,12 +102,13 @@ impl Crossing {
     }
 }
 
-/// The least clearance; NaN where all places are crowded, since these are not measured.
+/// The least clearance. NaN if all places are crowded, because crowded places are not measured.
 pub(crate) const fn least(found: &ClothClearance) -> f64 {
     if found.crowd.is_some() && found.min.is_infinite() { f64::NAN } else { found.min }
 }
 
-/// Writes a least clearance to JSON. Without a contact it is the limit of the search.
+/// Writes a least clearance to JSON. If there is no contact, `least` is infinite, and the limit of
+/// the search is written.
 pub(crate) fn as_near_as_looked<S: Serializer>(least: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_f64(if *least == f64::INFINITY { CLEARANCE_NEAR } else { *least })
 }
@@ -212,14 +213,14 @@ impl fmt::Display for CrowdReport {
 }
 
 impl DrawnReport {
-    /// Where it is narrowest:
+    /// The least width of the tube and its place:
     /// `0.149 yarn radii half way between two rings: course 3 at x 3.250, y 1.000, z -0.125 mm`.
     pub(crate) fn narrowest(&self) -> String {
         let width = format!("{:.3} yarn radii half way between two rings", self.width);
         self.width_at.as_ref().map_or(width.clone(), |at| format!("{width}: {at}"))
     }
 
-    /// How many triangles face inwards, and where the first is.
+    /// The number of triangles that face inwards, and the place of the first.
     pub(crate) fn turned(&self) -> String {
         let face = if self.inwards == 1 { "faces" } else { "face" };
         let count = format!("{} {face} inwards", counted(self.inwards, "triangle"));
@@ -254,7 +255,8 @@ mod tests {
 
     use super::*;
 
-    /// The JSON of a cloth with this least clearance, with a crowded place or without.
+    /// The `min` in the JSON of a cloth whose least clearance is `min`, with a crowded place or
+    /// without.
     fn min(min: f64, crowd: Option<ThreadCrowd>) -> Value {
         let found = ClothClearance {
             min,

@@ -6,11 +6,11 @@ use std::{env, io, thread};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-/// Starts a thread for each core, or as many as the system gives. Without any, the main thread does
+/// Starts a thread for each core, or as many as can be started. If none can, the main thread does
 /// all the work.
 ///
-/// Rayon would start its threads at first use, and panic if one can't be started. This starts them
-/// first, and rayon gets those that there are.
+/// Rayon would start its threads at first use, and panic if one can't be started. Here the threads
+/// are started first, and rayon is given those that could be started.
 pub(crate) fn start() {
     let (mut workers, wanted) = (Vec::new(), wanted());
     while workers.len() < wanted {
@@ -26,7 +26,7 @@ pub(crate) fn start() {
         workers.push(hand_over);
     }
     let pool = ThreadPoolBuilder::new().num_threads(workers.len().max(1));
-    // It fails only if there is a pool already, and there is none yet.
+    // `build_global` fails only if there is a pool already, and there is none yet.
     let _ = if workers.is_empty() {
         pool.use_current_thread().build_global()
     } else {

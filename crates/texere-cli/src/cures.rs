@@ -17,15 +17,16 @@ const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
 pub(crate) struct CureReport {
     /// The key of the design file.
     key: &'static str,
-    /// Its new value.
+    /// The key's new value.
     value: String,
-    /// The effect of that value.
+    /// The effect of the new value.
     effect: String,
-    /// The least clearance and the tightest bend with it, at the places that were the worst.
+    /// The least clearance with the change, at the places that were the worst.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance: f64,
+    /// The tightest bend with the change, at the same places.
     curvature: f64,
-    /// What it does not cure.
+    /// The faults that the change does not cure.
     leaves: Option<String>,
 }
 
@@ -46,8 +47,8 @@ impl CureReport {
 }
 
 impl CureReport {
-    /// More rings, for a mesh that is wrung or inside out: an option of the commands that draw, and
-    /// no key of a design file.
+    /// The report of the cure for a mesh that is wrung or inside out: more rings. Its `key` is an
+    /// option of the commands that draw, not a key of a design file.
     pub(crate) fn finer(subdivisions: u32, diagnosis: &Diagnosis) -> Self {
         let drawn = [ClothFault::Wrung, ClothFault::InsideOut];
         let mut leaves = diagnosis.faults.kinds();
@@ -68,7 +69,8 @@ pub(crate) const fn gives_room(remedy: &Remedy) -> bool {
     matches!(remedy, Remedy::Spacing { .. } | Remedy::Diameter { .. })
 }
 
-/// Key, value and effect of a remedy.
+/// Key, value and effect of a remedy. None for a value beyond [`LENGTHS_MM`], and for a remedy
+/// without a key.
 fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
     Some(match remedy {
         Remedy::Shape(Shape::Round) => (

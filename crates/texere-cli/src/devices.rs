@@ -53,7 +53,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     print::text(&lines(&text))
 }
 
-/// What a device may do beside meshes, and whether it does.
+/// What a device may do besides making meshes, each with whether it can.
 const fn can(can: Capabilities) -> [(&'static str, bool); 6] {
     let Capabilities { settle, settle_crossings, edit, attributes, pack, draw } = can;
     [

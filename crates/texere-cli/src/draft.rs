@@ -9,8 +9,8 @@ use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{print, reading};
 
-/// Bytes of rows that are gathered before they are printed: from this size on a call costs nothing
-/// beside the copying.
+/// Bytes of rows that are gathered before they are printed. A call for that many bytes takes little
+/// time beside the copying.
 const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
@@ -56,8 +56,8 @@ fn print_stitches(knit: &Knitted, side: Side) -> Result<(), Fail> {
     print::text(&rows)
 }
 
-/// Prints a row for each pick, the last one on top, some rows at a time: the whole text is as large
-/// as the cloth.
+/// Prints a row for each pick, the last one on top, some rows at a time, because the whole text
+/// would be as large as the cloth.
 fn print_rows(drawdown: &Drawdown, side: Side) -> Result<(), Fail> {
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
     let on_top = |column: usize, pick| match side {

@@ -4,7 +4,7 @@
 /// Does `work`, which loads drivers. Their output on standard error is shown only if `work` fails.
 #[cfg(unix)]
 pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
-    // If it can't be put aside, it is shown.
+    // If standard error can't be redirected, the drivers' output is shown.
     let aside = aside::Aside::begin().ok();
     let done = work();
     if let (Some(aside), Ok(_)) = (aside, &done) {
@@ -13,7 +13,7 @@ pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E>
     done
 }
 
-/// Other systems' drivers write nothing there.
+/// Does `work`. Drivers of other systems write nothing to standard error.
 #[cfg(not(unix))]
 pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     work()
@@ -49,7 +49,7 @@ mod aside {
 
     impl Drop for Aside {
         fn drop(&mut self) {
-            // If that fails, there is nowhere to report it.
+            // If standard error can't be restored, there is nowhere to report it.
             let _ = rustix::stdio::dup2_stderr(&self.stderr);
             let mut text = Vec::new();
             if self.shown && self.written.rewind().is_ok() && self.written.read_to_end(&mut text).is_ok() {

@@ -20,7 +20,7 @@ use crate::setts::{SettReport, setts};
 use crate::terminal::line;
 use crate::{print, progress, reading, settling};
 
-/// How far the run-in of a guide bar may differ from the design's, as a share.
+/// How far the run-in of a guide bar may differ from the design's without a warning, as a share.
 const RUN_IN_MISS: f64 = 0.02;
 
 /// The report of a design. The keys of the JSON are these fields.
@@ -44,7 +44,7 @@ struct Report {
     unsaid: Vec<String>,
 }
 
-/// The counts of its mesh.
+/// The counts of the design's mesh.
 #[derive(Debug, Serialize)]
 struct Size {
     yarns: u64,
@@ -59,7 +59,7 @@ struct Size {
 /// Counts of a knit.
 #[derive(Debug, Serialize)]
 struct KnitReport {
-    /// Knit, tuck and split operations that carry yarn; with two yarns one loop of each.
+    /// Number of loops. A knit, tuck or split operation makes a loop of each yarn that it carries.
     loops: u64,
     courses: u32,
     wales: u32,
@@ -72,15 +72,17 @@ struct KnitReport {
 #[derive(Debug, Serialize)]
 struct BarReport {
     lapping: String,
-    /// Yarn for a rack of 480 courses, mm, if the design asks for one.
+    /// The length of yarn for a rack of 480 courses that the design asks for, mm. None if it asks
+    /// for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_asked_mm: Option<f64>,
-    /// The yarn that there is, mm, unless yarns are only counted.
+    /// The length of yarn for a rack of 480 courses in the cloth, mm. None if yarns are only
+    /// counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_mm: Option<f64>,
 }
 
-/// The report of its yarns as cloth.
+/// The report of the design's yarns as cloth.
 #[derive(Debug, Serialize)]
 struct ClothReport {
     #[serde(skip_serializing_if = "Option::is_none", flatten)]

@@ -1,4 +1,5 @@
-//! The `texere` program: inspect, check, mesh, draft and convert textile designs.
+//! The `texere` program. It inspects and checks textile designs, and makes meshes, pictures and
+//! drafts of them.
 //!
 //! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the variable
 //! `TEXERE_SIMD` is wrong; 3 the design is wrong; 4 `check` found that the cloth pierces itself,
@@ -73,7 +74,7 @@ fn failed(fail: &fail::Fail) -> ExitCode {
 /// Prints the fault of the command line, or the help or version that was asked for.
 fn misused(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        // Help, or the version.
+        // This is help, or the version.
         return match error.print().and_then(|()| std::io::stdout().flush()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(refused) => failed(&fail::Fail::output(refused)),
@@ -84,7 +85,7 @@ fn misused(error: &clap::Error) -> ExitCode {
         terminal::line(&arg) == arg
     };
     if std::env::args_os().all(is_harmless) {
-        // In colours.
+        // `exit` prints the error in colours.
         error.exit();
     }
     let _ = std::io::stderr().write_all(terminal::lines(&error.to_string()).as_bytes());

@@ -7,7 +7,7 @@ use texere::check::{KnitMeasures, Measures};
 use texere::woven::{BySet, JamReport, Tightness};
 use texere::yarn::Material;
 
-/// A number for the warp, and one for the weft.
+/// A value for the warp, and one for the weft.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(crate) struct Sets<T> {
     pub(crate) warp: T,
@@ -23,7 +23,7 @@ impl<T> From<BySet<T>> for Sets<T> {
 /// [`Measures`] with the names of threads and colours.
 #[derive(Debug, Serialize)]
 pub(crate) struct MeasuresReport {
-    /// All yarn, mm.
+    /// Length of all yarn, mm.
     pub(crate) length_mm: f64,
     pub(crate) yarns: Vec<YarnReport>,
     /// Length of yarn of each colour, mm.
@@ -57,7 +57,7 @@ impl From<KnitMeasures> for LoopsReport {
     }
 }
 
-/// A yarn of the design, as far as the cloth holds it.
+/// The part of a design's yarn that is in the cloth.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnReport {
     pub(crate) yarn: String,
@@ -125,7 +125,7 @@ pub(crate) struct JamsReport {
     scaled: f32,
 }
 
-/// How close the threads of one set lie, against the least pitch.
+/// How close the threads of one set lie, compared with the least pitch.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct TightnessReport {
     pub(crate) jammed: usize,

@@ -9,13 +9,13 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use texere::mesh::Progress;
 
-/// Shorter work shows no bar, which would only flicker.
+/// How long work must take before it shows a bar. For shorter work the bar would only flicker.
 const QUIET_FOR: Duration = Duration::from_secs(1);
 
-/// Steps that a bar of shares has.
+/// Number of steps of a bar that [`share`] moves.
 const STEPS: u64 = 1000;
 
-/// A bar that is hidden until [`reporter`] shows it, and for good where `terminal` is false.
+/// A bar that is hidden until [`reporter`] moves it. It is never shown if `terminal` is false.
 pub(crate) fn bar(terminal: bool) -> ProgressBar {
     let bar = ProgressBar::hidden();
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} %, {eta} left") {
@@ -38,7 +38,8 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     bar.set_length(STEPS);
     let (end, ended) = mpsc::channel::<()>();
     let ticking = bar.clone();
-    // The bar's own ticker would panic if no thread can be started. Here the bar is then not shown.
+    // The bar's own ticker would panic if no thread can be started. This one then leaves the bar
+    // hidden.
     let ticker = thread::Builder::new().spawn(move || {
         while ended.recv_timeout(QUIET_FOR) == Err(RecvTimeoutError::Timeout) {
             ticking.tick();
@@ -51,7 +52,7 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     done
 }
 
-/// Moves `bar` on to shares of the work, from 0 to 1.
+/// A function that moves `bar` on to a share of the work, from 0 to 1.
 pub(crate) fn share(bar: &ProgressBar) -> impl FnMut(f64) -> ControlFlow<()> + Send {
     let (bar, start) = (bar.clone(), Instant::now());
     move |done| {
@@ -62,7 +63,7 @@ pub(crate) fn share(bar: &ProgressBar) -> impl FnMut(f64) -> ControlFlow<()> + S
     }
 }
 
-/// Moves `bar` on as the pipeline reports how far it has come.
+/// A function that moves `bar` on as the pipeline reports its progress.
 pub(crate) fn reporter(bar: &ProgressBar) -> impl FnMut(Progress) -> ControlFlow<()> + Send {
     let (bar, start) = (bar.clone(), Instant::now());
     move |progress| {

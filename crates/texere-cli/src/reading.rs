@@ -1,4 +1,4 @@
-//! Reads designs with their readers' remarks, and saved yarns.
+//! Reads designs and saved yarns, and prints the remarks of readers.
 
 use std::io::Write;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
 
 /// The yarns in `path`, if it is a file of saved yarns; none if it is a design.
 ///
-/// **Errors**: also options that need a design.
+/// **Errors**: those of reading, and an option of the command line that needs a design.
 pub(crate) fn saved(
     path: &Path,
     settings: &SettingsArgs,

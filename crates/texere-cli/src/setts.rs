@@ -1,4 +1,5 @@
-//! How close the threads of woven cloth lie beside the greatest sett of its weave and yarns.
+//! How close the threads of woven cloth lie, compared with the greatest sett of its weave and
+//! yarns.
 
 use std::fmt;
 
@@ -7,8 +8,8 @@ use texere::woven::{Sett, Woven};
 
 use crate::measures::Sets;
 
-/// The share by which a sett may exceed the greatest one without a warning: diameters are rounded
-/// to `f32`.
+/// The share by which a sett may exceed the greatest one without a warning, because diameters are
+/// rounded to `f32`.
 const ROUNDING: f64 = 1e-6;
 
 /// The setts of warp and weft.
@@ -55,7 +56,8 @@ impl fmt::Display for SettReport {
         if *share <= 1.0 + ROUNDING {
             return Ok(());
         }
-        // Rounded up, so that a cloth that follows them is within the greatest sett.
+        // Both numbers are rounded up, so that a cloth that follows them is within the greatest
+        // sett.
         let (spacing_mm, thinner) = ((1e5 / greatest_per_cm).ceil() / 1e4, (share * 1e2).ceil() / 1e2);
         write!(
             f,

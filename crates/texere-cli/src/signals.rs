@@ -20,12 +20,12 @@ const ENDS: [i32; 10] =
 /// Held from the signal that ends the program until the program has ended.
 static ENDING: Mutex<()> = Mutex::new(());
 
-/// From this call on Ctrl-C and like signals first remove unfinished files, whatever the program is
-/// doing. The program then ends by that very signal, so that a shell knows why. A signal that was
-/// ignored when the program started stays ignored, as under `nohup`.
+/// From this call on, Ctrl-C and similar signals first remove unfinished files, whatever the
+/// program is doing. The program then ends by that very signal, so that a shell knows why. A signal
+/// that was ignored when the program started stays ignored, as under `nohup`.
 pub(crate) fn listen() {
     // If an allocation of the standard library fails, the library prints the number of bytes and
-    // aborts.
+    // aborts. The program then ends with the exit code for memory that failed.
     let always = Arc::new(AtomicBool::new(true));
     let _ = register_conditional_shutdown(SIGABRT, WORLD.into(), always);
     let (hand_over, wait) = mpsc::channel::<Signals>();
@@ -52,8 +52,8 @@ pub(crate) fn give_way() {
     drop(ENDING.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// The ignored signals, a bit each from the lowest. Linux tells which; on other systems SIGHUP is
-/// assumed to be ignored.
+/// The ignored signals, one bit for each, from the lowest bit. Linux lists them in a file. On other
+/// systems SIGHUP alone is assumed to be ignored.
 fn ignored() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -10,7 +10,7 @@ const SHOWN: usize = 240;
 /// A text on a single line. Codes that control a terminal or turn the direction of writing are
 /// shown by their numbers. A long text loses its middle.
 ///
-/// The start of a message names its subject and its end the fault, so both stay.
+/// The start of a message names its subject, and its end the fault, so both stay.
 pub(crate) fn line(text: impl fmt::Display) -> String {
     let text = text.to_string();
     let escaped: String = cut(&text).chars().map(escape).collect();

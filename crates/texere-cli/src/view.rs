@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
         ..View::of(&args.design)
     };
     let mut printed = Ok(());
-    // Drivers are loaded for the window, and again where yarns settle.
+    // Drivers are loaded for the window, and again when yarns settle.
     drivers::quietly(|| {
         view.open(|event: &Event| match event {
             // The failure is printed at the end.

@@ -9,7 +9,7 @@ use texere_fabric::{FinishError, Finished};
 
 use crate::{Design, Refusal};
 
-/// The share of the progress that stretching takes. The rest of it is for coming to rest.
+/// The share of the progress that stretching takes. Coming to rest takes the remaining share.
 const STRETCHED: f64 = 0.5;
 
 /// A design and its yarns. The yarns are at rest, or as near to rest as they came. [`Design::rest`]
@@ -25,7 +25,8 @@ pub struct Cloth {
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "a cloth has one")]
 pub enum RestReport {
-    /// The yarns are where the structure places them. The design asks for no more.
+    /// The yarns are where the structure places them. The design does not ask for rest, or
+    /// [`Design::placed`] made the cloth.
     Placed(Yarns),
     /// The yarns came to rest, or as near to it as [`Finished::verdict`] says.
     Finished(Finished),
@@ -33,7 +34,7 @@ pub enum RestReport {
     Refused {
         /// The yarns.
         yarns: Yarns,
-        /// The reason, with the place in the design that asks for it.
+        /// The reason, with the place in the design that asks for the cloth.
         reason: Refusal,
     },
 }
@@ -93,8 +94,8 @@ impl Cloth {
     }
 
     /// What a designer should know of the cloth: the reader's [remarks](Design::remarks), and what
-    /// the finish asks for and the cloth did not reach. Where the yarns are not at rest, the faults
-    /// of the structure as placed are in the list.
+    /// the finish asks for and the cloth did not reach. If the yarns are not at rest, the list also
+    /// has the faults of the structure as placed.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let before = match &self.report {
@@ -122,10 +123,10 @@ impl fmt::Debug for Resting<'_> {
 }
 
 impl Design {
-    /// Starts from the design to its cloth. [`Resting::run`] makes the cloth on `device`: it places
-    /// the yarns, stretches the cloth and lets it come to rest, as the design's `settle`, `stretch`
-    /// and `finish` say. A WIF draft read by itself has no finish, so its yarns stay as placed
-    /// unless [`Design::settle`] is set to true.
+    /// The first step from the design to its cloth. [`Resting::run`] makes the cloth on `device`:
+    /// it places the yarns, stretches the cloth and lets it come to rest, as the design's `settle`,
+    /// `stretch` and `finish` say. A WIF draft read by itself has no finish, so its yarns stay as
+    /// placed unless [`Design::settle`] is set to true.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -151,7 +152,7 @@ impl Design {
     /// asks for cloth at rest. No device is needed. `tension` is the tension of the yarns' splines,
     /// from 0 to below 1; 0 is usual.
     ///
-    /// **Errors**: where the structure can't be made, and for a tension out of range.
+    /// **Errors**: a [`Refusal`] if the structure can't be made, or for a tension out of range.
     pub fn placed(self, tension: f32) -> Result<Cloth, Refusal> {
         let yarns = self.placed_yarns(tension)?;
         Ok(Cloth { design: self, report: RestReport::Placed(yarns) })
@@ -164,7 +165,7 @@ impl Design {
 }
 
 impl<'a> Resting<'a> {
-    /// The tension of the yarns' splines, from 0 to below 1; 0 where not given.
+    /// The tension of the yarns' splines, from 0 to below 1. It is 0 if not given.
     pub fn tension(self, tension: f32) -> Self {
         Self { tension, ..self }
     }
@@ -175,13 +176,13 @@ impl<'a> Resting<'a> {
         Self { progress: Box::new(progress), ..self }
     }
 
-    /// Makes the cloth. The result is `Ok` also where the yarns don't come to rest:
-    /// [`Cloth::report`] then says so. Yarns that can't settle at all stay where the structure
-    /// places them, and the report says why.
+    /// Makes the cloth. The result is `Ok` even if the yarns don't come to rest: [`Cloth::report`]
+    /// then says so. Yarns that can't settle at all stay where the structure places them, and the
+    /// report says why.
     ///
-    /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish
-    /// that its structure does not have, where a device fails, where `progress` asked to stop, and
-    /// for a [tension](Resting::tension) out of range.
+    /// **Errors**: a [`Refusal`] if the design asks for cloth that can't be made or for a finish
+    /// that its structure does not have, if a device fails, if `progress` asked to stop, and for a
+    /// [tension](Resting::tension) out of range.
     pub fn run(self) -> Result<Cloth, Refusal> {
         let Self { mut design, device, tension, mut progress } = self;
         if !design.settle {

@@ -6,7 +6,7 @@ use texere_core::Yarns;
 /// The extension of a file of yarns, without its dot.
 pub(crate) const ENDING: &str = "yarns";
 
-/// The first bytes. No text begins with the first one. A transfer that changes line ends changes
+/// The first bytes. No text begins with the first byte. A transfer that changes line ends changes
 /// the last two.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89YARNS\r\n";
 
@@ -17,8 +17,10 @@ pub(crate) const VERSION: u32 = 1;
 /// because a reader holds all of a file in memory.
 pub(crate) const BYTES_MAX: u64 = 1 << 34;
 
-/// Bits of the header. Each says that a list follows the control points.
+/// The bit of the header that says that up directions follow the control points.
 pub(crate) const HAS_UPS: u32 = 1;
+
+/// The bit of the header that says that sources follow the control points.
 pub(crate) const HAS_SOURCES: u32 = 2;
 
 pub(crate) const HEADER_BYTES: u64 = 60;
@@ -67,7 +69,7 @@ pub(crate) fn flags(yarns: &Yarns) -> u32 {
     ups | sources
 }
 
-/// Bytes of a control point, its up direction and its source included where the header's bits
+/// Bytes of a control point. Its up direction and its source are included if the header's bits
 /// announce them.
 pub(crate) const fn bytes_per_point(flags: u32) -> u64 {
     let ups = if flags & HAS_UPS != 0 { UP_BYTES } else { 0 };

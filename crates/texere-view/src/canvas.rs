@@ -17,28 +17,28 @@ use texere::yarn::YarnPlace;
 use crate::messages::Cloth;
 use crate::orbit::{Orbit, Side};
 
-/// How long the view has to rest before it is drawn at its best.
+/// How long the view must rest before the finest picture is drawn.
 const REST: Duration = Duration::from_millis(200);
 
-/// The time that a picture may take while the view moves. After a longer one the next has fewer
-/// pixels, after a far shorter one more.
+/// The time that a picture may take while the view moves. If a picture took longer, the next one
+/// has fewer pixels. If it took less than a sixth of that time, the next one has more.
 const MOVING: Duration = Duration::from_millis(60);
 
-/// The time that a picture may take when the view rests. Where the best would take longer, it has
-/// fewer samples.
+/// The time that a picture may take when the view rests. If the finest picture would take longer, a
+/// picture with fewer samples is drawn.
 const RESTING: Duration = Duration::from_secs(1);
 
-/// The most pixels of the window for one of the picture, each way.
+/// The most pixels of the window, across and down, for one pixel of the picture.
 const COARSEST: u32 = 4;
 
-/// The logarithm by which one point of the wheel brings the eye nearer.
+/// The logarithm of the factor by which one point of scrolling brings the eye nearer.
 const NEARER: f32 = 0.0025;
 
-/// What a picture was drawn of.
+/// The view that a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Look {
     orbit: Orbit,
-    /// The window's part, pixels.
+    /// The size of the window's part for the cloth, pixels.
     size: [u32; 2],
 }
 
@@ -46,7 +46,7 @@ struct Look {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Fineness {
     supersampling: u32,
-    /// Pixels of the window for one of the picture, each way.
+    /// Number of pixels of the window, across and down, for one pixel of the picture.
     coarseness: u32,
     hairs: bool,
 }
@@ -55,8 +55,8 @@ impl Fineness {
     /// The fastest picture with all pixels.
     const PLAIN: Self = Self { supersampling: 1, coarseness: 1, hairs: false };
 
-    /// The fineness of the next picture while the view moves. The last one was this fine and `took`
-    /// so long.
+    /// The fineness of the next picture while the view moves. The last picture had the fineness
+    /// `self`, and was made in the time `took`.
     fn moving(self, took: Duration) -> Self {
         let coarseness = match self.coarseness {
             finer if took > MOVING => (finer * 2).min(COARSEST),
@@ -66,8 +66,8 @@ impl Fineness {
         Self { coarseness, ..Self::PLAIN }
     }
 
-    /// The fineness of a picture when the view rests. The last one was this fine and `took` so
-    /// long.
+    /// The fineness of a picture when the view rests. The last picture had the fineness `self`, and
+    /// was made in the time `took`.
     fn resting(self, took: Duration) -> Self {
         let best = Quality::default().supersampling;
         let more = best * self.coarseness / self.supersampling;
@@ -78,15 +78,15 @@ impl Fineness {
 
 /// A picture that is made.
 enum Made {
-    /// On the window's device.
+    /// The picture is on the window's device.
     There(DevicePicture),
-    /// On another one, and copied.
+    /// The picture was made on another device, and was copied from there.
     Copied(Picture),
 }
 
 /// What the window shows.
 enum Shown {
-    /// A texture of the scene's. A picture of another size has another texture.
+    /// A texture of the scene. A picture of another size has another texture.
     There(TextureId, wgpu::TextureView),
     Copied(TextureHandle),
 }
@@ -96,7 +96,7 @@ pub(crate) struct Canvas {
     render: egui_wgpu::RenderState,
     /// Whether cloth is on another device than the window.
     is_apart: bool,
-    /// None until a cloth has been shown.
+    /// The eye. None until a cloth has been shown.
     orbit: Option<Orbit>,
     shown: Option<Shown>,
     /// The look of the last picture, or of the one that is under way.
@@ -104,26 +104,29 @@ pub(crate) struct Canvas {
     /// The picture that is under way. A thread of its own waits for the device, so that the window
     /// can be closed meanwhile.
     under_way: Option<Receiver<Result<Made, RenderError>>>,
-    /// The fineness of the last picture, and of the last one while the view moved.
+    /// The fineness of the last picture.
     fineness: Fineness,
+    /// The fineness of the last picture that was drawn while the view moved.
     fineness_moving: Fineness,
-    /// Whether the last picture is as fine as it gets, and since when the view rests.
+    /// Whether the last picture is the finest one of its view.
     rests: bool,
+    /// The time since which the view rests.
     rests_since: Instant,
     pub(crate) timings: PictureTimings,
     /// The failure of the last picture.
     pub(crate) failure: Option<String>,
-    /// The pointer's last place that was looked up, and the yarn found there.
+    /// The last place of the pointer that was looked up, and the place on a yarn that was found
+    /// there.
     pointed: Option<(Pos2, Option<NamedPlace>)>,
     /// The place of a click that waits for the picture under way.
     clicked: Option<Pos2>,
 }
 
-/// The yarns under the pointer.
+/// The places on yarns under the pointer.
 pub(crate) struct Pointed {
-    /// What lies under the pointer.
+    /// The place on a yarn under the pointer, if there is one.
     pub(crate) place: Option<NamedPlace>,
-    /// The place that was clicked on.
+    /// The place on a yarn that was clicked on, if one was.
     pub(crate) clicked: Option<NamedPlace>,
 }
 
@@ -147,25 +150,25 @@ impl Canvas {
         }
     }
 
-    /// Looks at the whole cloth from `side` with the next picture.
+    /// Shows the whole cloth from `side` in the next picture.
     pub(crate) fn look_from(&mut self, cloth: &Cloth, side: Side) {
         let size = self.drawn.map_or([4, 3], |drawn| drawn.size);
         self.orbit = Some(Orbit::whole(&cloth.extent, side, size));
     }
 
-    /// Draws another cloth with the next picture, in the same view.
+    /// Has another cloth drawn in the next picture, in the same view.
     pub(crate) fn redraw(&mut self) {
         self.drawn = None;
         self.under_way = None;
         self.pointed = None;
     }
 
-    /// The eye, once there is a cloth.
+    /// The eye, or none before a cloth has been shown.
     pub(crate) const fn orbit_mut(&mut self) -> Option<&mut Orbit> {
         self.orbit.as_mut()
     }
 
-    /// Pixels of the last picture, and samples of each.
+    /// Width and height of the last picture in pixels, and the number of samples of each pixel.
     pub(crate) fn resolution(&self) -> ([u32; 2], u32) {
         let Fineness { supersampling, coarseness, .. } = self.fineness;
         let size = self.drawn.map_or([0, 0], |drawn| drawn.size.map(|pixels| pixels / coarseness));
@@ -205,7 +208,8 @@ impl Canvas {
         }
         let took = self.timings.draw + self.timings.shade;
         if self.drawn != Some(look) {
-            // The time of a picture at rest does not predict that of one that moves.
+            // The time of a picture at rest does not predict the time of a picture while the view
+            // moves.
             self.fineness = if self.rests { self.fineness_moving } else { self.fineness.moving(took) };
             self.fineness_moving = self.fineness;
             (self.rests, self.rests_since) = (false, Instant::now());
@@ -228,7 +232,7 @@ impl Canvas {
         }
     }
 
-    /// Has a thread make the picture and ask the window to show it.
+    /// Starts a thread that makes the picture and asks the window to show it.
     fn begin(&mut self, ui: &Ui, cloth: &Cloth, look: Look) -> Result<(), String> {
         let Fineness { supersampling, coarseness, hairs } = self.fineness;
         let size = look.size.map(|pixels| (pixels / coarseness).max(1));
@@ -256,7 +260,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// Whether a picture is under way. Takes one that is done.
+    /// Whether a picture is under way. A picture that is done is shown first.
     fn is_under_way(&mut self, ui: &Ui) -> bool {
         let Some(picture) = &self.under_way else { return false };
         let done = match picture.try_recv() {
@@ -272,7 +276,7 @@ impl Canvas {
         false
     }
 
-    /// Shows a picture.
+    /// Shows a picture that is done.
     fn take(&mut self, ui: &Ui, made: Made) {
         self.failure = None;
         match made {
@@ -304,7 +308,7 @@ impl Canvas {
         }
     }
 
-    /// The place under the pointer, in a designer's words.
+    /// The place on a yarn under the pointer, in a designer's words.
     fn named(&mut self, cloth: &Cloth, at: Pos2, rect: Rect, scale: f32) -> Option<NamedPlace> {
         if let Some((before, place)) = &self.pointed
             && *before == at
@@ -332,7 +336,7 @@ impl Canvas {
     }
 }
 
-/// Turns, moves and nears the cloth as the pointer says.
+/// Turns, moves and zooms the cloth by the pointer.
 fn steer(orbit: &mut Orbit, ui: &Ui, response: &Response, rect: Rect, size: [u32; 2], cloth: &Cloth) {
     let scale = ui.pixels_per_point();
     let drag = response.drag_delta() * scale;

@@ -14,8 +14,8 @@ pub enum ViewError {
     /// The design can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The design does not allow [`View::section`](crate::View::section); with file, line and key
-    /// of the design.
+    /// The design does not allow [`View::section`](crate::View::section). The refusal names file,
+    /// line and key of the design.
     #[error(transparent)]
     Refused(Box<Refusal>),
     /// The device can't be opened, or failed.

@@ -14,20 +14,20 @@ pub enum Event {
     Shown {
         /// The design's title.
         name: String,
-        /// Yarns of the cloth.
+        /// Number of yarns of the cloth.
         yarns: usize,
-        /// Triangles that are drawn of it.
+        /// Number of triangles that are drawn of the cloth.
         triangles: u64,
-        /// Whether its yarns have come to rest.
+        /// Whether its yarns have settled. They may be jammed, and not at rest.
         settled: bool,
     },
     /// A yarn was clicked on.
     Picked(NamedPlace),
     /// A lift was changed.
     Lifted {
-        /// Where.
+        /// The crossing whose lift was changed.
         crossing: Crossing,
-        /// Whether the warp lies on top there now.
+        /// Whether the warp lies on top at the crossing now.
         up: bool,
     },
     /// The edited cloth was written as a design file.
@@ -37,9 +37,10 @@ pub enum Event {
         /// Parts of the design that a design file has no place for.
         left_out: Vec<String>,
     },
-    /// An order failed, or the design's file is broken. The cloth is shown as it was.
+    /// A change that was asked for failed, or the design's file can't be read. The cloth is shown
+    /// as it was.
     Failed(String),
-    /// The window was told to close. [`View::open`](crate::View::open) returns when the device has
+    /// The window is being closed. [`View::open`](crate::View::open) returns when the device has
     /// finished its present work, which may take seconds. A program with nothing else to do may
     /// exit here.
     Closed,

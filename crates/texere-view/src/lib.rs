@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Every triangle is drawn for each picture, from control points on the device. The pointer turns,
-//! moves and nears the cloth, and the yarn under it is named as a weaver or a knitter calls it. A
-//! click changes a lift. When the design's file changes, the cloth is made again.
+//! moves and zooms the cloth, and the yarn under the pointer is named as a weaver or a knitter
+//! calls it. A click changes a lift. When the design's file changes, the cloth is made again.
 
 mod canvas;
 mod device;

@@ -1,4 +1,5 @@
-//! What the window and the workshop send one another: orders one way, cloth and news the other.
+//! Messages between the window and the workshop, the thread that makes cloth. The window sends
+//! orders, and the workshop sends cloth and news.
 
 use std::sync::{Arc, Mutex};
 
@@ -8,20 +9,20 @@ use texere::{Design, Settings, Yarns};
 
 use crate::Event;
 
-/// What the window asks for.
+/// A request of the window to the workshop.
 #[derive(Debug)]
 pub(crate) enum Order {
-    /// Sets whether the warp is up at a crossing, end and pick from 0.
+    /// Sets whether the warp is up at a crossing. `end` and `pick` are counted from 0.
     Lift { end: usize, pick: usize, up: bool },
     /// Takes back the last lift.
     Undo,
-    /// Gives a material, from 0, another sRGB colour.
+    /// Gives a material another sRGB colour. `material` is its number, counted from 0.
     Color { material: usize, srgb: [u8; 3] },
     /// Draws with other settings.
     Settings(Settings),
     /// Gives the yarns' splines another tension.
     Tension(f32),
-    /// Whether yarns settle.
+    /// Sets whether yarns settle.
     Settle(bool),
     /// Saves a copy of the design as it is now.
     Save,
@@ -33,7 +34,7 @@ pub(crate) struct Cloth {
     pub(crate) design: Arc<Design>,
     pub(crate) yarns: Arc<Yarns>,
     pub(crate) settings: Settings,
-    /// Held while a picture is made.
+    /// The scene on the device. It is locked while a picture is made.
     pub(crate) scene: Arc<Mutex<Scene>>,
     pub(crate) extent: Extent,
     pub(crate) triangles: u64,
@@ -51,8 +52,9 @@ pub(crate) struct Cloth {
 #[derive(Debug)]
 pub(crate) enum News {
     Cloth(Box<Cloth>),
-    /// Yarns settle; the share of the work that is done.
+    /// Yarns are settling, and this share of the work is done.
     Settling(f64),
+    /// Settling has ended. The text says how.
     Settled(String),
     Event(Event),
 }

@@ -23,7 +23,7 @@ pub(crate) struct Orbit {
     turn: f32,
     /// The angle over the cloth's plane, radians, from π/2 straight above to -π/2 straight below.
     height: f32,
-    /// From the target to the eye, mm.
+    /// The distance from the target to the eye, mm.
     distance: f32,
     /// Whether all lines of sight are parallel.
     pub(crate) is_parallel: bool,
@@ -86,7 +86,7 @@ impl Orbit {
         }
     }
 
-    /// Goes round the target after a drag by these numbers of pixels to the right and down.
+    /// Turns the eye round the target after a drag by `right` and `down` pixels.
     pub(crate) fn turn(&mut self, [right, down]: [f32; 2]) {
         self.turn -= right * TURN;
         self.height = (self.height + down * TURN).clamp(-FRAC_PI_2, FRAC_PI_2);
@@ -99,8 +99,8 @@ impl Orbit {
         self.target += (above * down - across * right) * pixel;
     }
 
-    /// Comes nearer by a `factor` above 1, or goes away by one below 1. The point of the cloth at
-    /// `at` in a picture of `size`, pixels, stays there.
+    /// Brings the eye nearer by a `factor` above 1, or further away by a factor below 1. The point
+    /// of the cloth that is seen at `at` in a picture of `size`, pixels, stays there.
     pub(crate) fn zoom(&mut self, factor: f32, at: [f32; 2], size: [u32; 2], extent: &Extent) {
         let diagonal = Vec3::from(extent.high).distance(Vec3::from(extent.low));
         let distance = (self.distance / factor).clamp(diagonal * REACH[0], diagonal * REACH[1]);
@@ -120,7 +120,7 @@ mod tests {
     const EXTENT: Extent = Extent { low: [2.0, -1.0, -0.5], high: [32.0, 19.0, 0.5], radius: 0.2 };
     const SIZE: [u32; 2] = [800, 500];
 
-    /// Where a point of the cloth is seen, pixels.
+    /// The place in the picture at which a point of the cloth is seen, pixels.
     fn pixel(orbit: &Orbit, point: [f64; 3]) -> [f64; 2] {
         let matrix = orbit.camera(&EXTENT, SIZE).unwrap().clip_from_cloth();
         let clip: [f64; 4] = std::array::from_fn(|row| {
@@ -161,7 +161,8 @@ mod tests {
         }
     }
 
-    /// A point in the target's plane goes with the pointer, and one under it stays there.
+    /// A point in the target's plane moves with a drag. The point under the pointer stays there
+    /// while the view is zoomed.
     #[test]
     fn what_is_dragged_or_zoomed_stays_under_the_pointer() {
         for side in [Side::Face, Side::Back, Side::Oblique] {

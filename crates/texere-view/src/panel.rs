@@ -1,4 +1,4 @@
-//! The panel beside the cloth: its name, choices, and how long a picture takes.
+//! The panel beside the cloth: the cloth's name, choices, and how long a picture takes.
 
 use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, SliderClamping, Ui};
 use texere::Settings;

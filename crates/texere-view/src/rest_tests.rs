@@ -1,4 +1,4 @@
-//! The window shows the yarns that the library lets come to rest.
+//! Tests that the window shows the same yarns at rest as the library gives.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -36,11 +36,11 @@ const DESIGNS: [(&str, &str); 3] = [
     ),
 ];
 
-/// How long a cloth is waited for, which takes a fraction of a second where a machine is idle.
+/// How long the test waits for a cloth. On an idle machine a cloth takes a fraction of a second.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// The cloths that a window of `view` is sent until one is at rest. The workshop is a thread, as in
-/// the window, and the window is closed once the cloth has come.
+/// The cloths that are sent to a window of `view`, up to the first one that has settled. The
+/// workshop is a thread, as in the window, and the window is closed once the cloth has come.
 fn shown(view: &View) -> Vec<Cloth> {
     let (orders, taken) = channel();
     let (news, told) = channel();
@@ -74,7 +74,7 @@ fn shown(view: &View) -> Vec<Cloth> {
     cloths
 }
 
-/// All that yarns are, to the bit.
+/// All values of yarns, as the bytes of a file.
 fn bytes(yarns: &Yarns) -> Vec<u8> {
     let mut bytes = Vec::new();
     yarns_to(yarns, &mut bytes).unwrap();

@@ -15,21 +15,22 @@ pub struct View {
     /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns
     /// settle.
     pub device: String,
-    /// Settings of the mesh, such as its frame. The fields `sides` and `subdivisions` below take
-    /// the place of its own.
+    /// Settings of the mesh, such as its frame. Its `sides` and `subdivisions` are replaced by the
+    /// fields of these names below.
     pub settings: Settings,
     /// Tension of the yarns' splines, from 0 to below 1.
     pub tension: f32,
-    /// Sides of the tubes; if none, those of [`texere::picture::picture_sides`].
+    /// Number of sides of the tubes. If none, that of [`texere::picture::picture_sides`].
     pub sides: Option<u32>,
-    /// Points inserted between two control points; if none, those of
+    /// Number of points inserted between two control points. If none, that of
     /// [`Settings::following_fibres`].
     pub subdivisions: Option<u32>,
     /// One section for all yarns of the design.
     pub section: Option<Section>,
-    /// Whether yarns settle; if none, as the design says.
+    /// Whether yarns settle. If none, the design decides.
     pub settle: Option<bool>,
-    /// The window's first width and height, in points: pixels where the screen's scale is 1.
+    /// The window's first width and height, in points. A point is a pixel if the screen's scale is
+    /// 1.
     pub size: [u32; 2],
 }
 

@@ -21,8 +21,8 @@ impl Watch {
         watch
     }
 
-    /// Watches these files from now on. A file that was watched before is still compared with its
-    /// last state.
+    /// Watches `files` from now on. A file that was watched before is still compared with its last
+    /// state.
     pub(crate) fn follow(&mut self, files: impl IntoIterator<Item = PathBuf>) {
         let before = std::mem::take(&mut self.files);
         let known = |file: &PathBuf| before.iter().find(|(known, _)| known == file).map(|(_, stamp)| *stamp);
@@ -71,7 +71,7 @@ mod tests {
         fs::write(&design, "one").unwrap();
         let mut watch = Watch::new([design.clone()]);
         assert!(!watch.changed());
-        // It changed while it was read, and it names another file now.
+        // The design has changed while it was read, and names another file now.
         fs::write(&design, "one and two").unwrap();
         watch.follow([design.clone(), image.clone()]);
         assert!(watch.changed() && !watch.changed());

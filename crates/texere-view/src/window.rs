@@ -21,7 +21,7 @@ use crate::watch::Watch;
 use crate::workshop::Workshop;
 use crate::{Event, View, ViewError, device};
 
-/// The wait after which a picture that the device refused is tried again.
+/// The time after which a picture that the device refused is tried again.
 const AGAIN: Duration = Duration::from_millis(50);
 
 /// How long a window that closes waits for the workshop. A device can't be dropped while the
@@ -29,21 +29,23 @@ const AGAIN: Duration = Duration::from_millis(50);
 const LEAVING: Duration = Duration::from_millis(500);
 
 impl View {
-    /// Opens the window and waits until it is closed. `tell` learns what happens in it.
+    /// Opens the window and waits until it is closed. `tell` is called for each event of the
+    /// window.
     ///
     /// ```no_run
     /// texere_view::View::of("designs/herringbone.wif").open(|event| println!("{event}"))?;
     /// # Ok::<(), texere_view::ViewError>(())
     /// ```
     ///
-    /// Call it on the program's main thread: other threads may not open windows on every system.
+    /// Call this on the program's main thread, because some systems let no other thread open
+    /// windows.
     ///
     /// **Errors**: [`ViewError`].
     pub fn open(self, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
         let mut watch = Watch::new([self.design.clone()]);
         let design = self.read()?;
         watch.follow(design.files().iter().cloned());
-        // eframe does not tell why a wrong name fails, so the name is checked first.
+        // eframe does not say why a wrong name fails, so the name is checked first.
         texere::picture::picture_device(&self.device, &WgpuBackend::devices()?)?;
         let options = eframe::NativeOptions {
             viewport: ViewportBuilder::default()
@@ -55,9 +57,9 @@ impl View {
         };
         let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
             let render = context.wgpu_render_state.clone().ok_or("no device")?;
-            // A device does its work in order, and a processor takes seconds for a cloth: the
-            // window would wait behind it, and could not be closed. The cloth therefore has a
-            // device of its own there, from which a copy costs next to nothing.
+            // A device does its work in order. If the device is a processor, a cloth takes it
+            // seconds. The window would have to wait, and could not be closed. Then the cloth has a
+            // device of its own, from which pictures are copied in negligible time.
             let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
             let renderer = if is_apart {
                 texere::picture::open_renderer(&self.device)?
@@ -66,8 +68,8 @@ impl View {
                 Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
             };
             // The surface can't be resized while the workshop gives the device work, and drawing at
-            // the new size then fails on the old surface. Our own calls are in error scopes, so
-            // only that failure comes here. The next picture tries again.
+            // the new size then fails on the old surface. texere's own calls are in error scopes,
+            // so only that failure comes here. The next picture tries again.
             let window = context.egui_ctx.clone();
             render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
             let ((orders, taken), (news, told)) = (channel(), channel());
@@ -110,11 +112,11 @@ impl View {
 pub(crate) struct Window<T> {
     pub(crate) canvas: Canvas,
     orders: Sender<Order>,
-    /// Read by the workshop while it works.
+    /// Whether the window is being closed. The workshop reads it while it works.
     is_closing: Arc<AtomicBool>,
     workshop: JoinHandle<()>,
     news: Receiver<News>,
-    /// None until the first cloth is made.
+    /// The cloth that is shown. None until the first cloth is made.
     pub(crate) cloth: Option<Box<Cloth>>,
     /// The share of the work that is done, while yarns settle.
     pub(crate) settling: Option<f64>,
@@ -122,7 +124,7 @@ pub(crate) struct Window<T> {
     pub(crate) said: Option<String>,
     /// Whether a click changes a lift.
     pub(crate) lifts: bool,
-    /// What lies under the pointer.
+    /// The place on a yarn under the pointer, if there is one.
     pub(crate) place: Option<NamedPlace>,
     tell: T,
 }
@@ -147,8 +149,8 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
         self.panel(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
             let Some(cloth) = &self.cloth else {
-                // A still label: a spinner would be drawn without end, and each time wait for the
-                // workshop's work on the device.
+                // The label does not move. A spinner would be drawn again and again, and each
+                // drawing would wait for the workshop's work on the device.
                 ui.centered_and_justified(|ui| ui.label("The cloth is being made."));
                 return;
             };
@@ -203,7 +205,7 @@ impl<T: FnMut(&Event)> Window<T> {
         }
     }
 
-    /// A place was clicked on.
+    /// Reports a click on a place of a yarn, and changes the lift there if clicks change lifts.
     fn click(&mut self, place: &NamedPlace) {
         let Some(cloth) = &self.cloth else { return };
         (self.tell)(&Event::Picked(place.clone()));
@@ -217,7 +219,7 @@ impl<T: FnMut(&Event)> Window<T> {
         }
     }
 
-    /// Looks at the whole cloth from a side.
+    /// Shows the whole cloth from a side.
     pub(crate) fn look_from(&mut self, side: Side) {
         if let Some(cloth) = &self.cloth {
             self.canvas.look_from(cloth, side);
@@ -225,7 +227,7 @@ impl<T: FnMut(&Event)> Window<T> {
     }
 
     fn keys(&mut self, ui: &egui::Ui) {
-        // A text field takes the keyboard.
+        // A text field has the keyboard.
         if ui.ctx().egui_wants_keyboard_input() {
             return;
         }

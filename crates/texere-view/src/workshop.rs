@@ -22,13 +22,13 @@ use crate::messages::{Cloth, News, Order};
 use crate::watch::Watch;
 use crate::{Event, View};
 
-/// How often files are looked at.
+/// The time between two looks at the design's files.
 const POLL: Duration = Duration::from_millis(150);
 
-/// How long a file has to stay unchanged before it is read: an editor may be writing it.
+/// How long a file has to stay unchanged before it is read, because an editor may be writing it.
 const WRITING: Duration = Duration::from_millis(40);
 
-/// How long a file that keeps changing is waited for. Then it is read as it is.
+/// The longest wait for a file that keeps changing. After that time the file is read as it is.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The work that an order makes necessary, least first.
@@ -39,7 +39,7 @@ enum Change {
     Yarns,
 }
 
-/// Everything that a cloth is made from.
+/// The state of the thread that makes cloth.
 pub(crate) struct Workshop {
     pub(crate) orders: Receiver<Order>,
     /// Whether the window is being closed, so that all work can stop.
@@ -53,11 +53,11 @@ pub(crate) struct Workshop {
     pub(crate) design: Design,
     /// Materials whose colours were changed.
     pub(crate) colors: BTreeMap<usize, [u8; 3]>,
-    /// Lifts as they were before they were changed: end and pick from 0, and whether the warp was
-    /// up.
+    /// Lifts as they were before they were changed: end and pick, counted from 0, and whether the
+    /// warp was up.
     pub(crate) lifts: Vec<(usize, usize, bool)>,
-    /// The device on which yarns settle, opened once: drivers do not free everything that a device
-    /// took.
+    /// The device on which yarns settle. It is opened only once, because drivers do not free all
+    /// memory of a device.
     pub(crate) settler: Option<Box<dyn Backend>>,
     /// The yarns that are shown, and whether they have settled.
     pub(crate) yarns: Option<(Arc<Yarns>, bool)>,
@@ -129,7 +129,8 @@ impl Workshop {
                 self.view.subdivisions = Some(settings.subdivisions);
                 Change::Scene
             }
-            // The slider asks in every frame until the cloth has the tension that it shows.
+            // The slider sends an order in every frame until the cloth has the tension that the
+            // slider shows.
             Order::Tension(tension) if tension == self.view.tension => Change::Nothing,
             Order::Tension(tension) => {
                 self.view.tension = tension;
@@ -187,7 +188,8 @@ impl Workshop {
         Ok(Event::Saved { path, left_out })
     }
 
-    /// Reads the design again if one of its files has changed. A broken file changes nothing.
+    /// Reads the design again if one of its files has changed. A file that can't be read changes
+    /// nothing.
     fn reload(&mut self) -> Change {
         if !self.watch.changed() {
             return Change::Nothing;
@@ -238,7 +240,7 @@ impl Workshop {
                 }
                 self.tell(News::Settled(said));
             }
-            // It was stopped for an order or a changed file.
+            // Settling was stopped for an order or a changed file.
             Err(_) if order.is_some() || self.watch.is_stale() => self.tell(News::Settled(String::new())),
             Err(error) => {
                 // The device may be lost.
@@ -259,7 +261,8 @@ impl Workshop {
             Some(device) => device,
             None => settler.insert(texere::open(&view.device).map_err(FinishError::from)?),
         };
-        // The closure owns these: a receiver can be sent to other threads but not shared with them.
+        // The closure owns the references, because a receiver can be sent to other threads but not
+        // shared with them.
         let progress = move |share| {
             let is_open = news.send(News::Settling(share)).is_ok() && !is_closing.load(Ordering::Relaxed);
             window.request_repaint();
@@ -283,7 +286,7 @@ impl Workshop {
     }
 
     /// Gives the yarns the colours that were chosen, if any. Yarns that the window still shows are
-    /// copied for it.
+    /// copied first.
     fn paint(&mut self) {
         let Some((yarns, _)) = self.yarns.as_mut().filter(|_| !self.colors.is_empty()) else { return };
         let mut materials = yarns.materials().to_vec();
@@ -342,8 +345,8 @@ fn free_beside(design: &Path) -> PathBuf {
     first_free.unwrap_or_else(|| named(u32::MAX))
 }
 
-/// A scene that is ready to be drawn. A small first picture does the work of any first picture, so
-/// that the window need not wait for it.
+/// A scene that is ready to be drawn. A small picture is drawn here, so that the window need not
+/// wait for the work that only a first picture needs.
 fn scene(renderer: &Renderer, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
     let mut scene = renderer.scene(yarns, settings)?;
     let camera = Camera::face(scene.extent(), [8, 8]);

@@ -5,13 +5,13 @@
 //! | know what is wrong with a structure, and which single change would cure it | [`Diagnosis`], [`Faults`], [`Cure`] |
 //! | know whether yarns pierce one another, and where | [`clearance()`], which gives a [`Clearance`]; [`ClothClearance`] names threads |
 //! | know whether yarns have passed through one another when they were moved | [`linking()`], which gives a [`Linking`] |
-//! | know whether tubes of a mesh are wrung, and how many rings would help | [`drawn()`], [`finer`] |
+//! | know whether a mesh's tubes are wrung (narrowed, because neighbouring rings are turned against one another), and how many subdivisions cure that | [`drawn()`], [`finer`] |
 //! | know weight, thickness, cover, crimp and yarn consumption | [`Measures`], [`KnitMeasures`] |
 //!
 //! ```
 //! use texere::check::clearance;
 //! use texere::{ControlPoint, Settings, Yarn, Yarns};
-//! // Two straight yarns of radius 0.125, crossing 0.1875 apart: they pierce.
+//! // Two straight yarns of radius 0.125 mm cross at a distance of 0.1875 mm, so they pierce.
 //! let mut yarns = Yarns::builder();
 //! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
 //! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));

@@ -6,7 +6,7 @@ use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// A family of devices behind one programming interface.
 struct Family {
-    /// The start of its devices' names.
+    /// The start of the names of the family's devices.
     name: &'static str,
     list: fn() -> Result<Vec<DeviceInfo>, BackendError>,
     open: fn(index: usize, schedule: Schedule) -> Result<Box<dyn Backend>, BackendError>,
@@ -28,16 +28,16 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
-/// Families that a build may leave out. The feature that brings one has its name.
+/// Families that a build may leave out. The feature that adds a family has the name of the family.
 const FEATURES: [&str; 2] = ["wgpu", "opencl"];
 
-/// The end of a name that asks for the paper's schedule, a lane a yarn.
+/// The end of a name that asks for the paper's schedule, one lane for each yarn.
 const PER_YARN: &str = "/per-yarn";
 
 /// The devices of this machine, and the families without one.
 #[derive(Debug)]
 pub struct Devices {
-    /// All devices that can be opened; the CPU's come last.
+    /// All devices that can be opened. CPU devices come last.
     pub found: Vec<DeviceInfo>,
     /// Families without a device, each with the reason.
     pub missing: Vec<(&'static str, BackendError)>,
@@ -45,9 +45,10 @@ pub struct Devices {
 
 impl Devices {
     /// The name of the device that `auto` stands for, and the reason in words. A discrete GPU comes
-    /// before an integrated one, and that before the CPU.
+    /// before an integrated one, and an integrated one before the CPU.
     ///
-    /// A GPU interface that runs on the CPU is never chosen, as texere's own CPU backend is faster.
+    /// A GPU interface that runs on the CPU is never chosen, because texere's own CPU backend is
+    /// faster.
     #[must_use]
     pub fn auto(&self) -> (&str, &'static str) {
         let first =
@@ -91,11 +92,11 @@ pub fn devices() -> Devices {
 ///
 /// | name | device |
 /// |---|---|
-/// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says. A GPU that does not open is passed over |
+/// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says. A GPU that does not open is skipped |
 /// | `cpu` | all cores, with the vectors that the environment variable `TEXERE_SIMD` names, if it is set |
 /// | `cpu-serial` | the serial reference |
 /// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
-/// | `opencl`, `opencl:1`, `opencl:nvidia` | likewise (feature `opencl`) |
+/// | `opencl`, `opencl:1`, `opencl:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `opencl`) |
 /// | `opencl:0/per-yarn` | the same device with the paper's mapping, one thread a yarn |
 ///
 /// ```
@@ -163,7 +164,7 @@ fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
 /// Index of the device of `list` that `which` names: by its number, or by part of its maker's name.
 fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
     if which.bytes().all(|byte| byte.is_ascii_digit()) {
-        // An empty `which` comes here, too, and parses as no number.
+        // An empty `which` comes here, too, and does not parse as a number.
         return which.parse().ok().filter(|index| *index < list.len());
     }
     let which = which.to_lowercase();
@@ -173,7 +174,7 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 /// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia` or `auto`.
 ///
 /// `auto` is a discrete GPU, else an integrated one, else any device of `wgpu`: pictures need that
-/// interface, even where it runs on a CPU.
+/// interface, even if it runs on a CPU.
 ///
 /// ```no_run
 /// let design = texere::read("designs/herringbone.wif")?;
@@ -192,11 +193,12 @@ pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError
     texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
 }
 
-/// Index in `list` of the device that [`open_renderer`] opens by that name.
+/// Index in `list` of the device that [`open_renderer`] opens for `name`.
 ///
-/// A program that opens devices itself, such as one that draws into its own window, chooses by it.
+/// A program that opens devices itself, such as one that draws into its own window, chooses a
+/// device by this index.
 ///
-/// **Errors**: [`BackendError::NoDevice`], also where the list is empty.
+/// **Errors**: [`BackendError::NoDevice`], also if the list is empty.
 #[cfg(feature = "render")]
 pub fn picture_device(name: &str, list: &[DeviceInfo]) -> Result<usize, BackendError> {
     let first = |kind| list.iter().position(|device| device.kind == kind);

@@ -1,5 +1,5 @@
-//! Files whose format this build leaves out are refused by the name of its feature. Another package
-//! of the same build may turn on more formats than this one asks for.
+//! Tests that a file whose format this build leaves out is refused with the name of the missing
+//! feature. Another package of the same build may turn on more features than this package asks for.
 
 use std::io::Cursor;
 

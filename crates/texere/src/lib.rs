@@ -50,8 +50,8 @@
 //! ```
 //!
 //! A WIF draft read by itself has no finish, so [`Design::rest`] leaves its yarns as placed unless
-//! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` also where yarns can't
-//! come to rest: [`Cloth::report`] then says so.
+//! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` even if yarns can't come
+//! to rest: [`Cloth::report`] then says so.
 //!
 //! # What to take
 //!
@@ -114,10 +114,10 @@
 //! # Threads
 //!
 //! texere works in the [rayon](https://docs.rs/rayon) pool of the calling thread, and starts no
-//! threads of its own. That is the global pool, or a pool of yours if you call from inside it. It
-//! holds for every call, uploads to a GPU too. Open devices inside the pool as well: the device
-//! `cpu` counts its threads when it is opened. Closures that report progress run on threads of the
-//! pool.
+//! threads of its own. This is the global pool, or a pool of yours if you call from inside that
+//! pool. All calls work in the pool, uploads to a GPU too. Open devices inside the pool as well:
+//! the device `cpu` counts its threads when it is opened. Closures that report progress run on
+//! threads of the pool.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
@@ -140,23 +140,24 @@
 //! Lengths are in mm, angles in radians, twist in rad/mm
 //! ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y
 //! along the warp or wale, z out of the technical face; right-handed. Triangles are
-//! counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in
-//! calls, and from 1 where a weaver reads them.
+//! counter-clockwise seen from outside. Yarns, control points, ends and picks are counted from 0 in
+//! calls, and from 1 in texts for weavers.
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height.
 //!   *Interval* j of the spline runs from point j to the next.
 //! - *Ring*: a cross-section of the mesh. An interval has K + 1 rings: [`Settings::subdivisions`]
 //!   is K. A ring has as many corners as [`Settings::sides`] says.
-//! - *Roll*: how far a ring is turned about the centreline. A *scan* adds up rolls along yarns.
+//! - *Roll*: how far a ring is turned about the centreline. A *scan* adds up the rolls of the steps
+//!   from ring to ring along yarns.
 //! - *Block*: up to 64 rings of one yarn.
 //! - *Chunk*: blocks that are worked on, read and drawn together, few enough for the device's
 //!   memory.
 //! - *Slot*: a place for a chunk in a device's memory. A chunk is *in flight* from its first stage
 //!   until another chunk takes its slot.
 //! - *Room*: memory between the yarns of a [`Live`] mesh, so that a yarn may get longer without
-//!   moving the others.
+//!   moving the other yarns.
 //!
-//! An error's message is one line. The message of a driver or a file system below it is its
+//! An error's message is one line. The message of a driver or a file system is the error's
 //! [`source`](std::error::Error::source).
 
 pub mod backend;

@@ -16,13 +16,13 @@ pub use self::error::LiveError;
 
 /// A fabric that is being edited, and its whole mesh on a device.
 ///
-/// Lifts, yarns, control points and colours change one by one. [`Live::update`] makes again what
-/// has changed and no more; the mesh is then that of the edited fabric made from scratch. To undo
+/// Lifts, yarns, control points and colours change one by one. [`Live::update`] makes again only
+/// what has changed. The mesh is then equal to that of the edited fabric made from scratch. To undo
 /// an edit, set the old value again.
 ///
 /// Yarns lie as they are woven or knitted, not at rest. [`Live::set_rest`] takes yarns that have
-/// come to rest in the meantime. A yarn that is edited later lies as it is woven, among those at
-/// rest.
+/// come to rest in the meantime. A thread whose lift is set later lies as it is woven, among the
+/// yarns at rest.
 ///
 /// The first update makes the whole mesh. After an update that is [`anew`](Update::anew), ask for
 /// the mesh's buffers again.
@@ -53,26 +53,26 @@ pub struct Live {
     device: Arc<dyn Backend>,
     settings: Settings,
     source: Source,
-    /// Yarns that were set one by one, by number, in place of the source's.
+    /// Yarns that replace yarns of the source, by number.
     set: BTreeMap<usize, SetYarn>,
     materials: Vec<Material>,
     mesh: LiveMesh,
-    /// Whether another mesh has begun since the last update.
+    /// Whether a new mesh was begun since the last update.
     anew: bool,
-    /// Made for the first ray, dropped when another mesh begins.
+    /// The picker. It is made for the first ray, and dropped when a new mesh is begun.
     picker: Option<Picker>,
 }
 
-/// A yarn in place of the source's.
+/// A yarn that replaces a yarn of the source.
 #[derive(Debug)]
 struct SetYarn {
     what: Yarn,
     points: Vec<ControlPoint>,
-    /// Its sources, where they were given.
+    /// The sources of its control points, if they were given.
     sources: Option<Vec<u32>>,
-    /// Its up direction at each control point, where they were given.
+    /// Its up direction at each control point, if up directions were given.
     ups: Option<Vec<Vec3>>,
-    /// The source's yarn.
+    /// The yarn of the source that is replaced.
     before: Yarn,
 }
 
@@ -95,18 +95,18 @@ pub struct Update {
 }
 
 impl Live {
-    /// Woven cloth, its mesh on `device`.
+    /// Starts with woven cloth, whose mesh is made on `device`.
     ///
-    /// **Errors**: [`LiveError::Fabric`] where its yarns can't be made, [`LiveError::Session`]
-    /// where the mesh can't be planned or has no room on the device.
+    /// **Errors**: [`LiveError::Fabric`] if the cloth's yarns can't be made, [`LiveError::Session`]
+    /// if the mesh can't be planned or has no room on the device.
     pub fn weave(device: Arc<dyn Backend>, cloth: Woven, settings: Settings) -> Result<Self, LiveError> {
         let yarns = cloth.yarns()?;
         let mesh = start(&*device, &yarns, settings)?;
         Ok(Self::of(device, settings, mesh, yarns.materials().to_vec(), Source::Loom(Loom::new(cloth))))
     }
 
-    /// Any structure, its mesh on `device`: woven cloth by [`Live::weave`], knits by
-    /// [`Live::given`].
+    /// Starts with any structure, whose mesh is made on `device`: woven cloth by [`Live::weave`],
+    /// knits by [`Live::given`].
     ///
     /// **Errors**: the errors of [`Live::weave`].
     pub fn new(
@@ -120,9 +120,9 @@ impl Live {
         }
     }
 
-    /// Yarns of any origin, their mesh on `device`.
+    /// Starts with yarns of any origin, whose mesh is made on `device`.
     ///
-    /// **Errors**: [`LiveError::Session`] where the mesh can't be planned or has no room on the
+    /// **Errors**: [`LiveError::Session`] if the mesh can't be planned or has no room on the
     /// device.
     pub fn given(device: Arc<dyn Backend>, yarns: Yarns, settings: Settings) -> Result<Self, LiveError> {
         let mesh = start(&*device, &yarns, settings)?;
@@ -141,7 +141,7 @@ impl Live {
     }
 
     /// The cloth as it is now, if the fabric is woven. Yarns that were [set](Live::set_yarn) have
-    /// their new material, section and twist in it, but lie as they are woven.
+    /// their new material, section and twist in this cloth, but lie as they are woven.
     #[must_use]
     pub const fn woven(&self) -> Option<&Woven> {
         match &self.source {
@@ -174,11 +174,11 @@ impl Live {
         &self.materials
     }
 
-    /// Makes the parts of the mesh again that have changed since the last update. It may return
-    /// before the device is done; later reads and draws wait for the device.
+    /// Makes the parts of the mesh again that have changed since the last update. The call may
+    /// return before the device is done. Later reads and draws wait for the device.
     ///
-    /// **Errors**: [`LiveError::Session`] of the device; the next update makes the same parts
-    /// again.
+    /// **Errors**: [`LiveError::Session`] of the device. After an error the next update makes the
+    /// same parts again.
     pub fn update(&mut self) -> Result<Update, LiveError> {
         let changes = self.mesh.update()?;
         Ok(Update { changes, anew: std::mem::take(&mut self.anew) })
@@ -194,8 +194,8 @@ impl Live {
     /// The first triangle that `ray` hits, or none. Edits count at once, before an update. The
     /// first ray makes a [`Picker`], which edits then keep up to date.
     ///
-    /// **Errors**: the errors of [`Live::yarns`], and [`LiveError::Pick`] where there is no memory
-    /// for the picker.
+    /// **Errors**: the errors of [`Live::yarns`], and [`LiveError::Pick`] if there is no memory for
+    /// the picker.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -237,7 +237,7 @@ impl Live {
     /// yarn that was [set](Live::set_yarn) has the source of the old point at the same share of the
     /// yarn.
     ///
-    /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] where they can't be made.
+    /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] if the yarns can't be made.
     pub fn yarns(&self) -> Result<Yarns, LiveError> {
         let yarns = match &self.source {
             Source::Loom(loom) => loom.cloth().yarns()?,
@@ -268,8 +268,8 @@ impl Live {
         Ok(all.with_ups(ups)?)
     }
 
-    /// Yarn number `yarn`, from 0, alone as it is now, with its sources. That is enough to name a
-    /// place on it.
+    /// Yarn number `yarn`, counted from 0, alone as it is now, with its sources. No other yarn is
+    /// needed to name a place on it.
     ///
     /// **Errors**: [`LiveError::NoYarn`], and the errors of [`Live::yarns`].
     pub fn only(&self, yarn: usize) -> Result<Yarns, LiveError> {
@@ -300,7 +300,7 @@ impl Live {
     }
 
     /// Adds the sources of yarn number `yarn`, which has `count` control points now, to `sources`.
-    /// `told` holds the sources of the yarn that it has in the source.
+    /// `told` holds the sources of the yarn of that number in `self.source`.
     fn tell(&self, yarn: usize, told: Option<&[u32]>, count: usize, sources: &mut Vec<u32>) {
         match (told, self.set.get(&yarn)) {
             (_, Some(SetYarn { sources: Some(said), .. })) => sources.extend_from_slice(said),
@@ -347,7 +347,7 @@ impl Live {
         ups.map_or_else(|| vec![Vec3::Z.to_array(); count], |ups| ups.iter().map(Vec3::to_array).collect())
     }
 
-    /// A new mesh of `yarns`, with attributes where the present one keeps them.
+    /// A new mesh of `yarns`, with attributes if the present mesh keeps them.
     fn another(&self, yarns: &Yarns) -> Result<LiveMesh, LiveError> {
         let mut mesh = start(&*self.device, yarns, self.settings)?;
         if self.mesh.keeps_attributes() {
@@ -357,7 +357,8 @@ impl Live {
     }
 }
 
-/// A mesh of `yarns`, each with room for an eighth more control points, and sixteen.
+/// A mesh of `yarns`. Each yarn has room for an eighth more control points, and for sixteen on top
+/// of that.
 fn start(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> Result<LiveMesh, LiveError> {
     let offsets = yarns.layout().offsets();
     let room = |yarn: usize| {

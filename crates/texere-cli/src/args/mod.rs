@@ -71,12 +71,12 @@ pub(crate) struct InspectArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Count alone, without measures, clearance and bends, which take seconds where there are
-    /// millions of control points. Nothing settles
+    /// Only count, without measures, clearance and bends, which take seconds for millions of
+    /// control points. Yarns do not settle
     #[arg(long, conflicts_with_all = ["settle", "settling_plot"])]
     pub(crate) counts: bool,
-    /// Say which yarns lie under a point, the topmost first, and what made them; mm from the
-    /// cloth's left and lower edges
+    /// Say which yarns lie under a point, the topmost first, and what made them. The point is given
+    /// in mm from the cloth's left and lower edges
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f32; 2]>,
 }
@@ -85,8 +85,9 @@ pub(crate) struct InspectArgs {
 pub(crate) struct CheckArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
-    /// How far short of touching, as a share, yarns may come and still count as touching. Where
-    /// yarns touch by construction the spline between their control points comes out at 0.99 of it
+    /// How much nearer than touching two yarns may come before they count as piercing, as a share.
+    /// Yarns whose control points are placed to touch come as near as 0.99 of touching between the
+    /// points
     #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
     pub(crate) accuracy: f64,
     #[command(flatten)]
@@ -101,8 +102,8 @@ pub(crate) struct MeshArgs {
     /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
     /// cloth
     pub(crate) design: PathBuf,
-    /// The file to write: .glb or .ply; or .yarns, which saves the cloth at rest without a mesh, so
-    /// that it need not settle again
+    /// The file to write: .glb or .ply, or .yarns, which saves the cloth at rest without a mesh, so
+    /// that the cloth need not settle again
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
     pub(crate) output: PathBuf,
     /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl,
@@ -119,12 +120,14 @@ pub(crate) struct MeshArgs {
 pub(crate) struct DraftArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
-    /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point
-    /// paper where there is no shaft draft; of a knit the stitch chart and the needle diagram
+    /// The picture to write, a .png file. It shows threading, tie-up, treadling and drawdown of a
+    /// woven design, or the point paper if there is no shaft draft. It shows stitch chart and
+    /// needle diagram of a weft knit, and the lappings of a warp knit
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
     pub(crate) output: Option<PathBuf>,
     /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft
-    /// is, end 1 on the left. A knit has a row for each course, in the symbols of its charts
+    /// is, end 1 on the left. A weft knit has a row for each course, in the symbols of its charts,
+    /// and a warp knit a row for each guide bar
     #[arg(long, required_unless_present = "output")]
     pub(crate) text: bool,
     /// Show the back of the cloth, turned over sideways: end 1 on the right
@@ -136,8 +139,8 @@ pub(crate) struct DraftArgs {
 pub(crate) struct ConvertArgs {
     /// A woven design: a .toml design or a .wif draft
     pub(crate) design: PathBuf,
-    /// The file to write: .wif, which other weaving programs read, or .toml, which holds all but
-    /// the draft
+    /// The file to write: .wif, which other weaving programs read, or .toml, which holds everything
+    /// but the shaft draft
     #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml"]))]
     pub(crate) output: PathBuf,
 }

@@ -11,7 +11,7 @@ pub(crate) fn is_yarns(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns"))
 }
 
-/// A path with the ending of a mesh file, or of saved yarns.
+/// The parser of a path that must have the ending of a mesh file or of saved yarns.
 pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match Format::from_path(&path) {
         Err(error) if !is_yarns(&path) => Err(format!("{error}; and yarns, without a mesh")),
@@ -19,7 +19,7 @@ pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-/// A path with one of these `endings`, in upper or lower case.
+/// The parser of a path that must have one of `endings`, in upper or lower case.
 pub(super) fn file_of(endings: &'static [&'static str]) -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(move |path| {
         let is_one = |given: &OsStr| endings.iter().any(|ending| given.eq_ignore_ascii_case(ending));

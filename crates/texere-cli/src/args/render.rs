@@ -22,21 +22,24 @@ pub(crate) struct RenderArgs {
     /// From where the cloth is seen
     #[arg(long, value_enum, default_value_t = View::Face)]
     pub(crate) view: View,
-    /// The point that a close-up or a cut shows, mm from the cloth's left and lower edges; if left
-    /// out its middle, or for a cut the middle of the thread nearest to it
+    /// The point that a close-up or a cut shows, mm from the cloth's left and lower edges. If left
+    /// out, a close-up shows the middle of the cloth, and a cut the middle of the thread nearest to
+    /// that
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f32; 2]>,
-    /// What a close-up or a cut shows, mm across; if left out, forty times a yarn's radius
+    /// The width of cloth that a close-up or a cut shows, mm. If left out, forty times a yarn's
+    /// radius
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) width: Option<f32>,
-    /// Show face or back at true scale, with this many millimetres to a pixel; the picture is as
+    /// Show face or back at true scale, with this many millimetres to a pixel. The picture is as
     /// large as the cloth needs
     #[arg(long, value_name = "MM", conflicts_with = "size", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) mm_per_pixel: Option<f32>,
-    /// Pictures of a turntable
+    /// Number of pictures of a turntable
     #[arg(long, value_name = "N", default_value_t = 36, value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub(crate) frames: u32,
-    /// Pixels drawn for each pixel of the picture, each way; each has four samples
+    /// How many pixels are drawn for each pixel of the picture, across and down. Each drawn pixel
+    /// has four samples
     #[arg(long, value_name = "N", default_value_t = Quality::default().supersampling, value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) supersampling: u32,
     /// What is seen where no yarn is: ground, none for a transparent picture, or a colour as

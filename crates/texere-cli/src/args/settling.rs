@@ -17,8 +17,8 @@ pub(crate) struct SettlingArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RestArgs {
-    /// Let yarns come to rest first, whatever the design says: they move until none pierces another
-    /// or folds
+    /// Let yarns come to rest first, whatever the design says. Yarns move until none pierces
+    /// another or folds
     #[arg(long, conflicts_with = "no_settle")]
     settle: bool,
     /// Leave yarns as the structure places them, whatever the design says
@@ -32,7 +32,7 @@ impl SettlingArgs {
         self.rest.settles().unwrap_or(design.settle)
     }
 
-    /// The option that asks yarns to settle, if one does.
+    /// The option of the command line that needs yarns to settle, if one is given.
     pub(crate) fn asked(&self) -> Option<&'static str> {
         let plot = self.settling_plot.as_ref().map(|_| "--settling-plot");
         if self.rest.settle { Some("--settle") } else { plot }
@@ -40,7 +40,7 @@ impl SettlingArgs {
 }
 
 impl RestArgs {
-    /// Whether yarns settle, if the command line says so.
+    /// Whether yarns settle, or none if the command line does not say.
     pub(crate) const fn settles(&self) -> Option<bool> {
         match (self.settle, self.no_settle) {
             (true, _) => Some(true),

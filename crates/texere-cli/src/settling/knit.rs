@@ -19,23 +19,25 @@ pub(crate) struct KnitRestReport {
     verdict: Verdict,
     #[serde(skip)]
     pub(super) press_missed: Option<String>,
-    /// Passes in all, and those of the block form among them.
+    /// Number of all passes.
     passes: u32,
+    /// Number of the passes in the block form.
     block_passes: u32,
-    /// The least clearance of surfaces as drawn: 1 where they touch.
+    /// The least clearance of surfaces as drawn, 1 if they touch.
     #[serde(serialize_with = "as_near_as_looked")]
     pub(super) clearance: f64,
-    /// The least radius of curvature.
+    /// The least radius of curvature, in diameters of the yarn.
     radius_diameters: f32,
     /// The most by which the length of a part of a yarn differs from the length that it is to have,
-    /// as a share; null where lengths are free.
+    /// as a share. Null if lengths are free.
     length_off: Option<f32>,
-    /// How thick it was to be pressed, and how thick it is.
+    /// How thick the cloth was to be pressed, and how thick it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     press: Option<PressReport>,
-    /// Whether no yarn has passed through another.
+    /// Whether it is known that no yarn has passed through another. If not, all yarns are as the
+    /// structure places them.
     linked: bool,
-    /// The worst place where one has; the yarns are then as they were before.
+    /// The worst place where a yarn has passed through another.
     passage: Option<PassageReport>,
 }
 
@@ -52,7 +54,7 @@ struct PassageReport {
     yarns: [String; 2],
     /// Half way between the two centrelines, mm.
     place_mm: [f64; 3],
-    /// By how much their linking integral has changed.
+    /// The change of the two yarns' linking integral.
     change: f64,
 }
 

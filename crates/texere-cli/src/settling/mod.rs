@@ -1,4 +1,4 @@
-//! Yarns that settle before they are measured, drawn or written, and the report of it.
+//! Lets yarns settle before they are measured, drawn or written, and reports how they did.
 
 mod knit;
 mod plot;
@@ -21,7 +21,7 @@ use knit::KnitRestReport;
 use plot::plot;
 use woven::WovenRestReport;
 
-/// How yarns have come to rest.
+/// How yarns have settled, or why they could not.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub(crate) enum SettlingReport {

@@ -1,4 +1,4 @@
-//! How yarns came to rest, pass by pass, as SVG.
+//! Draws how yarns came to rest, pass by pass, as SVG.
 
 use std::fmt::Write;
 
@@ -21,11 +21,11 @@ const LINES: [Line; 4] = [
     ("longest step, mm", "#cc79a7", |seen| seen.step),
 ];
 
-/// Powers of ten that an axis reaches over at most, from the largest value down.
+/// The most powers of ten on the vertical axis, from the largest value down.
 const DECADES: i32 = 9;
 
 /// Draws clearance, bends, lengths and steps on a logarithmic scale over the passes of `course`.
-/// Values of 0 and infinite ones have no place on it and leave a gap.
+/// Values of 0 and infinite values have no place on that scale, and leave a gap.
 pub(crate) fn plot(course: &[(Pass, SettlingSeen)]) -> String {
     let values = || course.iter().flat_map(|(_, seen)| LINES.map(|(.., value)| value(seen))).filter(is_drawn);
     let decade = |value: f32| f64::from(value).log10();
@@ -48,7 +48,7 @@ fn is_drawn(value: &f32) -> bool {
     value.is_finite() && *value > 0.0
 }
 
-/// Passes from the left to the right, powers of ten from below to above.
+/// The axes of the plot: passes from left to right, powers of ten from the bottom to the top.
 struct Axes {
     passes: usize,
     low: i32,
@@ -82,7 +82,7 @@ impl Axes {
     }
 }
 
-/// A line where each stage begins, and its name.
+/// Draws a line where each stage begins, with the name of the stage.
 fn stages(svg: &mut String, course: &[(Pass, SettlingSeen)], axes: &Axes) -> std::fmt::Result {
     let mut last = "";
     for (number, (pass, _)) in course.iter().enumerate().skip(1) {
@@ -102,7 +102,7 @@ fn stages(svg: &mut String, course: &[(Pass, SettlingSeen)], axes: &Axes) -> std
     Ok(())
 }
 
-/// One line, with its name at the right.
+/// Draws one line of the plot, and its name at the right.
 fn curve(
     svg: &mut String,
     course: &[(Pass, SettlingSeen)],
@@ -158,7 +158,8 @@ mod tests {
     fn what_has_no_logarithm_leaves_a_gap() {
         let course = [0.0, 0.1, 0.01, 0.0, 1.0].map(|off| pass(Form::Weighted, 1.0, 0.0, 1.0, off));
         let svg = plot(&course);
-        // From 1e-3, the steps, to 1: 150 pixels a power of ten. Bends are infinite.
+        // The axis goes from 1e-3, the step of every pass, to 1, with 150 pixels for each power of
+        // ten. Radii of curvature are infinite, so their line is empty.
         assert!(svg.contains("d=\"M217.5 190.0L375.0 340.0M690.0 40.0\"/>"), "{svg}");
         assert!(svg.contains("stroke=\"#009e73\" stroke-width=\"1.5\" d=\"\"/>"), "{svg}");
         assert!(plot(&[]).ends_with("</svg>\n"));

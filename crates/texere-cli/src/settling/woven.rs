@@ -17,12 +17,13 @@ pub(crate) struct WovenRestReport {
     #[serde(skip)]
     verdict: Verdict,
     passes: u32,
-    /// Ends and picks of the repeat that has settled.
+    /// Number of ends and picks of the repeat that has settled.
     repeat: Sets<usize>,
-    /// The least clearance of surfaces as drawn, before and after threads were made thinner where
-    /// they lacked it.
+    /// The least clearance of surfaces as drawn, before threads were made thinner where they lacked
+    /// clearance.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance_before: f64,
+    /// The least clearance of surfaces as drawn, at rest.
     #[serde(serialize_with = "as_near_as_looked")]
     pub(super) clearance: f64,
     /// How many times threads were made thinner.

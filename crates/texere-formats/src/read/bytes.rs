@@ -70,7 +70,7 @@ impl<'a> Bytes<'a> {
         self.take(field).map(f32::from_le_bytes)
     }
 
-    /// Passes by four unused bytes, which have to be 0.
+    /// Skips four unused bytes, which must be 0.
     pub(super) fn unused(&mut self, field: &'static str) -> Result<(), ReadError> {
         let at = self.at();
         match self.word(field)? {
@@ -96,16 +96,16 @@ impl<'a> Bytes<'a> {
         Ok(name)
     }
 
-    /// A count of things that take `each` bytes at least. It is refused where the bytes left have
-    /// no room for them.
+    /// Reads a number of items of at least `each` bytes. It is refused if the bytes left are too
+    /// few for so many items.
     pub(super) fn count(&mut self, field: &'static str, each: u64) -> Result<usize, ReadError> {
         let at = self.at();
         let count = self.long(field)?;
         self.room_for(at, field, count, each)
     }
 
-    /// Checks that the bytes left have room for `count` things of `each` bytes at least. The count
-    /// stands at byte `at`.
+    /// Checks that the bytes left have room for `count` items of at least `each` bytes, and returns
+    /// the count. The count stands at byte `at` of the file.
     pub(super) fn room_for(
         &self,
         at: u64,
@@ -118,7 +118,7 @@ impl<'a> Bytes<'a> {
             let expected = format_args!("{most} at most, for which there are bytes");
             return Err(self.refused(at, field, count, expected));
         }
-        // The count fits, for it is at most the number of bytes in memory.
+        // The count fits into `usize`, because it is at most the number of bytes in memory.
         Ok(count as usize)
     }
 
@@ -133,8 +133,8 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Checks the CRC-32 in the last four bytes, which is over all bytes before it, and takes these
-    /// four bytes off the bytes left.
+    /// Checks the CRC-32 in the last four bytes, which is that of all bytes before it. The four
+    /// bytes are then no longer among the bytes left.
     pub(super) fn check_sum(&mut self, field: &'static str) -> Result<(), ReadError> {
         let Some((left, stated)) = self.left.split_last_chunk() else {
             return Err(self.cut_short(field, 4));
@@ -149,7 +149,7 @@ impl<'a> Bytes<'a> {
         Ok(())
     }
 
-    /// Checks that nothing is left.
+    /// Checks that no bytes are left.
     pub(super) fn end(&self) -> Result<(), ReadError> {
         match self.left.len() {
             0 => Ok(()),

@@ -171,7 +171,7 @@ impl Design {
 
     /// The design with the files that it was read from.
     pub(super) fn read_from(self, files: &[PathBuf]) -> Self {
-        // Paths become absolute, because a program may change its folder later. Where the present
+        // Paths become absolute, because a program may change its folder later. If the present
         // folder is not known, a path stays as it is.
         let absolute = |file: &PathBuf| path::absolute(file).unwrap_or_else(|_| file.clone());
         Self { files: files.iter().map(absolute).collect(), ..self }
@@ -203,7 +203,7 @@ impl Design {
     /// A place on one of `yarns` in a designer's words: thread, crossing or stitch, material, and
     /// place in the knitting program. `yarns` are the design's own, settled or not.
     ///
-    /// **Panics** where `place` is past the last yarn.
+    /// **Panics** if `place` is past the last yarn.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -251,7 +251,7 @@ impl Design {
 
     /// The yarns of the structure as it places them: [`Structure::yarns`].
     ///
-    /// **Errors**: [`FabricError`] where the structure can't be made.
+    /// **Errors**: [`FabricError`] if the structure can't be made.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         self.structure.yarns()
     }

@@ -9,12 +9,12 @@ use texere_fabric::weft::ChartError;
 use texere_fabric::{FabricError, WovenError, hyphen_look_alike};
 use thiserror::Error;
 
-/// A place in a design file.
+/// A place in the file of a design.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FilePlace {
     /// The file.
     pub file: PathBuf,
-    /// The line, from 1.
+    /// The line, counted from 1.
     pub line: usize,
     /// Section and key, as the file's format writes them.
     pub field: String,
@@ -35,7 +35,7 @@ const SAID: usize = 160;
 /// The most characters of a path that an error shows.
 const PATH_SHOWN: usize = 160;
 
-/// A file's text as errors show it: on one line, without codes that steer a terminal, cut where it
+/// A file's text as errors show it: on one line, without codes that steer a terminal, and cut if it
 /// is long.
 pub(super) fn shown(text: &str) -> String {
     cut(text, SHOWN)
@@ -48,7 +48,7 @@ fn cut(text: &str, most: usize) -> String {
     plain(text) + if rest.is_empty() { "" } else { "…" }
 }
 
-/// A parser's or decoder's message as errors show it: on one line, cut where it is long.
+/// A parser's or decoder's message as errors show it: on one line, and cut if it is long.
 pub(super) fn said(message: &str) -> String {
     let words = message.split_whitespace().collect::<Vec<_>>().join(" ");
     cut(&plain(&words), SAID)
@@ -90,12 +90,12 @@ pub(super) fn first_few(names: impl ExactSizeIterator<Item = String>) -> String 
     if more > 0 { format!("{few} and {more} more") } else { few }
 }
 
-/// A word in quotes, or a note that the line ends where the word is empty.
+/// A word in quotes. For an empty word, a note that the line ends.
 fn quoted(word: &str) -> String {
     if word.is_empty() { "the line ends".into() } else { format!("\"{word}\"") }
 }
 
-/// A number as people write it: with an exponent where it would have many zeros.
+/// A number as people write it: with an exponent if it would have many zeros.
 struct Short(f64);
 
 impl fmt::Display for Short {
@@ -115,7 +115,7 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// A design that can't be read.
+/// A design or a file of saved yarns that can't be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -155,7 +155,7 @@ pub enum ReadError {
         file: PathBuf,
         /// The size of the file, bytes.
         bytes: u64,
-        /// The most bytes that are taken.
+        /// The most bytes that a file of its kind may have.
         limit: u64,
     },
     /// texere does not know the file's ending.
@@ -173,7 +173,7 @@ pub enum ReadError {
         file: PathBuf,
         /// The section.
         section: &'static str,
-        /// Why it is needed.
+        /// Why the section is needed.
         needed_for: &'static str,
     },
     /// A key that the design needs is missing or empty.
@@ -183,7 +183,7 @@ pub enum ReadError {
         file: PathBuf,
         /// Section and key.
         field: String,
-        /// Why it is needed.
+        /// Why the key is needed.
         needed_for: &'static str,
     },
     /// A value that is not of the expected kind.
@@ -213,7 +213,7 @@ pub enum ReadError {
     UnknownKey {
         /// The place in the file.
         place: FilePlace,
-        /// The known key nearest to it in spelling.
+        /// The known key that is nearest to the unknown one in spelling, if any is near.
         nearest: Option<String>,
     },
     /// A design has to have exactly one of some keys, and has none of them or several.
@@ -229,7 +229,7 @@ pub enum ReadError {
     Syntax {
         /// The file.
         file: PathBuf,
-        /// The line, from 1.
+        /// The line, counted from 1.
         line: usize,
         /// The message of the parser.
         message: String,
@@ -239,13 +239,13 @@ pub enum ReadError {
     Word {
         /// The file.
         file: PathBuf,
-        /// The line, from 1.
+        /// The line, counted from 1.
         line: usize,
-        /// The column at which the word begins, in letters from 1.
+        /// The column at which the word begins, in letters counted from 1.
         column: usize,
-        /// The word; empty where the line ends too early.
+        /// The word. It is empty if the line ends too early.
         value: String,
-        /// What the format allows there.
+        /// What the format allows in place of the word.
         expected: String,
     },
     /// A value that the file's format does not allow for its key.
@@ -261,7 +261,7 @@ pub enum ReadError {
     Without {
         /// The place in the file.
         place: FilePlace,
-        /// The key that it needs.
+        /// The key that is missing.
         needs: &'static str,
     },
     /// A notation that stands for no weave.
@@ -280,7 +280,7 @@ pub enum ReadError {
         /// The reason.
         source: ChartError,
     },
-    /// An operation of a knitting program that no machine takes.
+    /// An operation of a knitting program that can't be carried out.
     #[error("{place} can't be knitted")]
     Operation {
         /// The place: a line of a file, or a cell of a chart.
@@ -312,7 +312,7 @@ pub enum ReadError {
         /// The reason.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// An image larger than the largest cloth. No memory was taken for it.
+    /// An image larger than the largest cloth. No memory was reserved for the image.
     #[error(
         "{} is {width} × {height} pixels; each side may have {side_limit} at most, and both together {limit}",
         named(.file)
@@ -320,13 +320,13 @@ pub enum ReadError {
     ImageTooLarge {
         /// The file.
         file: PathBuf,
-        /// Its width, pixels.
+        /// The width of the image, pixels.
         width: u32,
-        /// Its height, pixels.
+        /// The height of the image, pixels.
         height: u32,
-        /// Most pixels of a side.
+        /// The most pixels of a side.
         side_limit: u32,
-        /// Most pixels of the image.
+        /// The most pixels of an image.
         limit: u64,
     },
     /// A pixel of a colour without a meaning.
@@ -334,11 +334,11 @@ pub enum ReadError {
     Pixel {
         /// The image.
         file: PathBuf,
-        /// The first such pixel's column, from 1 at the left.
+        /// The column of the first pixel of that colour, counted from 1 at the left.
         column: usize,
-        /// Its row, from 1 at the top.
+        /// The row of that pixel, counted from 1 at the top.
         row: usize,
-        /// Its colour: #rrggbb, and its opacity where it is not opaque.
+        /// The pixel's colour: #rrggbb, and the opacity unless it is opaque.
         color: String,
         /// What the pixel should be.
         expected: String,
@@ -349,7 +349,7 @@ pub enum ReadError {
     Corner {
         /// The place of the polygon in the file.
         place: FilePlace,
-        /// The corner, from 1.
+        /// The corner, counted from 1.
         corner: usize,
     },
     /// A section with numbers out of range.
@@ -369,7 +369,7 @@ pub enum ReadError {
         source: FabricError,
     },
     /// A file of saved yarns where a design is needed. [`read::yarns`](fn@crate::read::yarns) reads
-    /// it.
+    /// saved yarns.
     #[error("{} holds saved yarns alone, and this needs the design that they are of", named(.file))]
     WithoutDesign {
         /// The file.
@@ -380,7 +380,7 @@ pub enum ReadError {
     Bytes {
         /// The file.
         file: PathBuf,
-        /// The byte at which the value begins, from 0.
+        /// The byte at which the value begins, counted from 0.
         at: u64,
         /// The field of the format.
         field: &'static str,
@@ -390,7 +390,7 @@ pub enum ReadError {
         expected: String,
     },
     /// Saved yarns with values that yarns can't have.
-    #[error("{} holds no sound yarns", named(.file))]
+    #[error("{} holds no valid yarns", named(.file))]
     Yarns {
         /// The file.
         file: PathBuf,
@@ -398,7 +398,7 @@ pub enum ReadError {
         source: YarnError,
     },
     /// Saved yarns with a boundary that yarns can't have.
-    #[error("{} holds no sound boundary", named(.file))]
+    #[error("{} holds no valid boundary", named(.file))]
     Boundary {
         /// The file.
         file: PathBuf,
@@ -432,7 +432,7 @@ impl ReadError {
     }
 
     /// The refusal of the design in `file` by its structure. A lack of memory stays
-    /// [`ReadError::OutOfMemory`], for the design is not at fault.
+    /// [`ReadError::OutOfMemory`], because the design is not at fault.
     pub(super) fn fabric(file: &Path, source: FabricError) -> Self {
         match source {
             FabricError::OutOfMemory(error) => Self::OutOfMemory(error),
@@ -441,7 +441,7 @@ impl ReadError {
     }
 
     /// Adds the `place` in the design that names the file of this error. A lack of memory stays
-    /// [`ReadError::OutOfMemory`], for the file is not at fault.
+    /// [`ReadError::OutOfMemory`], because the file is not at fault.
     pub(super) fn named(self, place: FilePlace) -> Self {
         match self {
             Self::OutOfMemory(_) => self,

@@ -1,5 +1,5 @@
-//! Files as readers get them: regular files on a disk, or bytes that a program has in memory. Each
-//! kind of file has a largest size.
+//! The files that readers read: regular files on a disk, or bytes that a program has in memory.
+//! Each kind of file has a largest size.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::Read;
@@ -77,7 +77,7 @@ pub(super) fn small(path: &Path, bytes: u64, limit: u64) -> Result<(), ReadError
 fn options() -> OpenOptions {
     use std::os::unix::fs::OpenOptionsExt;
     let mut options = File::options();
-    // With this flag the open does not block either where a pipe has taken the file's place.
+    // With this flag the open does not block even if a pipe has taken the file's place.
     options.read(true).custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
     options
 }

@@ -1,5 +1,5 @@
-//! From an error of a cloth to the key of its design. Structures and settlers name threads, bars
-//! and sizes in their errors. A file has keys and lines for these.
+//! Finds the key of a design that an error of its cloth is about. Structures and settlers name
+//! threads, bars and sizes in their errors. In a file these have keys, on certain lines.
 
 use std::path::{Path, PathBuf};
 
@@ -23,6 +23,8 @@ const SIZE: &[&str] = &[
     "warp_knit.wales",
     "[WARP] threads",
 ];
+
+/// Keys that say how threads interlace.
 const STRUCTURE: &[&str] = &[
     "knit.chart",
     "knit.image",
@@ -35,6 +37,8 @@ const STRUCTURE: &[&str] = &[
     "[TIEUP]",
     "[LIFTPLAN]",
 ];
+
+/// Keys that say how close wales lie.
 const WALES: &[&str] = &[
     "knit.wales_per_cm",
     "knit.needles_per_inch",
@@ -44,8 +48,12 @@ const WALES: &[&str] = &[
     "knit.knitout",
     GAUGE,
 ];
+
+/// Keys that say how close courses lie.
 const COURSES: &[&str] =
     &["knit.courses_per_cm", "warp_knit.courses_per_cm", "knit.loop_length_mm", "knit.knitout", GAUGE];
+
+/// Keys that say how long loops are.
 const LOOPS: &[&str] = &[
     "knit.loop_length_mm",
     "knit.stitch_lengths_mm",
@@ -56,10 +64,13 @@ const LOOPS: &[&str] = &[
     "knit.knitout",
     GAUGE,
 ];
+
 /// Keys of a yarn that say how thick it is.
 const THICKNESS: &[&str] = &["diameter_mm", "tex", "cotton_count"];
+
 /// The tables of structures.
 const TABLES: &[&str] = &["weave", "knit", "warp_knit"];
+
 /// The header of a knitout file that says how close needles lie.
 pub(super) const GAUGE: &str = ";;Gauge";
 
@@ -73,21 +84,21 @@ pub(super) struct Keys {
     pub(super) numbered: Vec<(String, Vec<(u32, usize)>)>,
     /// The first operation of each carrier in a knitout file, and its line.
     pub(super) carriers: Vec<(Origin, String, usize)>,
-    /// The last operation of a knitout file that makes a loop, and its line. Errors of the cloth's
-    /// size name it.
+    /// The last operation of a knitout file that makes a loop, and its line. Errors about the size
+    /// of the cloth name this operation.
     pub(super) last: Option<(String, usize)>,
     /// The keys of the draft that the design names.
     pub(super) named: Option<Box<Self>>,
 }
 
 impl Keys {
-    /// The path of the file. None where the keys are of no file.
+    /// The path of the file, or none if the keys are of no file.
     pub(super) fn file(&self) -> Option<&Path> {
         (!self.file.as_os_str().is_empty()).then_some(&*self.file)
     }
 
     /// The place in the file that an error is about. `yarn` gives the name of a thread's yarn. None
-    /// where no key is about it.
+    /// if the file has no key for the error's subject.
     pub(super) fn place(
         &self,
         error: &FinishError,
@@ -120,7 +131,7 @@ impl Keys {
         })
     }
 
-    /// The place in this file that says `subject`.
+    /// The place in this file of the key that sets `subject`.
     fn of(&self, subject: Subject, yarn: &impl Fn(Origin) -> Option<String>) -> Option<FilePlace> {
         let bar = |bar, key| self.line(&format!("warp_knit.bars, bar {bar}: {key}"));
         let yarn = |thread, keys| self.yarn(thread, yarn(thread), keys);
@@ -189,8 +200,8 @@ impl Keys {
         self.numbered("SPACING", thread).or_else(|| self.spacings(set))
     }
 
-    /// The place of a thread's thickness in a WIF draft. Where there is none, the thickness comes
-    /// from spacings.
+    /// The place of a thread's thickness in a WIF draft. A draft without thickness has the place of
+    /// its spacing, from which the thickness is worked out.
     fn thickness(&self, thread: Origin) -> Option<FilePlace> {
         let set = if matches!(thread, Origin::Pick(_)) { "WEFT" } else { "WARP" };
         self.numbered("THICKNESS", thread)

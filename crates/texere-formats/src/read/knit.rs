@@ -1,4 +1,5 @@
-//! From a knitting program to a design: the machine knits the program, and its faults are listed.
+//! Makes a design from a knitting program. The machine knits the program, and the program's faults
+//! are listed.
 
 use std::mem::{Discriminant, discriminant};
 use std::path::Path;
@@ -15,20 +16,21 @@ use super::machine_fault::MachineFault;
 use super::threads::only_used;
 use super::{Design, ReadError};
 
-/// How many faults of each kind are listed.
+/// The most faults of each kind that are listed.
 const FAULTS_LISTED: usize = 3;
 
 /// A weft knit without its program.
 #[derive(Debug)]
 pub(super) struct Knit {
     pub(super) gauge: Gauge,
-    /// One for each carrier.
+    /// The yarn of each carrier.
     pub(super) yarns: Vec<KnitYarn>,
     pub(super) materials: Vec<Material>,
     pub(super) sections: Vec<Section>,
     pub(super) copies: [u32; 2],
     pub(super) cells: Cells,
-    /// The most needles that a yarn may float past, where the design says so.
+    /// The most needles that a yarn may float past without a warning, or none if the design does
+    /// not say.
     pub(super) float_max: Option<u32>,
 }
 
@@ -82,7 +84,7 @@ impl Knit {
         warnings.extend(faults.iter().map(|fault| fault.message.clone()));
         if more > 0 {
             let more = counted(more, "more fault");
-            warnings.push(format!("{}: {more} of the kinds that are told", named(file)));
+            warnings.push(format!("{}: {more} of these kinds", named(file)));
         }
         let refused = |error: FabricError| match (&error, &drawn) {
             (FabricError::Weft(WeftError::KnitRuns { operation: Some(source), .. }), Drawn::Lines { .. }) => {
@@ -99,7 +101,8 @@ impl Knit {
     }
 }
 
-/// The first few faults of each kind as a designer reads them, and the number of those left out.
+/// The first few faults of each kind as a designer reads them, and the number of faults that are
+/// left out.
 fn listed(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
     let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
     let mut faults = Vec::new();

@@ -11,10 +11,10 @@ use super::program_place::ProgramPlace;
 /// What the sources of a program's operations stand for.
 #[derive(Debug, Clone)]
 pub(super) enum Drawn {
-    /// Lines of a file, from 1.
+    /// Lines of a file, counted from 1.
     Lines { file: PathBuf },
-    /// Cells of a chart, row by row. Rows and columns are counted from 0, rows from the bottom;
-    /// where the chart is `upside_down`, from the top.
+    /// Cells of a chart, row by row. Rows and columns are counted from 0. Rows are counted from the
+    /// bottom, or from the top if the chart is `upside_down`.
     Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
 }
 
@@ -40,7 +40,7 @@ pub(super) struct KnittedFrom {
 }
 
 impl KnittedFrom {
-    /// The line of a knitout file that a source stands for. None for a chart, for errors name a
+    /// The line of a knitout file that a source stands for. None for a chart, because errors name a
     /// chart as a whole.
     pub(super) fn line(&self, source: u32) -> Option<FilePlace> {
         let Drawn::Lines { file } = &self.drawn else { return None };

@@ -1,4 +1,4 @@
-//! Readers: from a design file to a [`Design`], and from a file of saved yarns to [the
+//! Readers. They turn a design file into a [`Design`], and a file of saved yarns into [the
 //! yarns](fn@yarns).
 
 mod bytes;
@@ -69,8 +69,8 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
 /// `name`.
 ///
 /// `files` gives the bytes of a file that the design names: a picture, a WIF draft or a knitting
-/// program. It gets the path of that file beside `name`. For example, where `looms/cloth.toml`
-/// names `twill.wif`, it gets `looms/twill.wif`. No file on a disk is opened.
+/// program. Its argument is the path of that file beside `name`. For example, if `looms/cloth.toml`
+/// names `twill.wif`, the argument is `looms/twill.wif`. No file on a disk is opened.
 ///
 /// **Errors**: the errors of [`read`]. A refusal by `files` is [`ReadError::Io`] with the path.
 /// Bytes beyond the limit for files of their kind are [`ReadError::TooLarge`].
@@ -104,7 +104,8 @@ pub fn read_from(
     })
 }
 
-/// The design in `path`, which `files` opens, by the reader of its file's ending.
+/// The design in `path`, which `files` opens. The path's ending decides which reader reads the
+/// file.
 fn by_ending(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {

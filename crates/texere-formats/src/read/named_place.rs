@@ -12,7 +12,7 @@ use super::program_place::ProgramPlace;
 pub struct NamedPlace {
     /// The thread, and the crossing or the stitch.
     pub thread: ThreadPlace,
-    /// The name of its material, perhaps empty.
+    /// The name of the yarn's material, perhaps empty.
     pub material: String,
     /// The place in the program of a weft knit that the yarn comes from. None for other structures.
     pub program: Option<ProgramPlace>,

@@ -36,7 +36,7 @@ pub(super) struct PointPaper {
     rows: RowOrder,
 }
 
-/// A colour of a point paper, and the place of its first pixel, from 1.
+/// A colour of a point paper, and column and row of its first pixel, counted from 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PaperColor {
     rgba: [u8; 4],
@@ -75,8 +75,8 @@ impl PointPaper {
         Ok(Self { file: path.into(), ends, picks, colors, pixels, rows })
     }
 
-    /// The number of the colour at the crossing of `end` and `pick`, both from 0, of an endless
-    /// cloth of this paper.
+    /// The number of the colour at the crossing of `end` and `pick`, both counted from 0, of a
+    /// cloth that repeats this paper without end.
     pub(super) fn color(&self, end: usize, pick: usize) -> usize {
         let (end, pick) = (end % self.ends, pick % self.picks);
         let row = match self.rows {
@@ -86,7 +86,8 @@ impl PointPaper {
         self.pixels[row * self.ends + end].into()
     }
 
-    /// The number of the darker one of its two colours.
+    /// The number of the darker one of the paper's two colours. A paper with more or fewer colours
+    /// is refused.
     pub(super) fn darker(&self) -> Result<usize, ReadError> {
         let expected =
             "two colours, the darker of which is warp up; more of them need a table [weave.colors]";
@@ -100,7 +101,7 @@ impl PointPaper {
 }
 
 impl PaperColor {
-    /// The colour's `[red, green, blue]`; `None` where it is not opaque.
+    /// The colour's `[red, green, blue]`, or `None` if the colour is not opaque.
     pub(super) fn rgb(&self) -> Option<[u8; 3]> {
         let [red, green, blue, alpha] = self.rgba;
         (alpha == u8::MAX).then_some([red, green, blue])

@@ -5,6 +5,6 @@
 pub struct ProgramPlace {
     /// The line of a knitout file, or the cell of a chart.
     pub place: String,
-    /// The instructions that stand there, as knitout writes them, with their carriers.
+    /// The instructions in that line or cell, as knitout writes them, with their carriers.
     pub instructions: Vec<String>,
 }

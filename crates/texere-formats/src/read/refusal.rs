@@ -9,7 +9,7 @@ use super::FilePlace;
 use super::error::named;
 
 /// A design whose cloth can't be made, or can't come to rest:
-/// [`Design::refused`](super::Design::refused) says where the design asks for that.
+/// [`Design::refused`](super::Design::refused) says where the design asks for it.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Refusal {
@@ -37,8 +37,8 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// The reason in one line, with the key that asks for the cloth where there is one. It is meant
-    /// for cloth that is shown all the same.
+    /// The reason in one line, with the key that asks for the cloth, if there is one. It is meant
+    /// for a program that shows the cloth in spite of the refusal.
     #[must_use]
     pub fn why(&self) -> String {
         match self {

@@ -1,4 +1,4 @@
-//! Reads `.yarns` files: yarns that were saved, equal to the bit.
+//! Reads `.yarns` files. The yarns are equal to the saved ones to the bit.
 
 use std::path::Path;
 
@@ -27,8 +27,8 @@ pub struct SavedYarns {
 }
 
 /// Reads the yarns in a `.yarns` file, which [`write::yarns`](crate::write::yarns) or
-/// [`write::repeat`](crate::write::repeat) has written. They are equal to the saved yarns to the
-/// bit.
+/// [`write::repeat`](crate::write::repeat) has written. The yarns are equal to the saved ones to
+/// the bit.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, has
 /// changed since it was written, or is of another version; [`ReadError::Yarns`] and
@@ -93,8 +93,8 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
     Ok(SavedYarns { yarns, boundary })
 }
 
-/// Reads the header up to the file's length, and checks the whole file by it and by its checksum.
-/// Gives the bits that announce the lists behind the control points.
+/// Reads the header up to the file's length, and checks the file by that length and by its
+/// checksum. Returns the bits that announce the lists behind the control points.
 fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     let magic: [u8; MAGIC.len()] = bytes.take("the beginning")?;
     if magic != MAGIC {
@@ -115,7 +115,7 @@ fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     Ok(flags)
 }
 
-/// A list of `count` items from `next`, where there is memory for it.
+/// A list of `count` items from `next`. A lack of memory for the list is an error.
 fn list<T>(
     what: &'static str,
     count: usize,
@@ -203,7 +203,8 @@ fn table(bytes: &mut Bytes<'_>, count: usize, point_bytes: u64) -> Result<Table,
     let mut total = 0;
     for _ in 0..count {
         let (at, points) = (bytes.at(), bytes.long("the number of control points of a yarn")?);
-        // The sum fits: the file has no room for counts that come near 64 bits.
+        // The sum fits into 64 bits, because the size of the file limits each count and the number
+        // of yarns.
         total += bytes.room_for(at, "the number of control points of a yarn", points, point_bytes)? as u64;
         table.offsets.push(total);
         let (material, section) = (bytes.word("a yarn's material")?, bytes.word("a yarn's section")?);
@@ -263,8 +264,8 @@ fn point(bytes: &mut Bytes<'_>) -> Result<ControlPoint, ReadError> {
     Ok(ControlPoint { x, y, z, halves: cast(halves.map(u16::from_le_bytes)) })
 }
 
-/// The yarns with the up directions that come next in the file. These have length 1 already, so
-/// that they keep their bits.
+/// The yarns with the up directions that come next in the file. Each must have length 1, so that
+/// `Yarns::with_ups` keeps its bits.
 fn with_ups(
     bytes: &mut Bytes<'_>,
     yarns: Yarns,

@@ -27,8 +27,8 @@ pub enum WriteError {
         feature: &'static str,
     },
     /// The file system refused: no such folder, no permission, no room. A target is refused before
-    /// any work is done where it is a folder, a device, a link that leads nowhere, or a file
-    /// without permission to write.
+    /// any work is done if it is a folder, a device, a link that leads nowhere, or a file without
+    /// permission to write.
     #[error("can't {action} {}", .path.display())]
     Io {
         /// The action: create, write, rename or look at.
@@ -38,7 +38,7 @@ pub enum WriteError {
         /// The error of the system.
         source: io::Error,
     },
-    /// The caller's writer refused. The bytes that it got are no whole file.
+    /// The caller's writer refused. The bytes that the writer got are not a whole file.
     #[error("the writer refused")]
     Writer {
         /// The error of the writer.
@@ -55,7 +55,7 @@ pub enum WriteError {
     /// The mesh could not be made, or progress asked to stop.
     #[error("{}", if matches!(.0, PipelineError::Cancelled) { "writing was stopped" } else { "the mesh could not be made" })]
     Pipeline(#[from] PipelineError),
-    /// GLB counts its bytes with 32 bits. PLY has no such limit; fewer sides or subdivisions make a
+    /// GLB counts its bytes with 32 bits. PLY has no such limit. Fewer sides or subdivisions make a
     /// smaller file.
     #[error(
         "GLB of {bytes} bytes or more, but the format ends at {limit}; write PLY, or fewer sides or subdivisions"
@@ -63,7 +63,7 @@ pub enum WriteError {
     GlbTooLarge {
         /// Bytes that the file would have at least.
         bytes: u64,
-        /// The most that the format can have.
+        /// The most bytes that the format can have.
         limit: u64,
     },
     /// PLY numbers vertices with 32 bits. Fewer sides or subdivisions make fewer vertices.
@@ -73,7 +73,7 @@ pub enum WriteError {
     TooManyVertices {
         /// Vertices that the file would have at least.
         vertices: u64,
-        /// The most that the format can have.
+        /// The most vertices that the format can have.
         limit: u64,
     },
     /// The mesh is of a region without yarns.
@@ -82,17 +82,17 @@ pub enum WriteError {
     /// The mesh has another number of vertices than its plan says.
     #[error("mesh has {given} vertices in order; {planned} were planned")]
     VertexCount {
-        /// Vertices that came, in order.
+        /// Number of vertices that came in order.
         given: u64,
-        /// Vertices that should have come.
+        /// Number of vertices that should have come.
         planned: u64,
     },
     /// A vertex has NaN or infinity in it, which would make the file unreadable.
     #[error("vertex {vertex}, of yarn {yarn}, is not finite")]
     NotFinite {
-        /// The vertex, from 0 among all.
+        /// The vertex, counted from 0 among all.
         vertex: u64,
-        /// Its yarn, from 0.
+        /// The yarn of the vertex, counted from 0.
         yarn: u32,
     },
     /// The path of a PNG picture does not end in `.png`.
@@ -117,7 +117,7 @@ pub enum WriteError {
         /// The part that the format can't hold.
         what: String,
     },
-    /// A number that no reader of the format takes.
+    /// A number outside the limits of readers of the format.
     #[error("{field} is {value}; {format} takes {low} to {high}")]
     OutOfRange {
         /// The format.
@@ -126,19 +126,19 @@ pub enum WriteError {
         field: String,
         /// The number.
         value: f64,
-        /// Least taken.
+        /// The least number that readers allow.
         low: f64,
-        /// Most taken.
+        /// The greatest number that readers allow.
         high: f64,
     },
-    /// The file would be larger than readers of the format take.
+    /// The file would be larger than readers of the format allow.
     #[error("{format} of {bytes} bytes or more; {limit} at most are read")]
     TextTooLarge {
         /// The format.
         format: &'static str,
         /// Bytes that the file would have at least.
         bytes: u64,
-        /// Most bytes that are read.
+        /// The most bytes that readers allow.
         limit: u64,
     },
     /// A cloth of more threads than a picture has pixels for.
@@ -151,9 +151,9 @@ pub enum WriteError {
         picks: usize,
         /// Width of the picture, pixels.
         width: usize,
-        /// Its height, pixels.
+        /// Height of the picture, pixels.
         height: usize,
-        /// Most pixels of a side.
+        /// The most pixels of a side.
         limit: usize,
     },
     /// A knit with more stitches than a chart has squares.
@@ -164,9 +164,9 @@ pub enum WriteError {
         wales: usize,
         /// Courses of the chart.
         courses: usize,
-        /// Most drawn of either.
+        /// The most wales, and the most courses, that are drawn.
         side: usize,
-        /// Most squares.
+        /// The most squares that are drawn.
         squares: usize,
     },
     /// The boundary is that of other yarns.
@@ -175,11 +175,11 @@ pub enum WriteError {
     /// A yarn refers to a material that the mesh does not have.
     #[error("yarn {yarn} is of material {material}, but there are {materials}")]
     UnknownMaterial {
-        /// The yarn, from 0.
+        /// The yarn, counted from 0.
         yarn: usize,
-        /// Its material.
+        /// The number of the yarn's material, counted from 0.
         material: u32,
-        /// How many there are.
+        /// Number of materials of the mesh.
         materials: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! Feeds a mesh to a format's writer, and checks that every vertex comes once, in order, and
+//! Feeds a mesh to a format's writer, and checks that every vertex comes once and in order, and is
 //! finite.
 
 use std::borrow::Borrow;
@@ -34,7 +34,7 @@ fn writer<'a, W: Write + Seek + 'a>(
     }
 }
 
-/// A mesh file under way, and the number of vertices that have come.
+/// A mesh file that is being written, and the number of vertices that have come.
 pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,
     places: Places,
@@ -64,7 +64,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         let mut planned = 0;
         let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
         let writer = writer(format, target, plan, &mut chunks, materials)?;
-        // Chunks that the format has not asked for count as well.
+        // Chunks that the writer has not gone through count as well.
         chunks.for_each(drop);
         if planned < plan.counts().vertices {
             return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
@@ -72,7 +72,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         Ok(Self { writer, places: Places::new(plan), sides: plan.settings().sides, given: 0, planned })
     }
 
-    /// Passes a chunk's vertices from number `first` on to the writer.
+    /// Passes `vertices` to the writer. They are those of `chunk` from number `first` on.
     pub(super) fn vertices(
         &mut self,
         chunk: &Chunk,

@@ -1,9 +1,10 @@
-//! Bytes to a file, unchanged.
+//! Writes bytes to a file, unchanged.
 
 use super::target::Target;
 use super::{Output, WriteError};
 
-/// Writes `bytes` unchanged, as safely as any other output: beside the target, then renamed.
+/// Writes `bytes` unchanged, as safely as any other output: to a file beside the target, which then
+/// replaces the target.
 ///
 /// **Errors**: [`WriteError::Io`], [`WriteError::Spared`].
 ///

@@ -1,4 +1,4 @@
-//! Meshes to files: whole, or piece by piece as a device makes them.
+//! Writes meshes to files: whole, or piece by piece as a device makes them.
 
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
@@ -22,11 +22,11 @@ pub struct Written {
 
 /// Writes a mesh in memory to a file, in the format that the extension of `output` stands for.
 ///
-/// The triangles come from the mesh's plan. Its `indices` are not read, so that the mesh may have
+/// The triangles come from the mesh's plan. The mesh's `indices` are not read, so the mesh may have
 /// any topology.
 ///
-/// **Errors**: [`WriteError`] where the format can't hold the mesh, the mesh is not what its plan
-/// says or not finite, or the file system refuses.
+/// **Errors**: [`WriteError`] if the format can't hold the mesh, if the mesh does not match its
+/// plan or is not finite, or if the file system refuses.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;
@@ -49,10 +49,10 @@ pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
 }
 
 /// Writes a mesh in memory to `out`, from its current position on: the bytes that [`mesh`](fn@mesh)
-/// writes to a file. Then `out` stands behind the last byte.
+/// writes to a file. Afterwards the position of `out` is behind the last byte.
 ///
-/// **Errors**: the errors of [`mesh`](fn@mesh), with [`WriteError::Writer`] where `out` refuses.
-/// The bytes that it has then are no whole file.
+/// **Errors**: the errors of [`mesh`](fn@mesh), and [`WriteError::Writer`] if `out` refuses bytes.
+/// The bytes that `out` has then are not a whole file.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -93,12 +93,12 @@ fn whole<W: Write + Seek>(
 }
 
 /// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension
-/// of `output` stands for. At most two chunks of it are in memory.
+/// of `output` stands for. At most two chunks of the mesh are in memory.
 ///
 /// The pipeline's topology is replaced by [`Topology::Shared`], so that the device writes no index.
 ///
-/// **Errors**: the errors of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] where the pipeline
-/// fails or its progress asks to stop.
+/// **Errors**: the errors of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] if the pipeline fails
+/// or its progress asks to stop.
 ///
 /// ```
 /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_formats::WriteError> {
@@ -122,10 +122,11 @@ pub fn stream(
 }
 
 /// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from the current
-/// position on: the bytes that [`stream`] writes to a file. Then `out` stands behind the last byte.
+/// position on: the bytes that [`stream`] writes to a file. Afterwards the position of `out` is
+/// behind the last byte.
 ///
-/// **Errors**: the errors of [`stream`], with [`WriteError::Writer`] where `out` refuses. The bytes
-/// that it has then are no whole file.
+/// **Errors**: the errors of [`stream`], and [`WriteError::Writer`] if `out` refuses bytes. The
+/// bytes that `out` has then are not a whole file.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -150,8 +151,8 @@ pub fn stream_to(
     Ok(Written { bytes: target.close()?, ..written })
 }
 
-/// Runs a pipeline and writes its mesh to the target that `start` gives. `end` completes the
-/// target, and gives its length in bytes.
+/// Runs a pipeline and writes its mesh to the target that `start` gives. Returns the target, which
+/// the caller completes, and how much was written, with 0 for the bytes.
 fn streamed<W: Write + Seek>(
     pipeline: Pipeline<'_>,
     device: &dyn Backend,

@@ -20,22 +20,22 @@ pub(super) struct Run<'a> {
     pub(super) vertices: &'a [Vertex],
 }
 
-/// A mesh file under way, in some format.
+/// A mesh file of any format that is being written.
 pub(super) trait MeshWriter<W: Write + Seek> {
-    /// Takes vertices. Each vertex of the file comes once. The vertices of rings come in order, and
-    /// so do the vertices of caps.
+    /// Writes vertices. Each vertex of the file comes once. The vertices of rings come in order,
+    /// and so do the vertices of caps.
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError>;
 
-    /// Takes the triangles of `chunk`. Its vertices have come, except for a ring that the next
-    /// chunk repeats.
+    /// Writes the triangles of `chunk`. The chunk's vertices have come, except for a ring that the
+    /// next chunk repeats.
     fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError>;
 
     /// Completes the file once everything has come.
     fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
 }
 
-/// The yarns of `count` vertices of a chunk, from number `first` on. Gives runs of vertices of one
-/// yarn in order, counted from `first`.
+/// The yarns of `count` vertices of a chunk, from number `first` on. Returns runs of vertices of
+/// one yarn in order, each with its yarn. Vertices are counted from `first`.
 pub(super) fn yarn_runs(
     chunk: &Chunk,
     sides: u32,
@@ -45,7 +45,8 @@ pub(super) fn yarn_runs(
     let end = u64::from(first) + count as u64;
     let tube = move |part: &Part| (part.yarn, part.first_vertex..part.first_vertex + part.rings * sides);
     let cap = move |cap: &Cap| (cap.yarn, cap.first_vertex..cap.first_vertex + sides);
-    // A chunk may hold thousands of parts, and may come in thousands of pieces.
+    // The first part and the first cap are found by binary search, because a chunk may hold
+    // thousands of parts, and may come in thousands of pieces.
     let tubes = &chunk.parts()[chunk.parts().partition_point(|part| tube(part).1.end <= first)..];
     let caps = &chunk.caps()[chunk.caps().partition_point(|each| cap(each).1.end <= first)..];
     let runs = tubes.iter().map(tube).chain(caps.iter().map(cap));

@@ -1,4 +1,5 @@
-//! Mesh files, written piece by piece and in bounded memory; designs, drafts and pictures.
+//! Writers of mesh files, piece by piece and in bounded memory, and of designs, drafts and
+//! pictures.
 //!
 //! | format | extension | feature | holds |
 //! |---|---|---|---|
@@ -12,21 +13,22 @@
 //! rest need not settle again.
 //!
 //! A file does not depend on the mesh's [`Topology`](texere_core::Topology), nor on where its
-//! chunks are cut. A plan knows its triangles, so that no index has to come from a device. A ring
-//! that chunks repeat is written once. The triangles of a yarn therefore share vertices from its
-//! first ring to its last, and a reader that joins no vertices by itself gets one piece. Only caps
-//! have vertices of their own, because their normals differ from those of the rings that they
+//! chunks are cut. The triangles follow from the plan, so no index has to come from a device. A
+//! ring that chunks repeat is written once. The triangles of a yarn therefore share vertices from
+//! its first ring to its last, and a reader that joins no vertices by itself gets one piece. Only
+//! caps have vertices of their own, because their normals differ from those of the rings that they
 //! close. Their positions are equal to the ring's to the bit. All yarns share an index pattern,
-//! which GLB holds once; this halves the file.
+//! which GLB holds only once. This halves the file.
 //!
 //! A file is written beside its target and renamed when it is complete. An error, a cancellation or
 //! a panic leaves no new file, and an older file of that name stays as it was. A program that
 //! handles a signal calls [`abandon`] before it ends. The next write in a folder removes files that
 //! a killed process left there. An [`Output`] says which files must not be replaced.
 //!
-//! Each function but [`file`](fn@file) has a twin whose name ends in `_to`. It writes the same
-//! bytes to any writer of the caller's: memory, an archive, a connection. Twins for meshes need a
-//! writer that seeks, because they go back to fill in values that are known last.
+//! Each function that writes a file, except [`file`](fn@file), has a twin whose name ends in `_to`.
+//! The twin writes the same bytes to any writer of the caller's: memory, an archive, a connection.
+//! Twins for meshes need a writer that seeks, because they go back to fill in values that are known
+//! last.
 
 #[cfg(feature = "wif")]
 mod design;

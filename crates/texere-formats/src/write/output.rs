@@ -30,7 +30,8 @@ pub struct Output {
 }
 
 impl Output {
-    /// A file at `path`. Where `path` is a symbolic link, the output is the file that it leads to.
+    /// A file at `path`. If `path` is a symbolic link, the output is the file that the link leads
+    /// to.
     pub fn to(path: impl AsRef<Path>) -> Self {
         Self { path: path.as_ref().to_owned(), spared: Vec::new() }
     }
@@ -51,16 +52,16 @@ impl Output {
     }
 
     /// Checks whether a file may be written at the path now. The check is meant for a program that
-    /// has much to do before it writes. Writers check this themselves, before they begin and again
-    /// before the rename.
+    /// has much to do before it writes. Writers make the check themselves, before they begin and
+    /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or
-    /// where the path is no file that may be replaced.
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, or if
+    /// the path is not a file that may be replaced.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }
 
-    /// Gives the output back where its path ends in `expected`, in upper or lower case.
+    /// Returns the output if its path ends in `expected`, in upper or lower case.
     ///
     /// **Errors**: [`WriteError::NotEnding`].
     pub(super) fn ending(self, expected: &'static str) -> Result<Self, WriteError> {
@@ -101,7 +102,7 @@ impl FilePlace {
 
     /// The file that is to be replaced, if there is one.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where the path is no file that
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] if the path is not a file that
     /// may be replaced.
     pub(super) fn check(&self) -> Result<Option<Metadata>, WriteError> {
         let refused = |source| WriteError::io("create", self.path(), source);

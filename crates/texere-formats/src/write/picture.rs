@@ -1,16 +1,15 @@
-//! Pixels to a PNG file.
+//! Writes pixels to a PNG file.
 
 use std::io::{self, ErrorKind, Write};
 
 use super::target::Target;
 use super::{Output, WriteError};
 
-/// Writes a picture of `size` pixels (width, height) to a PNG file. `pixels` has a byte for each of
-/// red, green and blue, sRGB, or for each of these and alpha. Rows come from the top.
+/// Writes a picture of `size` pixels (width, height) to a PNG file. `pixels` has three bytes for
+/// each pixel, red, green and blue in sRGB, or four, with alpha last. Rows come from the top.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
-/// [`WriteError::Spared`], [`WriteError::Io`]. A wrong number of pixels is [`WriteError::Io`] as
-/// well.
+/// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`, [`WriteError::Spared`],
+/// [`WriteError::Io`]. A wrong number of pixels is [`WriteError::Io`] as well.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -29,7 +28,7 @@ pub fn picture(size: [u32; 2], pixels: &[u8], output: impl Into<Output>) -> Resu
 
 /// Writes a picture to `out`: the bytes that [`picture`](fn@picture) writes to a file.
 ///
-/// **Errors**: [`WriteError::Writer`] where `out` refuses, and for a wrong number of pixels.
+/// **Errors**: [`WriteError::Writer`] if `out` refuses bytes, and for a wrong number of pixels.
 ///
 /// ```
 /// let mut png = Vec::new();
@@ -70,8 +69,7 @@ fn encode<W: Write>(
     written.map_err(|error| target.failed(error.into()))
 }
 
-/// Fails where there is too little memory for an encoder. The encoder itself would abort the
-/// program.
+/// Fails if there is too little memory for an encoder. The encoder itself would abort the program.
 pub(super) fn encoder_room() -> io::Result<()> {
     // The encoder's buffers and tables take a third of this.
     let mut room = Vec::<u8>::new();
@@ -81,7 +79,7 @@ pub(super) fn encoder_room() -> io::Result<()> {
     Ok(())
 }
 
-/// Gives `output` back where it ends in `.png`.
+/// Returns `output` if its path ends in `.png`.
 ///
 /// **Errors**: [`WriteError::NotPng`].
 pub(super) fn png(output: Output) -> Result<Output, WriteError> {

@@ -11,10 +11,11 @@ use texere_core::backend::{Chunk, Plan};
 #[derive(Debug)]
 pub(super) struct Places {
     sides: u64,
-    /// Rings of the whole file.
+    /// Number of rings in the whole file.
     all_rings: u64,
-    /// Rings and caps of the chunks before the current one.
+    /// Number of rings in the chunks before the current one.
     rings: u64,
+    /// Number of caps in the chunks before the current one.
     caps: u64,
 }
 

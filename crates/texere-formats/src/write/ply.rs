@@ -23,11 +23,11 @@ const FACE_BYTES: usize = 13;
 /// The most vertices, which a `u32` numbers and counts.
 const VERTICES_MAX: u64 = u32::MAX as u64;
 
-/// A PLY file under way.
+/// A PLY file that is being written.
 ///
 /// The file has all vertices before all faces, and tubes before caps, but the mesh comes chunk by
-/// chunk. The file therefore grows in four places. Faces are not left to the end: they are half of
-/// the work, which would then have no progress and no chance to cancel.
+/// chunk. The file therefore grows in four places. Faces are not left to the end. They are half of
+/// the work, which could then neither report progress nor be cancelled.
 #[derive(Debug)]
 pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,
@@ -127,8 +127,8 @@ impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
 }
 
 fn header(vertices: u64, faces: u64) -> String {
-    // Some readers know no unsigned vertex numbers. Signed numbers are written where all of them
-    // fit.
+    // Some readers do not support unsigned vertex numbers. Signed numbers are written if all
+    // numbers fit.
     let number = if vertices <= 1 << 31 { "int" } else { "uint" };
     format!(
         "ply\n\

@@ -1,4 +1,4 @@
-//! A buffered file under way.
+//! A buffered file that is being written.
 
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::PathBuf;
@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use super::unfinished::Unfinished;
 use super::{Output, WriteError};
 
-/// Bytes that are gathered before a call of the system. A greater buffer gains nothing, for calls
-/// then cost little beside the copying.
+/// Bytes that are gathered before a call of the system. A larger buffer gains nothing, because
+/// calls take little time beside the copying.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// A file that is written piece by piece. It either takes its place when it is complete, or goes to
-/// a writer of the caller's.
+/// A file that is written piece by piece. It either takes the place of its output when it is
+/// complete, or goes to a writer of the caller's.
 #[derive(Debug)]
 pub(super) struct Target<W: Write> {
-    /// The path that was asked for. None where the writer is the caller's.
+    /// The path that was asked for. None if the writer is the caller's.
     path: Option<PathBuf>,
     out: W,
     /// The position of `out` at which the file began, bytes.
@@ -54,7 +54,7 @@ impl<W: Write> Target<W> {
         self.write_all(bytes).map_err(|source| self.failed(source))
     }
 
-    /// Writes words in little-endian order, whatever the machine's own.
+    /// Writes words in little-endian order, whatever the machine's own order is.
     pub(super) fn write_words(&mut self, words: &[u32]) -> Result<(), WriteError> {
         let mut little = [0; 1024];
         for batch in words.chunks(little.len()) {
@@ -72,7 +72,8 @@ impl<W: Write> Target<W> {
         Ok(self.out)
     }
 
-    /// Hands everything over to the caller's writer. Gives the file's length in bytes.
+    /// Writes the bytes that are still in the buffer to the caller's writer. Returns the file's
+    /// length in bytes.
     pub(super) fn done(mut self) -> Result<u64, WriteError> {
         self.flush().and_then(|()| self.out.flush()).map_err(|source| self.failed(source))?;
         Ok(self.end)
@@ -80,13 +81,13 @@ impl<W: Write> Target<W> {
 }
 
 impl<W: Write + Seek> Target<W> {
-    /// A target that is written to the caller's `out`, from its current position on.
+    /// A target that is written to the caller's `out`, from the current position of `out` on.
     pub(super) fn within(mut out: W) -> Result<Self, WriteError> {
         let start = out.stream_position().map_err(|source| WriteError::Writer { source })?;
         Ok(Self::over(out, start, None))
     }
 
-    /// The byte of the file that the next call writes.
+    /// The byte of the file at which the next call writes.
     pub(super) fn position(&self) -> u64 {
         self.position
     }
@@ -101,8 +102,8 @@ impl<W: Write + Seek> Target<W> {
         Ok(())
     }
 
-    /// Hands everything over to the caller's writer, which then stands behind the file's last byte.
-    /// Gives the file's length in bytes.
+    /// Writes the bytes that are still in the buffer to the caller's writer, and moves the writer
+    /// behind the file's last byte. Returns the file's length in bytes.
     pub(super) fn close(mut self) -> Result<u64, WriteError> {
         self.go_to(self.end)?;
         self.done()
@@ -145,7 +146,7 @@ impl Target<Unfinished> {
         Ok(Self::over(file, 0, Some(path)))
     }
 
-    /// Puts the file in its place. Gives its length in bytes.
+    /// Puts the file in its place. Returns the file's length in bytes.
     pub(super) fn commit(self) -> Result<u64, WriteError> {
         self.into_inner()?.finish()
     }

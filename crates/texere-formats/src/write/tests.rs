@@ -55,8 +55,8 @@ fn mesh() -> Mesh {
     pipeline.mesh(&SerialBackend::new()).unwrap()
 }
 
-/// Writes `mesh` to `out` in pieces of at most `piece` vertices, empty ones among them: all but the
-/// last step, taking the file's place.
+/// Writes `mesh` to `out` in pieces of at most `piece` vertices, some of them empty. The last step,
+/// by which the file takes its place, is left out.
 fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Failing, WriteError> {
     let target = Target::over(out, 0, Some("fabric".into()));
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials)?;

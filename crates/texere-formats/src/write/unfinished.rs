@@ -1,10 +1,10 @@
 //! A file that is not yet complete. It has a temporary name in the folder of its target.
 //!
-//! Such a file never stays behind. After an error or a panic it is removed when its owner is
-//! dropped. Before a signal ends the program, [`abandon`] removes it. The next write in a folder
-//! removes files that a killed process left there. They are recognised by their locks: a writer
-//! holds a lock on its file, and the system releases the lock when the process ends. A file without
-//! a lock is a leftover.
+//! Unfinished files do not stay behind. After an error or a panic the file is removed when its
+//! owner is dropped. Before a signal ends the program, [`abandon`] removes the file. The next write
+//! in a folder removes files that a killed process left there. They are recognised by their locks:
+//! a writer holds a lock on its file, and the system releases the lock when the process ends. A
+//! file without a lock is a leftover.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -18,13 +18,14 @@ use tempfile::NamedTempFile;
 use super::WriteError;
 use super::output::FilePlace;
 
-/// Names are this prefix, [`RANDOM`] letters or digits, and an ending that no user's file has.
+/// A temporary name is this prefix, [`RANDOM`] letters or digits, and [`ENDING`], which no user's
+/// file has.
 const PREFIX: &str = ".texere-";
 const RANDOM: usize = 16;
 const ENDING: &str = ".unfinished";
 
-/// How often a writer starts a new file, because writers that start at the same moment took its
-/// file for a leftover and removed it.
+/// The most files that a writer starts. It starts another one if a writer that started at the same
+/// moment took its file for a leftover and removed it.
 const ATTEMPTS: usize = 100;
 
 /// The unfinished files of this process.
@@ -50,7 +51,8 @@ fn registry_in_use() -> io::Result<MutexGuard<'static, Registry>> {
 }
 
 /// Removes every file that this process has not finished writing. After the call no file can be
-/// started or finished. It is meant for a program that is about to end, for example by a signal.
+/// started or finished. The call is meant for a program that is about to end, for example by a
+/// signal.
 ///
 /// When the call returns, each target is either a whole new file or as it was before. Writers that
 /// are at work fail with [`WriteError::Io`].
@@ -79,7 +81,7 @@ pub(super) struct Unfinished {
     place: FilePlace,
 }
 
-/// An entry of the registry, which ends when this is dropped.
+/// An entry of the registry, which is removed when this value is dropped.
 #[derive(Debug)]
 struct Entry(PathBuf);
 
@@ -90,8 +92,8 @@ impl Drop for Entry {
 }
 
 impl Unfinished {
-    /// Starts an empty file beside `place`. It is beside it because a rename is atomic only within
-    /// one file system.
+    /// Starts an empty file beside `place`. The file is in the folder of `place` because a rename
+    /// is atomic only within one file system.
     pub(super) fn beside(place: FilePlace) -> Result<Self, WriteError> {
         let failed = |source| WriteError::io("create", place.path(), source);
         let permissions = place.check()?.map(|old| old.permissions());
@@ -117,7 +119,7 @@ impl Unfinished {
         self.place.path()
     }
 
-    /// Puts the file in its place atomically. Gives its length in bytes.
+    /// Puts the file in its place atomically. Returns the file's length in bytes.
     pub(super) fn finish(self) -> Result<u64, WriteError> {
         let Self { place, entry, file } = self;
         let failed = |action, source| WriteError::io(action, place.path(), source);
@@ -164,13 +166,13 @@ fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Takes a new file's lock. With the lock, no other process removes the file. Gives `false` where
+/// Takes a new file's lock. With the lock, no other process removes the file. Returns `false` if
 /// another process took the file for a leftover first, and holds the lock or has removed the name.
 fn hold(file: &NamedTempFile) -> io::Result<bool> {
     match file.as_file().try_lock() {
         Ok(()) => Ok(is_named(file.path(), file.as_file().try_clone()?)),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // On a file system without locks no process gets a lock, so that none removes the file.
+        // On a file system without locks no process gets a lock, so none removes the file.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }
@@ -196,8 +198,8 @@ fn is_name(name: &str) -> bool {
 fn remove_left(path: &Path, place: &FilePlace) -> io::Result<()> {
     let file = OpenOptions::new().read(true).write(true).open(path)?;
     file.try_lock()?;
-    // Its writer may have finished it before the lock was taken here. The name is then gone, or
-    // another file has it.
+    // The writer may have finished the file before the lock was taken here. Then the name is gone,
+    // or another file has it.
     let handle = Handle::from_file(file)?;
     if Handle::from_path(path)? == handle && !place.spares(&handle) {
         fs::remove_file(path)?;

@@ -19,7 +19,7 @@ const FORMAT: &str = "a file of yarns";
 
 /// Writes yarns to a `.yarns` file, which [`read::yarns`](crate::read::yarns) reads again to the
 /// bit. The file has control points, sections, materials, up directions, sources, and the settings
-/// of each yarn. Gives the file's length in bytes.
+/// of each yarn. Returns the file's length in bytes.
 ///
 /// Cloth that came to rest can be saved, and need not settle again:
 ///
@@ -42,7 +42,7 @@ const FORMAT: &str = "a file of yarns";
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.yarns`,
+/// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.yarns`,
 /// [`WriteError::TextTooLarge`] beyond 16 GiB, [`WriteError::Spared`], [`WriteError::Io`].
 pub fn yarns(yarns: &Yarns, output: impl Into<Output>) -> Result<u64, WriteError> {
     repeat(yarns, &Boundary::without_repeat(yarns.layout()), output)
@@ -50,13 +50,14 @@ pub fn yarns(yarns: &Yarns, output: impl Into<Output>) -> Result<u64, WriteError
 
 /// Writes yarns to `out`: the bytes that [`yarns`](fn@yarns) writes to a file.
 ///
-/// **Errors**: the errors of [`yarns`](fn@yarns), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`yarns`](fn@yarns), and [`WriteError::Writer`] if `out` refuses
+/// bytes.
 pub fn yarns_to(yarns: &Yarns, out: impl Write) -> Result<u64, WriteError> {
     repeat_to(yarns, &Boundary::without_repeat(yarns.layout()), out)
 }
 
 /// Writes the yarns of a repeat to a `.yarns` file, with the boundary that says how they go on
-/// beyond it. Gives the file's length in bytes.
+/// beyond the repeat. Returns the file's length in bytes.
 ///
 /// **Errors**: the errors of [`yarns`](fn@yarns), and [`WriteError::Boundary`] for the boundary of
 /// other yarns.
@@ -83,8 +84,8 @@ pub fn repeat(yarns: &Yarns, boundary: &Boundary, output: impl Into<Output>) -> 
 
 /// Writes the yarns of a repeat to `out`: the bytes that [`repeat`](fn@repeat) writes to a file.
 ///
-/// **Errors**: the errors of [`repeat`](fn@repeat), with [`WriteError::Writer`] where `out`
-/// refuses.
+/// **Errors**: the errors of [`repeat`](fn@repeat), and [`WriteError::Writer`] if `out` refuses
+/// bytes.
 pub fn repeat_to(yarns: &Yarns, boundary: &Boundary, out: impl Write) -> Result<u64, WriteError> {
     File::new(yarns, boundary)?.write(Target::straight(out))?.done()
 }
@@ -138,7 +139,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Bytes of the file of `yarns`.
+/// The size of the file of `yarns`, bytes.
 fn bytes_of(yarns: &Yarns) -> u64 {
     let layout = yarns.layout();
     let materials = yarns.materials().iter().map(|material| MATERIAL_BYTES + material.name.len() as u64);

@@ -9,10 +9,11 @@ use texere_fabric::{Loom, Structure};
 use super::{Live, LiveError, SetYarn, Source};
 
 impl Live {
-    /// Changes material number `number`, from 0. A mesh holds no colours, so nothing is made again.
+    /// Changes material number `number`, counted from 0. A mesh holds no colours, so nothing is
+    /// made again.
     ///
     /// **Errors**: [`LiveError::NoMaterial`], and [`LiveError::Yarns`] for a material that no yarn
-    /// can have; the fabric is then as it was.
+    /// can have. After an error the fabric is unchanged.
     pub fn set_material(&mut self, number: usize, material: Material) -> Result<(), LiveError> {
         let materials = self.materials.len();
         if number >= materials {
@@ -26,18 +27,18 @@ impl Live {
         Ok(())
     }
 
-    /// Sets whether the warp is up at a crossing. `end` and `pick` count from 0; errors name them
-    /// from 1, as weavers do. Both threads then lie as they are woven, even if they were
+    /// Sets whether the warp is up at a crossing. `end` and `pick` are counted from 0. Errors count
+    /// them from 1, as weavers do. Both threads then lie as they are woven, even if they were
     /// [set](Live::set_yarn) before.
     ///
-    /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] outside the cloth, and
-    /// [`LiveError::Session`] of the device.
+    /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] for a crossing outside the cloth,
+    /// and [`LiveError::Session`] of the device.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), LiveError> {
         self.set_drawdown(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
 
-    /// Sets whether the warp is up at every crossing of `ends` and `picks`, which count from 0:
-    /// [`Live::set_lift`] of many crossings at once. `up` takes the end and the pick.
+    /// Sets whether the warp is up at every crossing of `ends` and `picks`, which are counted from
+    /// 0: [`Live::set_lift`] of many crossings at once. `up` takes the end and the pick.
     ///
     /// **Errors**: the errors of [`Live::set_lift`].
     pub fn set_drawdown(
@@ -56,9 +57,10 @@ impl Live {
         self.show_all(&changed)
     }
 
-    /// Replaces yarn number `yarn`, from 0: `what` is its material, section and twist, `points` are
-    /// its control points, mm. If the yarn has [up directions of its own](Yarns::with_ups), it
-    /// keeps them where `points` are as many as before, and loses them otherwise.
+    /// Replaces yarn number `yarn`, counted from 0. `what` is its material, section and twist, and
+    /// `points` are its control points, mm. If the yarn has [up directions of its
+    /// own](Yarns::with_ups), it keeps them if it has as many control points as before, and loses
+    /// them otherwise.
     ///
     /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], and [`LiveError::Session`] for
     /// values that no yarn may have and for a device that fails.
@@ -77,8 +79,8 @@ impl Live {
         self.set_all([(yarn, SetYarn { what, points, sources: None, ups, before })])
     }
 
-    /// Gives yarn number `yarn`, from 0, other control points, mm; there may be more or fewer than
-    /// before.
+    /// Gives yarn number `yarn`, counted from 0, other control points, mm. There may be more or
+    /// fewer than before.
     ///
     /// **Errors**: the errors of [`Live::set_yarn`].
     pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), LiveError> {
@@ -111,7 +113,7 @@ impl Live {
     /// ```
     ///
     /// **Errors**: [`LiveError::Yarns`] for a tension outside \[0, 1), and the errors of
-    /// [`Live::yarns`] and [`Live::given`]; the fabric is then as it was.
+    /// [`Live::yarns`] and [`Live::given`]. After an error the fabric is unchanged.
     pub fn set_tension(&mut self, tension: f32) -> Result<(), LiveError> {
         let yarns = self.yarns()?.with_tension(tension)?;
         self.mesh = self.another(&yarns)?;
@@ -126,7 +128,7 @@ impl Live {
     }
 
     /// Replaces the structure, such as by a knit with other stitches or a cloth with other threads.
-    /// The tension of splines stays. Yarns that are the same in both are not made again.
+    /// The tension of splines stays. Yarns that are the same in both structures are not made again.
     ///
     /// **Errors**: the errors of [`Live::new`].
     pub fn set_structure(&mut self, structure: &Structure) -> Result<(), LiveError> {
@@ -137,8 +139,8 @@ impl Live {
         Ok(())
     }
 
-    /// Replaces all yarns. Yarns that are the same in both are not made again. The fabric is known
-    /// by its yarns alone from then on: its lifts can't be set.
+    /// Replaces all yarns. Yarns that do not change are not made again. From then on the fabric is
+    /// known by its yarns alone, and its lifts can't be set.
     ///
     /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension),
     /// [`LiveError::Session`] of the device.
@@ -168,8 +170,8 @@ impl Live {
     }
 
     /// Replaces all yarns by those of the same fabric at rest, and keeps the weave. Threads whose
-    /// lifts are set later lie as they are woven, among those at rest, until the next call. Yarns
-    /// that are the same in both are not made again.
+    /// lifts are set later lie as they are woven, among the yarns at rest, until the next call.
+    /// Yarns that do not change are not made again.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -192,7 +194,7 @@ impl Live {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`LiveError::OtherYarns`] where the numbers of yarns differ or sections do,
+    /// **Errors**: [`LiveError::OtherYarns`] if the numbers of yarns or the sections differ,
     /// [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and the errors of
     /// [`Live::set_yarn`].
     pub fn set_rest(&mut self, rest: &Yarns) -> Result<(), LiveError> {
@@ -232,7 +234,7 @@ impl Live {
         self.set.get(&yarn).map_or_else(|| self.yarn(yarn), |set| set.before)
     }
 
-    /// Sets yarns in place of the source's: all of them, or none where it fails.
+    /// Replaces yarns of the source: all of `yarns`, or none if that fails.
     fn set_all(&mut self, yarns: impl IntoIterator<Item = (usize, SetYarn)>) -> Result<(), LiveError> {
         let (mut numbers, mut replaced) = (Vec::new(), Vec::new());
         for (yarn, set) in yarns {
@@ -253,15 +255,15 @@ impl Live {
         shown
     }
 
-    /// Updates these yarns in the mesh, all at once. Begins another mesh where it has no room for
-    /// one of them or where one of them has up directions of its own.
+    /// Updates `yarns` in the mesh, all at once. A new mesh is begun if the present one has no room
+    /// for one of the yarns, or if one of them has up directions of its own.
     fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
         let (plan, mut laid) = (self.mesh.plan().clone(), Vec::with_capacity(yarns.len()));
         for &yarn in yarns {
             let (what, mut points) = (self.yarn(yarn), Vec::new());
             self.lay(yarn, &mut points);
             let edit = plan.check_edit(yarn, &what, points.len() as u64);
-            // A plan takes no edit of a yarn with up directions of its own.
+            // A plan allows no edit of a yarn with up directions of its own.
             if self.ups(yarn).is_some()
                 || matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
             {
@@ -274,7 +276,7 @@ impl Live {
         let edits: Edits<'_> =
             laid.iter().map(|(yarn, what, points)| (*yarn, (*what, &points[..]))).collect();
         self.mesh.set_yarns(&edits)?;
-        // A picker that refuses the yarns is made anew for the next ray.
+        // A picker that refuses the yarns is dropped, and another one is made for the next ray.
         let (plan, picker) = (self.mesh.plan().clone(), self.picker.take());
         self.picker = picker.and_then(|mut picker| picker.set_yarns(plan, &edits).ok().and(Some(picker)));
         Ok(())

@@ -18,17 +18,17 @@ pub enum LiveError {
     /// No yarn has this number.
     #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
     NoYarn {
-        /// The number, from 0.
+        /// The number, counted from 0.
         yarn: usize,
-        /// How many there are.
+        /// Number of yarns of the fabric.
         yarns: usize,
     },
     /// No material has this number.
     #[error("material {material}, but there are {materials}, counted from 0")]
     NoMaterial {
-        /// The number, from 0.
+        /// The number, counted from 0.
         material: usize,
-        /// How many there are.
+        /// Number of materials of the fabric.
         materials: usize,
     },
     /// The structure refuses the edit.
@@ -43,13 +43,13 @@ pub enum LiveError {
     /// The yarns at rest have other numbers of yarns or sections than the fabric.
     #[error("{given} yarns at rest of {sections} sections are not the fabric's {yarns} of {own}")]
     OtherYarns {
-        /// Yarns at rest.
+        /// Number of yarns at rest.
         given: usize,
-        /// Their sections.
+        /// Number of sections of the yarns at rest.
         sections: usize,
-        /// Yarns of the fabric.
+        /// Number of yarns of the fabric.
         yarns: usize,
-        /// Its sections.
+        /// Number of sections of the fabric.
         own: usize,
     },
     /// The mesh can't be planned, or the device failed.

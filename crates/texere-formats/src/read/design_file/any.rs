@@ -1,4 +1,4 @@
-//! A value of a design file of whatever kind.
+//! A value of a design file, of any kind.
 
 use toml::de::{DeFloat, DeInteger, DeValue};
 
@@ -43,12 +43,12 @@ impl Any {
     }
 }
 
-/// A whole number, unless it is larger than any of 64 bits.
+/// The whole number, or none if it does not fit into 64 bits.
 pub(super) fn whole(number: &DeInteger<'_>) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
 }
 
-/// A number, unless it is larger than any of 64 bits.
+/// The number, or none if it is too large for 64 bits.
 fn real(number: &DeFloat<'_>) -> Option<f64> {
     let value: f64 = number.as_str().parse().ok()?;
     (!value.is_infinite() || number.as_str().contains("inf")).then_some(value)

@@ -18,8 +18,8 @@ pub(super) struct Cloth {
 }
 
 impl Cloth {
-    /// `rests` says whether the cloth comes to rest. At rest threads flatten as they must, so that
-    /// no relief of jams is taken.
+    /// `rests` says whether the cloth comes to rest. Threads of cloth at rest flatten as far as
+    /// they must, so `cloth.jam` may then only be `"report"`.
     pub(super) fn new(source: &Source<'_>, table: &ClothTable, rests: bool) -> Result<Self, ReadError> {
         let mut cloth = Self::default();
         if let Some(shape) = &table.shape {
@@ -55,7 +55,7 @@ impl Cloth {
     }
 }
 
-/// The choice that a word stands for, one of those `known`.
+/// The value that a word stands for, one of `known`.
 fn choice<T: Copy>(
     source: &Source<'_>,
     field: &str,

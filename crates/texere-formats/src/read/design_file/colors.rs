@@ -9,8 +9,9 @@ use crate::read::ReadError;
 use crate::read::error::{first_few, named};
 use crate::read::point_paper::PointPaper;
 
-/// The meaning of each colour of the paper by the table called `table`. The inner error refuses a
-/// colour that is not in the table. Colours that are in the table only are warned of.
+/// The meaning of each colour of the paper in `colors`, the table called `table`. The inner error
+/// refuses a colour of the paper that is not in the table. A colour of the table that the paper
+/// lacks gives a warning.
 pub(super) fn of_paper<'a>(
     source: &Source<'_>,
     paper: &PointPaper,

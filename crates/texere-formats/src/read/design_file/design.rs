@@ -77,7 +77,7 @@ fn unused(file: &DesignFile, rests: bool) -> Vec<String> {
     given.chain(flat).filter(|_| rests).map(said).collect()
 }
 
-/// A drawdown with the file's own threads.
+/// The cloth of a drawdown with the file's own threads.
 fn threaded(
     source: &Source<'_>,
     file: &DesignFile,
@@ -120,8 +120,8 @@ fn from_wif(
         wif::read(&path, source.files).map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
     let woven = &draft.woven;
     let drawdown = woven.drawdown().clone();
-    // The draft's materials and sections come first, so that its threads keep the numbers of
-    // theirs.
+    // The draft's materials and sections come first, so that the numbers in the draft's threads
+    // stay valid.
     let materials: Vec<_> = woven.materials().iter().chain(&yarns.materials).cloned().collect();
     let sections: Vec<Section> = woven.sections().iter().chain(&yarns.sections).cloned().collect();
     let shift = (woven.materials().len() as u32, woven.sections().len() as u32);

@@ -14,15 +14,15 @@ use crate::read::ReadError;
 /// The least and the greatest factor for a yarn's length.
 const LENGTHS: (f64, f64) = (0.5, 2.0);
 
-/// The most tension that draws yarns in.
+/// The greatest tension that draws yarns in, as a share of their length a pass.
 const TENSION_MOST: f64 = 0.1;
 
 /// The least and the greatest distance of two plates, mm.
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {
-    /// Whether yarns settle, where the table says so, and the settings of their finish. Woven cloth
-    /// has other keys than knits.
+    /// Whether yarns settle (none if the table does not say), and the settings of their finish.
+    /// Woven cloth has other keys than knits.
     pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
         let knits = [
             ("finish.length", &self.length),
@@ -73,14 +73,14 @@ impl FinishTable {
         Ok((settle, finish))
     }
 
-    /// How woven cloth is stretched, where the table says so.
+    /// How woven cloth is stretched, or none if the table does not say.
     pub(super) fn stretch(&self, source: &Source<'_>) -> Result<Option<Stretch>, ReadError> {
         let (along, field, given) = match (&self.stretch_warp, &self.stretch_weft) {
             (None, None) => return Ok(None),
             (Some(given), None) => (Set::Warp, "finish.stretch_warp", given),
             (None, Some(given)) => (Set::Weft, "finish.stretch_weft", given),
             (Some(_), Some(given)) => {
-                let expected = "it or finish.stretch_warp, not both: the other way cloth gives by itself";
+                let expected = "it or finish.stretch_warp, not both: the other direction follows by itself";
                 return Err(source.odd("finish.stretch_weft", given, expected));
             }
         };
@@ -89,7 +89,7 @@ impl FinishTable {
         Ok(Some(Stretch { along, by }))
     }
 
-    /// The treatment of yarns' lengths, where the table says so.
+    /// The treatment of yarns' lengths, or none if the table does not say.
     fn length(&self, source: &Source<'_>) -> Result<Option<Length>, ReadError> {
         let field = "finish.length";
         let mut length = match &self.length {

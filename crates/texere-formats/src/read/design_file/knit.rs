@@ -17,8 +17,10 @@ use crate::read::knitted_from::Drawn;
 use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
 
-/// The least and the most wales and courses to the cm, and needles to the inch.
+/// The least and the most wales or courses to the cm.
 pub(super) const PER_CM: (f64, f64) = (0.01, 1000.0);
+
+/// The least and the most needles to the inch.
 pub(super) const PER_INCH: (f64, f64) = (0.1, 100.0);
 
 /// The shortest and the longest loop, mm.
@@ -177,7 +179,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A knit whose chart is one repeat.
+    /// The design of a knit whose repeat is `chart`.
     fn charted(
         &self,
         name: String,
@@ -188,13 +190,14 @@ impl Reader<'_> {
     ) -> Result<Design, ReadError> {
         let mut program = chart.program().map_err(|error| self.refused("knit", 0..0, error))?;
         let (names, threads): (Vec<_>, Vec<_>) = yarns.into_iter().unzip();
-        // Carriers are numbers of yarns. The last yarns may be missing in the chart.
+        // The program's carriers are named by the numbers of their yarns. The last yarns may be
+        // missing in the chart.
         program.carriers.iter_mut().zip(names).for_each(|(carrier, name)| *carrier = name);
         let knit = self.knit(self.gauge(None)?, threads)?;
         knit.design(self.source.path, name, program, drawn, warnings)
     }
 
-    /// A knit without its program, with these yarns for its carriers.
+    /// The settings of a knit whose carriers have the yarns `threads`.
     pub(super) fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
         let (source, table) = (self.source, self.table);
         let compression = knit_keys::compression(source, "knit.compression", table.compression.as_ref())?;
@@ -270,7 +273,7 @@ impl Reader<'_> {
     }
 
     /// The yarns of `knit.yarns` one after another, as numbers, and the named yarns that the
-    /// numbers stand for. Without the key it is the only yarn of the design.
+    /// numbers stand for. Without the key, both lists hold the only yarn of the design.
     pub(super) fn yarns_in_turn(&self) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
         let Some(list) = &self.table.yarns else {
             return match self.yarns.only() {
@@ -285,7 +288,7 @@ impl Reader<'_> {
         self.yarns.in_turn(self.source, "knit.yarns", list)
     }
 
-    /// Refuses keys that say nothing without the key `needs`.
+    /// Refuses keys that have no effect without the key `needs`.
     pub(super) fn belongs(
         &self,
         needs: &'static str,

@@ -7,13 +7,13 @@ use toml::Spanned;
 use super::source::Source;
 use crate::read::ReadError;
 
-/// The least and the greatest share of its diameter that a yarn keeps.
+/// The least and the greatest share of its diameter that a yarn may keep between others.
 const COMPRESSION: (f64, f64) = (0.8, 1.0);
 
 /// The most copies of a repeat in either direction.
 const COPIES_MAX: i64 = 1_000_000;
 
-/// The share of its diameter that a yarn keeps.
+/// The share of its diameter that a yarn keeps between others.
 pub(super) fn compression(
     source: &Source<'_>,
     field: &str,
@@ -22,7 +22,7 @@ pub(super) fn compression(
     share.map_or(Ok(1.0), |share| source.number(field, share, COMPRESSION.0, COMPRESSION.1))
 }
 
-/// Copies across the wales and along the courses.
+/// Number of copies of a repeat across the wales and along the courses.
 pub(super) fn copies(
     source: &Source<'_>,
     field: &str,
@@ -36,7 +36,7 @@ pub(super) fn copies(
     Ok([source.integer(field, across, 1, COPIES_MAX)?, source.integer(field, along, 1, COPIES_MAX)?])
 }
 
-/// The control points of a stitch: round or even cells.
+/// How a stitch is divided into control points: round or even cells.
 pub(super) fn cells(
     source: &Source<'_>,
     field: &str,

@@ -39,8 +39,8 @@ impl Reader<'_> {
         let is_program =
             |ending: &OsStr| ["k", "knitout"].iter().any(|known| ending.eq_ignore_ascii_case(known));
         if !path.extension().is_some_and(is_program) {
-            // Errors of a program may show a word of the file, so that the key must not name just
-            // any file.
+            // Errors of a program may show a word of the file, so the key may name only files of
+            // programs.
             return Err(source.bad("knit.knitout", knitout, "the path of a .k or .knitout file"));
         }
         let mut read = knitout::read(&path, source.files, &lengths)
@@ -51,7 +51,8 @@ impl Reader<'_> {
             read.warnings.push(said);
         }
         let (turn, yarns) = self.yarns_in_turn()?;
-        // Yarns go in turn to the carriers that are used. The yarns of other carriers are not seen.
+        // Yarns go in turn to the carriers that are used. The yarns of unused carriers are not in
+        // the cloth.
         let mut turn = turn.into_iter().cycle();
         let of_carrier = |used| if used { turn.next().unwrap_or(0) } else { 0 };
         let carriers = read.used_carriers().into_iter().map(of_carrier);

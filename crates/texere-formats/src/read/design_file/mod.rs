@@ -41,9 +41,9 @@
 //! | `drawdown` | a row for each pick, the last one on top: `1` where the warp is up, `0` where it is not; repeated over `ends` and `picks` |
 //! | `image` | point paper, each pixel a crossing: a PNG, BMP or TIFF file beside the design |
 //! | `wif` | a draft, in a WIF file beside the design |
-//! | `ends`, `picks` | the size of a cloth by notation or drawdown; with an image they may stand, and must then be right |
+//! | `ends`, `picks` | the size of a cloth by notation or drawdown; with an image they may be left out, and must otherwise be the image's size times `repeat` |
 //! | `rows` | which pick the image's top row is: `"last-pick-first"`, as weavers draw, or `"first-pick-first"` |
-//! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` where not given |
+//! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` if not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
 //!
 //! Each weave of an image counts from the cloth's first end and first pick. Areas of one weave
@@ -59,10 +59,10 @@
 //!
 //! | key | value |
 //! |---|---|
-//! | `shape` | `"round"` ([`Shape::Round`], where not given) or `"crossing"` ([`Shape::Crossing`]: the paper's count) |
-//! | `warp_crimp` | the warp's share of the crimp, 0 to 1 ([`Crimp::WarpShare`]); by stiffness where not given |
-//! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` where not given |
-//! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Relief`]) |
+//! | `shape` | `"round"` ([`Shape::Round`], if not given) or `"crossing"` ([`Shape::Crossing`]: the paper's count) |
+//! | `warp_crimp` | the warp's share of the crimp, 0 to 1 ([`Crimp::WarpShare`]); by stiffness if not given |
+//! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` if not given |
+//! | `jam` | what is done where threads are jammed: `"report"`, if not given, `"flatten"` or `"shrink"` ([`Relief`]) |
 //!
 //! Instead of `[weave]`, `[cloth]`, `[warp]` and `[weft]` a design may have `[knit]`, a weft knit:
 //!
@@ -80,11 +80,11 @@
 //! | `cells` | `"round"` or `"even"` ([`Cells`]) |
 //! | `float_max` | how many needles a yarn may float past before it is warned of |
 //!
-//! A warp knit has `[warp_knit]` in place of these:
+//! A warp knit has `[warp_knit]` in place of `[knit]`:
 //!
 //! | key | value |
 //! |---|---|
-//! | `wales`, `courses`, `repeat` | the size of a piece, multiples of what all bars repeat in, and copies of it: `[4, 2]` |
+//! | `wales`, `courses`, `repeat` | the size of a piece, multiples of what all bars repeat in, and the number of copies: `[4, 2]` |
 //! | `wales_per_cm`, or `needles_per_inch` with `draw_in`; `courses_per_cm` | how close loops lie when finished |
 //! | `compression`, `cells` | as in `[knit]` |
 //! | `[[warp_knit.bars]]` | a guide bar, the front one first |
@@ -96,20 +96,20 @@
 //! | `lapping`, `step` | chain notation ([`Chain`]) or a name ([`LAPPINGS`]); 2 where only every second number is a space |
 //! | `threading` | yarns of guides in turn, `out` for an empty one: `["2 white", "out"]` |
 //! | `offset` | needles by which the bar stands further to the right |
-//! | `run_in_mm` | yarn for a rack of 480 courses |
-//! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour what is displaced: `"0-0/1-1"` |
+//! | `run_in_mm` | the yarn that a guide takes for a rack of 480 courses, mm |
+//! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour says what is displaced: `"0-0/1-1"` |
 //!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]).
 //! `length`, `tension` and `press` are for knits, the rows below them for woven cloth:
 //!
 //! | key | value |
 //! |---|---|
-//! | `settle` | whether they settle at all; `true` where not given |
-//! | `length` | `"held"`, where not given, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]) |
-//! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 where not given |
+//! | `settle` | whether yarns settle at all; `true` if not given |
+//! | `length` | `"held"`, if not given, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]) |
+//! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 if not given |
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |
-//! | `warp_tension`, `weft_tension` | how taut the cloth is held, 1 where it is relaxed, 0 to 10 |
-//! | `calender` | how strongly it is pressed flat, likewise |
+//! | `warp_tension`, `weft_tension` | how taut the cloth is held, 1 for relaxed cloth, 0 to 10 |
+//! | `calender` | how strongly the cloth is pressed flat, 1 for relaxed cloth, 0 to 10 |
 //! | `stretch_warp` or `stretch_weft` | how many times as long the cloth becomes that way, its threads keeping their length ([`Stretch`](texere_fabric::Stretch)) |
 //!
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.

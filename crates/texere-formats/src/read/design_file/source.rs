@@ -32,12 +32,12 @@ impl<'a> Source<'a> {
         Ok(Self { path, text, files })
     }
 
-    /// The path of a file that the design names. Such paths are relative to the design's folder.
+    /// The path of a file that the design names, relative to the design's folder.
     pub(super) fn beside(&self, file: &Spanned<String>) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
     }
 
-    /// All keys of the file. None where it is not TOML.
+    /// All keys of the file, or no keys if the file is not TOML.
     pub(super) fn keys(&self) -> Keys {
         let mut found = Vec::new();
         if let Ok(table) = DeTable::parse(self.text) {
@@ -84,7 +84,7 @@ impl<'a> Source<'a> {
         ReadError::BadValue { place, value, expected }
     }
 
-    /// A number, whole or not, without limits.
+    /// The number in `value`, whole or not, without limits.
     pub(super) fn float(
         &self,
         field: &str,
@@ -95,7 +95,7 @@ impl<'a> Source<'a> {
         Ok(Spanned::new(value.span(), number))
     }
 
-    /// A number from `low` to `high`.
+    /// The number in `value`, which must be from `low` to `high`.
     pub(super) fn number(
         &self,
         field: &str,
@@ -114,7 +114,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// A number from `low` to `high`, where the key is there.
+    /// The number in `value`, which must be from `low` to `high`. None if the key is not there.
     pub(super) fn optional(
         &self,
         field: &str,
@@ -124,7 +124,7 @@ impl<'a> Source<'a> {
         value.as_ref().map(|value| self.number(field, value, low, high)).transpose()
     }
 
-    /// A count of threads.
+    /// The number of threads in `value`.
     pub(super) fn count(&self, field: &str, value: &Spanned<i64>) -> Result<usize, ReadError> {
         self.integer(field, value, 1, THREAD_LIMIT).map(|count| count as usize)
     }
@@ -146,7 +146,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// A colour as `#rrggbb`.
+    /// The colour that `color` writes as `#rrggbb`.
     pub(super) fn rgb(&self, field: &str, color: &Spanned<String>) -> Result<[u8; 3], ReadError> {
         let is_hex =
             |digits: &&str| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());

@@ -1,4 +1,4 @@
-//! From the yarns and thread sets of a design file to the threads of a cloth.
+//! Makes the threads of a cloth from the yarns and thread sets of a design file.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ const STIFFNESS: [f64; 2] = [0.01, 100.0];
 /// `f64`, so that 0.1 is within them: as an `f32` it is a little more than 0.1.
 const FLATNESS: [f64; 2] = [0.1, 10.0];
 
-/// The longest turn of a knit's yarns.
+/// The most yarns in turn of a knit.
 const TURN_MAX: usize = 100_000;
 
 /// A yarn with its name.
@@ -57,7 +57,7 @@ impl YarnTable {
         Ok(table)
     }
 
-    /// `count` threads of a set: its yarns, repeated.
+    /// `count` threads of a set: the yarns of `spec`, repeated.
     pub(super) fn threads(
         &self,
         source: &Source<'_>,
@@ -110,7 +110,7 @@ impl YarnTable {
         self.names.keys()
     }
 
-    /// The only yarn, with its name. None where there are others.
+    /// The only yarn of the table, with its name. None if the table has no yarn or several.
     pub(super) fn only(&self) -> Option<Named> {
         let (name, thread) = self.names.first_key_value().filter(|_| self.names.len() == 1)?;
         Some((name.clone(), *thread))
@@ -204,8 +204,8 @@ fn yarn(
     Ok((material, thread))
 }
 
-/// The diameter of a yarn, mm, as given or worked out from its count; and its tex where it has a
-/// count.
+/// The diameter of a yarn, mm, as given or worked out from its tex or cotton count. Also its tex,
+/// if one of these is given.
 fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, Option<f64>), ReadError> {
     let field = |key: &str| format!("yarns.{name}.{key}");
     let number_of = |key: &str, value, range| source.optional(&field(key), value, range);

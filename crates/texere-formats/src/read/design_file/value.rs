@@ -1,4 +1,5 @@
-//! From TOML's values to a design's values. Each value knows its key and its line.
+//! Turns TOML's values into a design's values. Each value is read with its key and its line, for
+//! errors.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +13,7 @@ use crate::read::error::{no_hyphen, said, shown};
 
 /// A type of value that a key may hold.
 pub(super) trait Value: Sized {
-    /// The value of a key that is not there; `None` where the key is required.
+    /// The value of a key that is not there, or `None` if the key is required.
     fn absent() -> Option<Self> {
         None
     }

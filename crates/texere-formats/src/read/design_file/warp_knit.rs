@@ -23,8 +23,10 @@ const OUT: &str = "out";
 /// The most guides of a threading.
 const GUIDES_MAX: usize = 100_000;
 
-/// The most needles by which a bar is offset; and the most wales or courses.
+/// The most needles by which a bar is offset.
 const OFFSET_MAX: i64 = 1 << 16;
+
+/// The most wales or courses of a piece.
 const SIDE_MAX: i64 = 1_000_000;
 
 /// The least and the greatest draw-in: finished width over width on the needles.
@@ -55,7 +57,7 @@ pub(super) fn read(
     let knit = made.map_err(|error| match error {
         FabricError::Warp(WarpError::WarpRepeat { what, multiple, .. }) => {
             let side = if what == "wale" { &table.wales } else { &table.courses };
-            let expected = format!("a multiple of {multiple}, after which all bars begin again");
+            let expected = format!("a multiple of {multiple}, after which all bars repeat");
             source.bad(&format!("warp_knit.{what}s"), side, &expected)
         }
         error => source.fabric(error),
@@ -96,7 +98,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The bar of `table`, which has this number, from 1.
+    /// The bar of `table`. `number` is its number, counted from 1.
     fn bar(&mut self, number: usize, table: &'a BarTable) -> Result<Bar, ReadError> {
         let source = self.source;
         let field = |key: &str| format!("warp_knit.bars, bar {number}: {key}");
@@ -162,7 +164,7 @@ impl<'a> Reader<'a> {
         Ok(Threading::of(guides))
     }
 
-    /// The number of a yarn among those that bars hold.
+    /// The number of a yarn in `threads`, to which a new yarn is added.
     fn number(&mut self, name: &'a str, thread: Thread) -> u32 {
         let known = self.threads.iter().position(|(other, _)| *other == name);
         if known.is_none() {
@@ -171,7 +173,7 @@ impl<'a> Reader<'a> {
         known.unwrap_or(self.threads.len() - 1) as u32
     }
 
-    /// The displacements of guides, where the bar has an image.
+    /// The displacements of guides, or none if the bar has no image.
     fn jacquard(
         &mut self,
         field: &impl Fn(&str) -> String,
@@ -205,8 +207,8 @@ impl<'a> Reader<'a> {
         displacements.map(Some).ok_or_else(|| source.bad(&field("image"), image, "an image of fewer pixels"))
     }
 
-    /// The displacements, by no needle or one, that a colour stands for at each course of the
-    /// chain.
+    /// The displacements that a colour stands for: no needle or one, at the beginning and at the
+    /// end of each lap of the chain.
     fn shifts(&self, field: &str, text: &Spanned<String>, chain: &Chain) -> Result<Vec<[u8; 2]>, ReadError> {
         let shifts = Chain::parse(text.as_ref(), 1).map_err(|error| self.no_chain(field, text, error))?;
         let shifts: Option<Vec<_>> =
@@ -225,7 +227,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A displacement of 0 or 1 needle. None for any other.
+/// A displacement by 0 or 1 needle. None for any other number.
 fn shift(needles: i32) -> Option<u8> {
     u8::try_from(needles).ok().filter(|needles| *needles <= 1)
 }

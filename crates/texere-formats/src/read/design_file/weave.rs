@@ -1,4 +1,4 @@
-//! From the `[weave]` table of a design file to a drawdown.
+//! Makes a drawdown from the `[weave]` table of a design file.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::read::ReadError;
 use crate::read::error::{first_few, named, shown};
 use crate::read::point_paper::PointPaper;
 
-/// One weave over the whole cloth.
+/// The drawdown of one weave over the whole cloth.
 pub(super) fn from_notation(
     source: &Source<'_>,
     table: &WeaveTable,
@@ -80,7 +80,7 @@ pub(super) fn without_image(source: &Source<'_>, table: &WeaveTable) -> Result<(
     }
 }
 
-/// An image, each pixel a crossing.
+/// The drawdown of an image, of which each pixel is a crossing.
 pub(super) fn from_image(
     source: &Source<'_>,
     table: &WeaveTable,
@@ -128,7 +128,7 @@ pub(super) fn from_image(
     drawdown.map_err(|error| source.fabric(error))
 }
 
-/// The least common multiple, or `usize::MAX` where it is greater.
+/// The least common multiple, or `usize::MAX` if it does not fit.
 fn common_multiple(a: usize, b: usize) -> usize {
     let (mut divisor, mut rest) = (a, b);
     while rest != 0 {
@@ -138,7 +138,7 @@ fn common_multiple(a: usize, b: usize) -> usize {
 }
 
 /// The table of colours, by red, green and blue. Each notation is parsed here only to refuse a bad
-/// one. Weaves are not kept, for a table may have many more colours than the paper.
+/// one. Weaves are not kept, because a table may have many more colours than the paper.
 fn weaves<'a>(
     source: &Source<'_>,
     colors: &'a BTreeMap<Spanned<String>, Spanned<String>>,
@@ -167,8 +167,8 @@ impl Notated<'_> {
     }
 }
 
-/// The weave of each colour of the paper. The inner error refuses a colour that has none. Warns of
-/// colours that are in the table but not in the paper.
+/// The weave of each colour of the paper. The inner error refuses a colour without a weave. A
+/// colour of the table that the paper lacks gives a warning.
 fn of_colors(
     source: &Source<'_>,
     paper: &PointPaper,

@@ -49,8 +49,8 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes) -> Result<(), ReadError>
     }
 }
 
-/// Reads the headers, and goes to the first pixel. `None` where every number has a colour, and
-/// where the decoder will refuse the file.
+/// Reads the headers, and goes to the first pixel. `None` if every number has a colour, or if the
+/// decoder will refuse the file.
 fn header(file: &mut impl Bytes) -> io::Result<Option<Numbers>> {
     let mut head = [0; 54];
     file.rewind()?;

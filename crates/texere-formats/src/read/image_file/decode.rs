@@ -1,4 +1,4 @@
-//! From an image file to an image in memory.
+//! Decodes an image file to an image in memory.
 
 use std::io::{BufReader, Cursor};
 use std::path::Path;
@@ -62,7 +62,8 @@ pub(crate) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError>
     decoder.set_limits(limits).map_err(failed)?;
 
     let mut bytes = filled("an image", size as usize, 0)?;
-    // Decoders take up to as much again, and abort where there is no memory for it.
+    // Decoders need up to as much memory again, and abort if there is none. `room` fails with an
+    // error instead.
     drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
     decoder.read_image(&mut bytes).map_err(failed)?;
     Ok(Image {

@@ -6,7 +6,7 @@ pub(crate) struct Image {
     pub(super) height: usize,
     /// Channels of a pixel: grey, or red, green and blue, and perhaps opacity.
     pub(super) channels: usize,
-    /// Row by row from the top, each channel in the machine's order of bytes.
+    /// The stored pixels, row by row from the top, each channel in the machine's order of bytes.
     pub(super) bytes: Vec<u8>,
     pub(super) orientation: Orientation,
 }
@@ -26,8 +26,8 @@ impl Orientation {
         (5..=8).contains(&self.0)
     }
 
-    /// The column and row in the stored image of this size of the pixel that is shown at `column`
-    /// and `row`.
+    /// The column and the row, in a stored image of this size, of the pixel that is shown at
+    /// `column` and `row`.
     fn stored(self, [width, height]: [usize; 2], [column, row]: [usize; 2]) -> [usize; 2] {
         let [across, down] = if self.swaps() { [row, column] } else { [column, row] };
         let across = if [2, 3, 7, 8].contains(&self.0) { width - 1 - across } else { across };

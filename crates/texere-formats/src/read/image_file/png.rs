@@ -1,4 +1,4 @@
-//! Looks in a PNG image for faults that the decoder takes for granted, or shows black.
+//! Looks in a PNG image for faults that the decoder does not check for, or shows black.
 
 use std::io::{self, SeekFrom};
 use std::path::Path;
@@ -12,8 +12,8 @@ use super::refused::{no_color, undecodable};
 use crate::read::ReadError;
 
 /// The most pixels that a byte of a PNG stands for. DEFLATE makes at most 1,032 bytes of one byte,
-/// and a byte has eight pixels of one bit. By this limit a short file takes no memory for pixels
-/// that it can't have.
+/// and a byte has eight pixels of one bit. By this limit no memory is reserved for pixels that a
+/// short file can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Refuses a PNG of `file_bytes` that has a broken palette, fewer bytes than its pixels take, or
@@ -56,8 +56,8 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
     }
 }
 
-/// The length of a PNG's palette where it is broken: no multiple of three bytes, or not 1 to 256
-/// colours. The decoder takes a sound palette for granted.
+/// The length of a PNG's palette if it is broken: no multiple of three bytes, or not 1 to 256
+/// colours. None for a valid palette, which the decoder takes for granted.
 fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
     // Behind the signature each chunk has its length, its name, its data and a checksum.
     file.seek(SeekFrom::Start(8))?;

@@ -7,8 +7,8 @@ use texere_core::counted;
 use crate::read::ReadError;
 use crate::read::error::said;
 
-/// The refusal of an image that can't be decoded. The decoder's reason is cut where it is long: it
-/// may repeat text of the file.
+/// The refusal of an image that can't be decoded. The decoder's reason is cut if it is long,
+/// because it may repeat text of the file.
 pub(super) fn undecodable(path: &Path, why: &str) -> ReadError {
     ReadError::Image { file: path.into(), source: said(why).into() }
 }

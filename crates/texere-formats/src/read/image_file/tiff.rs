@@ -1,6 +1,6 @@
-//! TIFF images of one channel: grey, or numbers of a palette. The decoder for all images takes few
-//! of them. They are read here, sample by sample, by a TIFF decoder that is made to believe that
-//! they are grey.
+//! TIFF images of one channel: grey, or numbers of a palette. The decoder for all images reads few
+//! of these correctly. They are read here, sample by sample, by a TIFF decoder that is given a
+//! header in which all samples are grey.
 
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -34,7 +34,7 @@ const BESIDE: u32 = 0b101;
 /// The tags of a TIFF's first page that are read before its pixels.
 pub(super) struct Header {
     photometric: u16,
-    /// The place of that tag's value in the file, bytes from its start.
+    /// The place of the value of PhotometricInterpretation in the file, bytes from its start.
     photometric_at: u64,
     order: ByteOrder,
 }
@@ -68,7 +68,7 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
     }
 }
 
-/// The first page's tags.
+/// The tags of the first page that decide how the file is read.
 struct Page {
     photometric: u16,
     fill_order: u16,
@@ -102,7 +102,8 @@ fn look(file: &mut impl Bytes) -> Result<Page, TiffError> {
     Ok(Page { photometric, fill_order, in_planes_of_tiles, others, header })
 }
 
-/// The place of the value of a tag in the directory at `at`; `None` where the value is not a SHORT.
+/// The place in the file of the value of a tag in the directory at `at`. `None` if the tag is
+/// missing or its value is not a SHORT.
 fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::Result<Option<u64>> {
     let number = |bytes: &[u8]| {
         let digits = |number, byte: &u8| number << 8 | u64::from(*byte);
@@ -130,7 +131,7 @@ fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::R
     Ok(None)
 }
 
-/// The bytes that the decoder may take at a time for pixels, for buffers, and for each tag.
+/// The most bytes that the decoder may use at a time for pixels, for buffers, and for each tag.
 fn limits(pixels: usize) -> Limits {
     let bytes = pixels + ASIDE_MAX as usize;
     let mut limits = Limits::default();
@@ -211,7 +212,7 @@ impl Samples {
             are_numbers: all(Tag::SampleFormat)?.iter().all(|format| *format == 1),
             alpha: alpha.and_then(|place| (count + place).checked_sub(extra.len())),
             // Some programs write palettes in a range of 255. A palette without greater numbers is
-            // taken as such a palette, as libtiff does.
+            // read in that range, as libtiff does.
             shift: if map.iter().all(|value| *value < 256) { 0 } else { 8 },
             map,
             orientation: Orientation(first(all(Tag::Orientation)?).unwrap_or(1)),
@@ -241,13 +242,13 @@ impl Samples {
         usize::from(byte(at)) >> (8 - self.bits - before) & ((1 << self.bits) - 1)
     }
 
-    /// A sample in a range of 255.
+    /// A sample scaled to a range of 255.
     fn of_255(&self, sample: usize) -> u8 {
         let most = (1 << self.bits) - 1;
         ((sample * 255 + most / 2) / most) as u8
     }
 
-    /// The colour of a pixel; `None` where the palette has none of its number.
+    /// The colour of a pixel, or `None` if the palette has no colour for its number.
     fn rgb(&self, sample: usize) -> Option<[u8; 3]> {
         let count = self.map.len() / 3;
         match self.photometric {

@@ -9,8 +9,8 @@ use super::line::Words;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 
-/// Whether a carrier may be called `word`. Messages and yarns have the name, so that it is short
-/// and printable.
+/// Whether a carrier may be called `word`. Messages and names of yarns contain the word, so it must
+/// be short and printable.
 pub(super) fn is_name(word: &str) -> bool {
     word.chars().count() <= NAME_MAX && !word.chars().any(char::is_control)
 }
@@ -23,7 +23,7 @@ pub(super) const NAME: &str = "the name of a carrier: 40 letters at most, none o
 pub(super) struct Carriers<'a> {
     numbers: HashMap<&'a str, u32>,
     names: Vec<String>,
-    /// Whether the header lists them.
+    /// Whether the header lists the carriers.
     declared: bool,
     sets: Vec<Vec<u32>>,
     set_numbers: HashMap<Vec<u32>, u32>,
@@ -45,7 +45,7 @@ impl<'a> Carriers<'a> {
         }
     }
 
-    /// The carrier set that the rest of an operation names. None where no word is left.
+    /// The carrier set that the rest of an operation names. None if no word is left.
     pub(super) fn set(&mut self, mut words: Words<'a>) -> Result<Option<CarrierSet>, ReadError> {
         self.set.clear();
         while let Some(word) = words.next() {
@@ -87,7 +87,7 @@ impl<'a> Carriers<'a> {
         Ok(number)
     }
 
-    /// Names and sets of the carriers, and whether the header lists none.
+    /// Names and sets of the carriers, and whether the header has no list of carriers.
     pub(super) fn finish(self) -> (Vec<String>, Vec<Vec<u32>>, bool) {
         (self.names, self.sets, !self.declared)
     }

@@ -13,7 +13,7 @@ use crate::read::error::shown;
 /// The version of knitout that is read.
 const VERSION: u32 = 2;
 
-/// Reads the line `;!knitout-2`, and warns where it is missing or has another version.
+/// Reads the line `;!knitout-2`, and warns if it is missing or has another version.
 pub(super) fn magic<'a>(
     lines: &mut Peekable<impl Iterator<Item = (usize, &'a str)>>,
     warnings: &mut Warnings,
@@ -46,10 +46,10 @@ pub(super) fn is_known(name: &str) -> bool {
 pub(super) struct Header<'a> {
     /// The carriers, front to back.
     pub(super) carriers: Option<Vec<&'a str>>,
-    /// Needles to the inch, and the line of that header.
+    /// Number of needles to the inch, and the line of its header.
     pub(super) gauge: Option<(f64, usize)>,
     machine: Option<&'a str>,
-    /// The yarn in each carrier, and the line of that header.
+    /// The yarn in each carrier, and the line of its header.
     yarns: HashMap<&'a str, (&'a str, usize)>,
 }
 
@@ -98,8 +98,8 @@ impl<'a> Header<'a> {
     }
 
     /// The fractions of a rack at which back needles lie between front needles, so that both beds
-    /// can knit at once. It is 0.25 on Shima Seiki's SWG machines, below 0 as well (-0.75), and 0.5
-    /// on other machines. Without a machine's name both are taken.
+    /// can knit at once. The fraction is 0.25 on Shima Seiki's SWG machines, for racks below 0 as
+    /// well (-0.75), and 0.5 on other machines. If the file names no machine, both are allowed.
     pub(super) fn all_needle_racks(&self) -> &'static [f64] {
         match self.machine {
             Some(machine) if machine.starts_with("SWG") => &[0.25],
@@ -108,7 +108,7 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// The yarn in each of `carriers`.
+    /// The yarn in each of `carriers`. A yarn in any other carrier gives a warning.
     pub(super) fn yarns_of(mut self, carriers: &[String], warnings: &mut Warnings) -> Vec<Option<String>> {
         let text = |(yarn, _): (&str, _)| {
             yarn.chars().filter(|letter| !letter.is_control()).take(YARN_MAX).collect()

@@ -20,7 +20,7 @@ use crate::read::keys::{GAUGE, Keys};
 #[derive(Debug)]
 pub(crate) struct KnitoutFile {
     pub(crate) program: Program,
-    /// Needles to the inch, where the header says so.
+    /// Number of needles to the inch, or none if the header does not say.
     pub(crate) gauge: Option<f64>,
     /// The text of the header about the yarn in each carrier of the program.
     pub(crate) yarns: Vec<Option<String>>,
@@ -31,7 +31,7 @@ pub(crate) struct KnitoutFile {
 }
 
 impl KnitoutFile {
-    /// For each carrier, whether an operation takes it.
+    /// For each carrier, whether an operation names it.
     pub(crate) fn used_carriers(&self) -> Vec<bool> {
         let mut used = vec![false; self.program.carriers.len()];
         // Every set occurs in an operation.
@@ -42,7 +42,7 @@ impl KnitoutFile {
     }
 }
 
-/// Reads the file in `path`. The sources of its operations are lines, from 1.
+/// Reads the file in `path`. The sources of its operations are lines, counted from 1.
 pub(crate) fn read(path: &Path, files: &Files<'_>, lengths: &LoopLengths) -> Result<KnitoutFile, ReadError> {
     parse(path, &bytes_of(files, path, FILE_MAX)?, lengths)
 }
@@ -94,8 +94,8 @@ pub(super) fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<
 }
 
 /// The lines that errors of the cloth name: the line of the gauge, the first operation of each
-/// carrier, and the operation of the last loop. Where no operation makes a loop, the first
-/// operation stands for it.
+/// carrier, and the operation of the last loop. If no operation makes a loop, the first operation
+/// with a carrier is named instead.
 fn keys(path: &Path, gauge: Option<usize>, program: &Program) -> Keys {
     let (mut carriers, mut last, mut seen) = (Vec::new(), None, vec![false; program.carriers.len()]);
     let written = |(operation, carrier): (&Operation, u32)| {

@@ -13,7 +13,7 @@ use crate::read::error::{no_hyphen, shown};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line<'a> {
     pub(super) file: &'a Path,
-    /// From 1.
+    /// The number of the line, counted from 1.
     pub(super) number: usize,
     pub(super) text: &'a str,
 }
@@ -23,7 +23,7 @@ impl<'a> Line<'a> {
         Self { file, number, text }
     }
 
-    /// The words of the operation. A comment ends it.
+    /// The words of the operation. A comment ends the operation.
     pub(super) fn words(&self) -> Words<'a> {
         let operation = self.text.split(';').next().unwrap_or_default();
         Words { line: *self, operation, rest: operation.split_whitespace() }
@@ -56,7 +56,7 @@ impl<'a> Iterator for Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    /// The next word. Where there is none, the place behind the last word is refused.
+    /// The next word. If there is none, the place behind the last word is refused.
     fn needed(&mut self, expected: &str) -> Result<&'a str, ReadError> {
         self.rest.next().ok_or_else(|| {
             let operation = self.operation.trim_end();
@@ -74,7 +74,7 @@ impl<'a> Words<'a> {
         self.rest.next().map_or(Ok(()), |word| Err(self.line.refused(word, "the end of the operation")))
     }
 
-    /// `+` or `-`.
+    /// The direction in the next word, `+` or `-`.
     pub(super) fn direction(&mut self) -> Result<Direction, ReadError> {
         let expected = "a direction, + or -";
         match self.needed(expected)? {
@@ -84,7 +84,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// A needle or a slider.
+    /// The needle or the slider in the next word.
     pub(super) fn needle(&mut self) -> Result<Needle, ReadError> {
         let expected = "a needle such as f1, b-2 or fs3";
         let word = self.needed(expected)?;
@@ -104,7 +104,7 @@ impl<'a> Words<'a> {
         Ok(Needle { bed, slider, number })
     }
 
-    /// A number, with the word that the file has for it.
+    /// The number in the next word, and that word.
     pub(super) fn number(&mut self, expected: &str) -> Result<(f64, &'a str), ReadError> {
         let word = self.needed(expected)?;
         let number = word.parse().ok().filter(|number: &f64| number.abs() <= f64::from(NEEDLE_MAX));
@@ -113,8 +113,8 @@ impl<'a> Words<'a> {
         })
     }
 
-    /// Passes by a direction and a needle, which older writers put before the carriers of `in` and
-    /// `out`. Gives whether they were there.
+    /// Skips a direction and a needle, which older writers put before the carriers of `in` and
+    /// `out`. Returns whether they were there.
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
         let is_direction = |word: &str| {

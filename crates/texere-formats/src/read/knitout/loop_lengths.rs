@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 pub(crate) type LoopLengths = BTreeMap<String, f64>;
 
 /// A stitch size in one spelling, however its numbers are written: the number behind
-/// `x-stitch-number`, or both numbers behind `stitch`. None where `text` is not one or two numbers.
+/// `x-stitch-number`, or both numbers behind `stitch`. None if `text` is not one or two numbers.
 pub(crate) fn size(text: &str) -> Option<String> {
     let numbers =
         text.split_whitespace().map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()));

@@ -27,8 +27,9 @@ pub(super) struct Operations<'a> {
     /// The fractions of a rack that stand for half a needle.
     all_needle_racks: &'static [f64],
     operations: Vec<Operation>,
-    /// The first stitch size without a length, with its line; and whether another such size occurs.
+    /// The first stitch size without a length, with its line.
     unsized_first: Option<(String, usize)>,
+    /// Whether another stitch size without a length occurs.
     unsized_others: bool,
     /// Stitch sizes that have a length and occur in an operation.
     sized: BTreeSet<String>,
@@ -131,7 +132,7 @@ impl<'a> Operations<'a> {
         }
     }
 
-    /// An operation that brings yarns in or out.
+    /// Reads the carriers of an operation that brings yarns in or out.
     fn yarns(
         &mut self,
         line: &Line<'a>,
@@ -152,8 +153,8 @@ impl<'a> Operations<'a> {
         }
     }
 
-    /// A rack, in needles. A fraction becomes half a needle: back needles then lie halfway between
-    /// front needles.
+    /// The rack that `word` writes, in needles. Any fraction of a needle becomes half a needle, at
+    /// which back needles lie halfway between front needles.
     fn rack(&self, line: &Line<'_>, rack: f64, word: &str, warnings: &mut Warnings) -> f64 {
         let (whole, fraction) = (rack.floor(), rack - rack.floor());
         if fraction == 0.0 {
@@ -171,7 +172,8 @@ impl<'a> Operations<'a> {
         whole + 0.5
     }
 
-    /// The length of the loops that follow, where this stitch size has one.
+    /// The instruction that gives the loops that follow the length of this stitch size, if that
+    /// size has one.
     fn stitch_size(&mut self, line: &Line<'_>, numbers: &[f64]) -> (Instruction, CarrierSet) {
         let size = size_of_numbers(numbers);
         let length = self.lengths.get(&size).copied();
@@ -206,7 +208,7 @@ impl<'a> Operations<'a> {
         Ok(())
     }
 
-    /// The program, and whether the header lists no carriers.
+    /// The program, and whether the header has no list of carriers.
     pub(super) fn finish(self, warnings: &mut Warnings) -> (Program, bool) {
         match self.unsized_first {
             Some((size, line)) if !self.sized.is_empty() => {
@@ -215,7 +217,7 @@ impl<'a> Operations<'a> {
                 );
                 warnings.once("stitch sizes", line, &said);
             }
-            // Where all loops have one size, the size makes no difference.
+            // If all loops have one size, the size makes no difference.
             Some((_, line)) if self.unsized_others => {
                 let said = "stitch sizes, which the machine's own table turns into lengths; loops without a length are all alike";
                 warnings.once("stitch sizes", line, said);

@@ -1,4 +1,4 @@
-//! Knitout of each kind, the text in the test.
+//! Tests of the reader of knitout, with the text of each file in the test.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn read(text: impl AsRef<[u8]>) -> Result<KnitoutFile, ReadError> {
     parse(Path::new("a.k"), text.as_ref(), &LoopLengths::new())
 }
 
-/// The instructions of lines behind a sound header, with the carriers of each.
+/// The instructions of lines behind a valid header, with the carriers of each.
 fn instructions(lines: &str) -> Vec<(Instruction, Vec<u32>)> {
     let knitout = read(format!("{HEAD}{lines}")).unwrap_or_else(|error| panic!("{lines}: {error}"));
     assert!(knitout.warnings.is_empty(), "{:?}", knitout.warnings);
@@ -148,7 +148,8 @@ fn what_is_no_operation_is_refused_with_its_place() {
     assert_eq!(refusal(";;Carriers: 1 2 1\n"), "a.k, line 1, column 17: \"1\", expected each carrier once");
 }
 
-/// What word processors make of a hyphen is named wherever one belongs.
+/// A dash that a word processor has put in place of a hyphen is named by the error, wherever a
+/// hyphen belongs.
 #[test]
 fn dashes_for_hyphens_are_named() {
     for (dash, name) in [
@@ -185,7 +186,7 @@ fn dashes_for_hyphens_are_named() {
             }
         }
     }
-    // Names of carriers are free.
+    // The name of a carrier may have a dash.
     assert_eq!(
         read(";!knitout-2\n;;Carriers: a\u{2013}b\nin a\u{2013}b\n").unwrap().program.carriers,
         ["a\u{2013}b"]
@@ -212,7 +213,7 @@ fn what_is_not_standard_is_warned_of_once() {
     one(format!("{HEAD}in 1\n;;Carriers: 5\n;;Gauge: 3\n"), "line 4: a header behind the first operation");
     one(format!("{HEAD}inhook - f10 1\n"), "direction and needle before the carriers");
     one(";!knitout-2\nin 6\nknit + f1 6 7\n".into(), "no header \";;Carriers: \"");
-    // One size for all loops loses nothing.
+    // Two sizes give a warning. One size for all loops makes no difference to the cloth.
     one(format!("{HEAD}x-stitch-number 70\nx-stitch-number 71\n"), "line 3: stitch sizes");
     assert_eq!(warnings(format!("{HEAD}x-stitch-number 70\nx-stitch-number 70\n")), [""; 0]);
 
@@ -223,7 +224,7 @@ fn what_is_not_standard_is_warned_of_once() {
     assert!(many.len() == 21 && many[20].contains("more warnings are left out"), "{many:?}");
 }
 
-/// Errors of a cloth, whose structure and settling know carriers and sizes, name the lines of its
+/// An error of a cloth names a carrier or a size. It gets the line of that carrier or size in the
 /// file.
 #[test]
 fn errors_of_the_cloth_have_their_lines() {
@@ -271,7 +272,7 @@ fn errors_of_the_cloth_have_their_lines() {
         let said = error.to_string();
         assert_eq!(place(text, error), Some(format!("a.k {line}")), "{said}");
     }
-    // Where nothing is knitted, the first operation has to do.
+    // If nothing is knitted, the error gets the line of the first operation.
     let empty = place(
         ";!knitout-2\nin 1\nout 1\n",
         FabricError::Weft(WeftError::Stitches { what: "no loops" }).into(),
@@ -300,7 +301,7 @@ fn stitch_sizes_are_lengths_where_they_are_told() {
     let read: Vec<_> = knitout.program.operations.iter().map(|each| each.instruction).collect();
     assert_eq!(read, [LoopLength(Some(5.5)), LoopLength(Some(6.0))]);
     assert!(knitout.warnings.is_empty() && knitout.unused_sizes.is_empty());
-    // One that is missing beside others, and one that does not come.
+    // Size 71 has no length, while size 70 has one. Size "10 20" has a length, but does not occur.
     let text = format!("{HEAD}x-stitch-number 70\nx-stitch-number 71\nx-stitch-number 71\n");
     let knitout = parse(Path::new("a.k"), text.as_bytes(), &lengths).unwrap();
     assert_eq!(knitout.unused_sizes, ["10 20"]);
@@ -330,7 +331,7 @@ fn hostile_bytes_are_read_or_refused() {
         .map(|number| format!("knit + f1 {} {}\nx-{number}\n", number % 250, (number + 1) % 250))
         .collect();
     let knitout = read(format!("{names}{sets}")).unwrap();
-    // What a line is compared with has a limit, or is found by its name.
+    // A line is compared with a limited number of others, or looked up by name.
     assert_eq!((knitout.program.carriers.len(), knitout.program.carrier_sets.len()), (250, 251));
     assert_eq!(knitout.warnings.len(), WARNINGS_MAX + 1);
 }

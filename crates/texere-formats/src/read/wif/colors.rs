@@ -12,11 +12,11 @@ use crate::read::ReadError;
 #[derive(Debug)]
 pub(super) struct Palette {
     materials: Vec<Material>,
-    /// The material of each colour of the table.
+    /// For each number of a colour, the number of its material.
     by_number: BTreeMap<u32, u32>,
 }
 
-/// The material of threads without a colour.
+/// The number of the material of threads without a colour.
 pub(super) const NO_COLOR: u32 = 0;
 
 impl Palette {
@@ -57,7 +57,7 @@ impl Palette {
     }
 
     /// The material of the colour that `entry` names: a number of the table, or a number with red,
-    /// green and blue. `None` where it names none.
+    /// green and blue. `None` if the entry names no colour.
     pub(super) fn material(
         &mut self,
         ini: &Ini<'_>,
@@ -105,8 +105,8 @@ fn few(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Result<Vec
     numbers.collect()
 }
 
-/// The range of the table's values. Where the file has none, it is 0 to 255, or 0 to 999
-/// (Fiberworks) or 0 to 65,535 where values go beyond.
+/// The range of the table's values. If the file states none, it is 0 to 255, or 0 to 999
+/// (Fiberworks) or 0 to 65,535 if values go beyond.
 fn range(
     ini: &Ini<'_>,
     table: &BTreeMap<u32, [u32; 3]>,

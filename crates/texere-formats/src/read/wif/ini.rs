@@ -12,7 +12,7 @@ use crate::read::keys::Keys;
 /// A `key=value` line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry<'a> {
-    /// The line, from 1.
+    /// The line, counted from 1.
     pub(super) line: usize,
     /// The value as written, without comment and without space around it. It may be empty.
     pub(super) value: &'a str,
@@ -29,7 +29,7 @@ pub(super) struct Ini<'a> {
 }
 
 /// The sections that are kept: those that describe the cloth, and the one that names the program.
-/// Other sections may have any size, for nothing of them is kept.
+/// Other sections may have any size, because nothing of them is kept.
 const READ: [&str; 17] = [
     "wif",
     TEXT,
@@ -54,7 +54,7 @@ const READ: [&str; 17] = [
 const TEXT: &str = "text";
 
 impl<'a> Ini<'a> {
-    /// Reads the sections. Where a section or a key comes twice, the later value counts.
+    /// Reads the sections. If a section or a key comes twice, the later value counts.
     pub(super) fn parse(file: &'a Path, text: &'a str) -> Self {
         let mut sections: HashMap<Cow<'a, str>, Section<'a>> = HashMap::new();
         let (mut section, mut is_text) = (None, false);
@@ -70,7 +70,7 @@ impl<'a> Ini<'a> {
                 section.insert(plain_key(key.trim()), Entry { line: line + 1, value: value.trim() });
             }
         }
-        // A section with empty values only counts as missing.
+        // A section in which all values are empty counts as missing.
         sections.retain(|_, entries| entries.values().any(|entry| !entry.value.is_empty()));
         Self { file, sections }
     }
@@ -109,7 +109,8 @@ impl<'a> Ini<'a> {
         self.sections.contains_key(name)
     }
 
-    /// The entry of a key, where it is there and not empty. Both names are in lower case.
+    /// The entry of a key, if there is one and its value is not empty. Both names are in lower
+    /// case.
     pub(super) fn get(&self, section: &str, key: &str) -> Option<&Entry<'a>> {
         self.sections.get(section)?.get(key).filter(|entry| !entry.value.is_empty())
     }
@@ -138,8 +139,8 @@ fn lower_case(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// The text of a file: UTF-16 where it begins like UTF-16, else UTF-8 where it is valid, else
-/// Latin-1.
+/// The text of a file. It is decoded as UTF-16 if it begins like UTF-16, else as UTF-8 if it is
+/// valid UTF-8, else as Latin-1.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     // UTF-16 without a byte order mark is recognised by the zeros in its first two letters, since a
     // WIF file begins with "[W".

@@ -10,5 +10,6 @@ pub(super) const THREADS_MAX: u32 = 1_000_000;
 /// The most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.
 pub(crate) const LOOM_MAX: u32 = 100_000;
 
-/// The least and the widest spacing or thickness that is taken, mm: as in a design file.
+/// The least and the greatest spacing or thickness that is allowed, mm. A design file has the same
+/// limits.
 pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];

@@ -2,16 +2,16 @@
 //! strict about what it says.
 //!
 //! Sections and keys come in any order and case. Sparse lists take defaults. A value of 0, or none,
-//! stands for no shaft or no treadle. CONTENTS is not read. Refused, with section and key, are a
-//! treadle or shaft that the loom does not have, a colour that is not in the table, and a missing
-//! tie-up, treadling or lift plan.
+//! stands for no shaft or no treadle. CONTENTS is not read. A treadle or shaft that the loom does
+//! not have, a colour that is not in the table, and a missing tie-up, treadling or lift plan are
+//! refused with section and key.
 //!
-//! A loom has the shafts and treadles that WEAVING declares. Where ends are threaded on more
-//! shafts, or the tie-up has rows for more treadles, the loom has these as well, and a warning says
-//! so. A lift or a treadling beyond them is refused. Without a declaration the loom has as many as
-//! the file uses.
+//! A loom has the shafts and treadles that WEAVING declares. If ends are threaded on more shafts,
+//! or the tie-up has rows for more treadles, the loom has these as well, and a warning says so. A
+//! lift of other shafts or a pressing of other treadles is refused. Without a declaration the loom
+//! has as many as the file uses.
 //!
-//! A thickness that leaves threads no room to cross is taken as the width at which a program draws
+//! A thickness that leaves threads no room to cross is read as the width at which a program draws
 //! them, unless texere has written the draft: see [`threads::roomy`].
 
 mod colors;

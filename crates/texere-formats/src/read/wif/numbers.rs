@@ -18,7 +18,7 @@ pub(super) fn bad(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>, ex
     ReadError::BadValue { place, value, expected: expected.into() }
 }
 
-/// A whole number within `low` and `high`, or `None` where the key is missing or empty.
+/// A whole number from `low` to `high`, or `None` if the key is missing or empty.
 pub(super) fn integer(
     ini: &Ini<'_>,
     section: &str,
@@ -62,7 +62,7 @@ pub(super) fn lists(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Vec<u32>>, ReadError> {
     let mut lists = filled("a draft", count as usize, Vec::new())?;
-    // For each number, the list that had it last.
+    // For each number, the last list that has it.
     let mut had = vec![0; LOOM_MAX as usize + 1];
     for (number, entry) in numbered(ini, section, count, warnings)? {
         let key = number.to_string();
@@ -82,8 +82,8 @@ pub(super) fn lists(
 }
 
 /// The lines of a section whose key is a number from 1 to `count`, sorted. A warning counts the
-/// others. A section that begins at 0 and has no line `count` is refused, because all of its lines
-/// would stand for the wrong threads.
+/// other lines. A section that begins at 0 and has no line `count` is refused, because all of its
+/// lines would stand for the wrong threads.
 pub(super) fn numbered<'a>(
     ini: &Ini<'a>,
     section: &str,
@@ -119,7 +119,7 @@ pub(super) fn numbered<'a>(
     Ok(lines)
 }
 
-/// A length in the file's unit within `low` and `high`, or `None` for 0.
+/// A length in the file's unit from `low` to `high`, or `None` for 0.
 pub(super) fn length(
     ini: &Ini<'_>,
     section: &str,
@@ -127,7 +127,7 @@ pub(super) fn length(
     entry: &Entry<'_>,
     [low, high]: [f64; 2],
 ) -> Result<Option<f64>, ReadError> {
-    // Some programs write a decimal comma where their user's language has one.
+    // Some programs write a decimal comma if their user's language has one.
     let value: f64 =
         entry.value.replace(',', ".").parse().map_err(|_| bad(ini, section, key, entry, "a length"))?;
     if value == 0.0 {

@@ -2,8 +2,8 @@
 
 use super::ini::Ini;
 
-/// The program that texere's own drafts name as their source. Their thicknesses are those of yarns,
-/// however close threads lie.
+/// The program that texere's own drafts name as their source. The thicknesses in these drafts are
+/// diameters of yarns, however close threads lie.
 pub(crate) const PROGRAM: &str = "texere";
 
 /// Whether texere has written the draft.

@@ -11,19 +11,21 @@ use super::numbers::{bad, length, numbered};
 use super::program::is_ours;
 use crate::read::ReadError;
 
-/// The spacing where the file gives none, mm: 10 threads to the centimetre.
+/// The spacing if the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;
 
 /// The units of the standard, in mm. A decipoint is a tenth of a point, of which 72 make an inch.
 pub(crate) const UNITS_MM: [(&str, f64); 3] =
     [("Centimeters", 10.0), ("Inches", 25.4), ("Decipoints", 25.4 / 720.0)];
 
-/// The room that threads get to cross where the file does not state their thickness, in least
-/// pitches (Peirce's). `ROOM` is 2/√3, which a diameter of half the spacing leaves in a cloth of
-/// equal threads. `ROOM_UNEVEN` is for uneven threads. It keeps threads clear beside gaps of up to
-/// twelve times their pitch, and beside threads of a twelfth of their diameter. The test of both is
-/// `what_is_given_room_does_not_pierce`.
+/// The room that equal threads, evenly spaced, get to cross if the file does not state their
+/// thickness, in least pitches (Peirce's). It is 2/√3, which a diameter of half the spacing leaves.
+/// The test is `what_is_given_room_does_not_pierce`.
 const ROOM: f64 = 1.154_700_538_379_251_5;
+
+/// The room that uneven threads get. It keeps threads clear beside gaps of up to twelve times their
+/// pitch, and beside threads of a twelfth of their diameter. The test is
+/// `what_is_given_room_does_not_pierce`.
 const ROOM_UNEVEN: f64 = 1.85;
 
 /// The share by which room may fall short without effect. Radii are rounded to `f32`.
@@ -71,15 +73,16 @@ pub(super) fn read(
     Ok((threads, drawn == [false; 2] && missing != [true; 2]))
 }
 
-/// A cloth of `threads`, for a file that does not state how thick they are. Where some threads have
-/// no room to cross, all are thinned by one factor.
+/// The cloth of the threads `warp` and `weft`, for a file that does not state how thick they are.
+/// If some threads have no room to cross, all are made thinner by one factor.
 ///
 /// Many programs write the width at which they draw a thread, the whole of its spacing, as its
-/// thickness. Such threads can't be woven, because threads that cross them have to pass between
-/// them. A `Thickness` that equals the set's `Spacing`, or threads that together are as wide as the
-/// set, therefore give only the ratios of thicknesses. Their mean is taken as in a file without
-/// thickness: half the mean spacing of the set that lies closer. Equal threads, evenly spaced, then
-/// have 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`]). Uneven threads may have less.
+/// thickness. Threads of that thickness can't be woven, because threads that cross them have to
+/// pass between them. A `Thickness` that equals the set's `Spacing`, or threads that together are
+/// as wide as the set, therefore give only the ratios of thicknesses. The mean thickness is then
+/// that of a file without thickness: half the mean spacing of the set that lies closer. Equal
+/// threads, evenly spaced, then have 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`]).
+/// Uneven threads may have less.
 pub(super) fn roomy(
     drawdown: Drawdown,
     [warp, weft]: [Vec<Thread>; 2],
@@ -116,7 +119,7 @@ fn are_alike(lengths: impl Iterator<Item = f64> + Clone) -> bool {
     lengths.clone().fold(0.0, f64::max) <= (1.0 + ALIKE) * lengths.fold(f64::INFINITY, f64::min)
 }
 
-/// The mean of the lengths that are known.
+/// The mean of the lengths that are known, or none if none is known.
 fn mean(lengths: &[Option<f64>]) -> Option<f64> {
     let (count, sum) =
         lengths.iter().flatten().fold((0, 0.0), |(count, sum), length| (count + 1, sum + length));
@@ -174,7 +177,7 @@ impl Set {
                 .is_some_and(|ratio| ratio >= 1.0 - ALIKE)
     }
 
-    /// The threads. `spacing` and `diameter`, mm, stand in where the file gives none. Where
+    /// The threads of the set. `spacing` and `diameter`, mm, are used where the file gives none. If
     /// thicknesses are `drawn`, they are scaled so that their mean is `diameter`.
     fn threads(
         self,
@@ -205,7 +208,7 @@ impl Set {
             warnings
                 .push(format!("[{name}] {plain} of {threads} {} no colour; undyed is taken", have(plain)));
         }
-        // A thread without a spacing, among others that have one, takes their mean.
+        // A thread without a spacing gets the mean of those that have one.
         let spacing = mean(&self.spacing_mm).unwrap_or(spacing);
         let mut all = room("threads", count)?;
         let each = self.spacing_mm.into_iter().zip(self.thickness_mm).zip(self.material);
@@ -222,7 +225,8 @@ impl Set {
     }
 }
 
-/// The unit of a section's lengths, mm. Where the section names none, the other set's is taken.
+/// The unit of a section's lengths, mm. If the section names none, it is the other set's unit, or
+/// else centimetres.
 fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f64, ReadError> {
     let other = if section == "warp" { "weft" } else { "warp" };
     let units = [section, other].into_iter().find_map(|of| Some((of, ini.get(of, "units")?)));

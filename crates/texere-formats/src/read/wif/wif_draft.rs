@@ -27,7 +27,7 @@ pub(crate) struct WifDraft {
     pub(crate) keys: Keys,
 }
 
-/// The design of a draft alone. A draft has no finish, so that its yarns do not settle.
+/// The design of a draft alone. A draft has no finish, so its yarns do not settle.
 pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let wif = read(path, files)?;
     let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
@@ -79,7 +79,7 @@ fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> Re
 }
 
 /// The draft and its drawdown. A draft has a threading, and a tie-up with treadling or a lift plan.
-/// Where a file has both and they differ, the tie-up is taken, and a warning says so.
+/// If a file has both and they weave different cloths, the tie-up is used, and a warning says so.
 fn draft(
     ini: &Ini<'_>,
     ends: u32,
@@ -128,10 +128,10 @@ fn draft(
     Ok((draft, drawdown))
 }
 
-/// Refuses a draft that counts shafts from 0. Such a draft has ends on shaft 0 and on every further
-/// shaft but the last, and its lifts name shaft 0 and never the last. Where ends and lifts name
-/// shaft 0, but the rest does not hold, there is a warning. Drafts that texere has written count
-/// from 1.
+/// Refuses a draft that counts shafts from 0. A draft that does so has ends on shaft 0 and on every
+/// further shaft but the last, and its lifts name shaft 0 and never the last. If ends and lifts
+/// name shaft 0, but the rest does not hold, there is a warning. Drafts that texere has written
+/// count from 1.
 fn counted_from_1(
     ini: &Ini<'_>,
     threading: &[Vec<u32>],
@@ -173,7 +173,7 @@ fn has_no_treadles(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<bool, Re
     Ok(none)
 }
 
-/// Tie-up and treadling, where both are there.
+/// Tie-up and treadling, or none if one of them is missing.
 fn treadled(
     ini: &Ini<'_>,
     picks: u32,
@@ -192,8 +192,8 @@ fn treadled(
 }
 
 /// The number of the loom's shafts or treadles: the number under `key` in `[WEAVING]`, or
-/// `highest`, the highest number in `section`, where that is greater. None where nothing is
-/// declared.
+/// `highest`, the highest number in `section`, if that is greater. None if `[WEAVING]` has no
+/// `key`.
 fn on_loom(
     ini: &Ini<'_>,
     key: &str,

@@ -6,9 +6,8 @@ use texere_fabric::{Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
 
 use crate::Design;
 
-/// The settings of a design's finish that differ from the defaults. Settings of woven cloth have
-/// keys in a design file; settings of knits, and settings that only a program can ask for, have
-/// none here.
+/// The settings of a design's finish that differ from the defaults. Only settings of woven cloth
+/// have keys here. Settings of knits, and settings that only a program can ask for, have none.
 pub(super) struct Finished {
     /// Keys of woven cloth, each with its value.
     pub(super) keys: Vec<(&'static str, f64)>,

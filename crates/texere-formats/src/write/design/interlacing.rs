@@ -62,10 +62,10 @@ impl<'a> Interlacing<'a> {
         [&self.ends, &self.picks].map(|kinds| period(&kinds.of))
     }
 
-    /// A draft with a shaft for each kind of end. It has a treadle for each kind of pick where
-    /// there are few of both, else a lift plan.
+    /// A draft with a shaft for each kind of end. It has a treadle for each kind of pick if there
+    /// are at most [`TIED_MAX`] of each, else a lift plan.
     ///
-    /// **Errors**: [`WriteError::TextTooLarge`] where its lift plan alone is larger than `limit`.
+    /// **Errors**: [`WriteError::TextTooLarge`] if the lift plan alone is larger than `limit`.
     pub(super) fn draft(&self, format: &'static str, limit: u64) -> Result<Draft, WriteError> {
         let shafts = &self.ends.firsts;
         let lifted = |kind: usize| {
@@ -79,7 +79,7 @@ impl<'a> Interlacing<'a> {
             Shedding::TieUp { tie_up: kinds.map(|kind| lifted(kind).collect()).collect(), treadling }
         } else {
             let counts: Vec<_> = kinds.map(|kind| lifted(kind).count() as u64).collect();
-            // A digit and a separator.
+            // Each number takes at least a digit and a separator.
             let bytes = self.picks.of.iter().map(|kind| 2 * counts[*kind as usize]).sum();
             if bytes > limit {
                 return Err(WriteError::TextTooLarge { format, bytes, limit });
@@ -98,7 +98,7 @@ fn packed(count: usize, bit: impl Fn(usize) -> bool) -> Vec<u64> {
     (0..count).step_by(64).map(word).collect()
 }
 
-/// The number of items after which they repeat. The last repeat may be incomplete.
+/// The number of items after which `items` repeat. The last repeat may be incomplete.
 ///
 /// **Source**: Knuth, Morris and Pratt, "Fast pattern matching in strings", SIAM Journal on
 /// Computing 6, 1977.
@@ -134,7 +134,7 @@ mod tests {
         ] {
             let items = items.as_bytes();
             assert_eq!(period(items), expected);
-            // By trying all.
+            // A search through all periods gives the same result.
             let holds = |period: &usize| (*period..items.len()).all(|at| items[at] == items[at - period]);
             assert_eq!((1..items.len()).find(holds).unwrap_or(items.len()), expected);
         }

@@ -23,18 +23,19 @@ use super::{Output, WriteError};
 use crate::Design;
 use wif::WifFile;
 
-/// Writes a woven design as a WIF 1.1 draft. Gives the parts that the file leaves out, each by its
-/// key in a design file.
+/// Writes a woven design as a WIF 1.1 draft. Returns the parts that the file leaves out, each by
+/// its key in a design file.
 ///
 /// The draft is the design's own. A design without a draft gets one shaft for each kind of end, and
-/// a tie-up where at most a hundred shafts and treadles are needed, else a lift plan. Each thread's
-/// spacing and thickness are written in the unit that takes the fewest digits, and are read again
-/// to the last of sixteen digits. Colours are read again exactly. Jammed threads that were relieved
-/// are written as relieved.
+/// a tie-up if at most a hundred shafts and a hundred treadles are needed, else a lift plan.
+/// Spacing and thickness of warp and of weft are written in the unit that holds most of them to the
+/// bit, and among such units in the one with the fewest digits. A length that no unit holds is read
+/// again with a difference in the sixteenth digit. Colours are read again exactly. Jammed threads
+/// that were relieved are written as relieved.
 ///
-/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.wif`,
-/// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for threads and shafts beyond what
-/// a reader takes, [`WriteError::TextTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.wif`, [`WriteError::Unheld`]
+/// for a knit, [`WriteError::OutOfRange`] for threads and shafts beyond the limits of the reader,
+/// [`WriteError::TextTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_formats::{read, write};
@@ -60,21 +61,21 @@ pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, Wr
 /// Writes a woven design to `out` as a WIF 1.1 draft: the bytes that [`wif`](fn@wif) writes to a
 /// file.
 ///
-/// **Errors**: the errors of [`wif`](fn@wif), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`wif`](fn@wif), and [`WriteError::Writer`] if `out` refuses bytes.
 pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = WifFile::new(design)?;
     file.write(Target::straight(out))?.done()?;
     Ok(file.left_out)
 }
 
-/// Writes a woven design as texere's own design file, which needs no other file beside it. Gives
+/// Writes a woven design as texere's own design file, which needs no other file beside it. Returns
 /// the parts that the file leaves out, each by its key or its name.
 ///
 /// Reading the file gives an equal design: its drawdown, its threads with sizes, spacings, colours,
 /// sections and twist, the shape of the cloth, and its finish. The weaver's draft is left out; WIF
 /// files hold it. Yarns that share a name get numbers behind it.
 ///
-/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.toml`,
+/// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.toml`,
 /// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for a value that no design file
 /// may have, [`WriteError::TextTooLarge`] for a drawdown whose repeat has more than some sixteen
 /// million crossings, [`WriteError::Spared`], [`WriteError::Io`].
@@ -104,7 +105,7 @@ pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, W
 /// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml)
 /// writes to a file.
 ///
-/// **Errors**: the errors of [`toml`](fn@toml), with [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: the errors of [`toml`](fn@toml), and [`WriteError::Writer`] if `out` refuses bytes.
 #[cfg(feature = "toml")]
 pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = TomlFile::new(design)?;

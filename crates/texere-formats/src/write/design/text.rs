@@ -5,7 +5,7 @@ use std::io::Write;
 use super::super::WriteError;
 use super::super::target::Target;
 
-/// A text file under way. It gets no larger than its readers take.
+/// A text file that is being written. It is refused if it becomes larger than its readers allow.
 pub(super) struct Text<W: Write> {
     target: Target<W>,
     format: &'static str,
@@ -37,13 +37,13 @@ impl<W: Write> Text<W> {
         self.target.write(text.as_bytes())
     }
 
-    /// The target, its text complete.
+    /// Ends the text, and returns the target.
     pub(super) fn end(self) -> Target<W> {
         self.target
     }
 }
 
-/// Significant digits that tell any two `f64` apart.
+/// Number of significant digits with which any two `f64` are written differently.
 const DIGITS: usize = 17;
 
 /// The number near `value` with the fewest digits, at most `digits`, for which `reads` holds.
@@ -61,12 +61,12 @@ pub(super) fn shortest(value: f64, digits: usize, reads: impl Fn(f64) -> bool) -
 }
 
 /// The number near `value` with the fewest digits for which `reads` holds, and `true`; or else
-/// `value`, and `false`.
+/// `value` itself, and `false`.
 pub(super) fn nearest(value: f64, reads: impl Fn(f64) -> bool) -> (f64, bool) {
     shortest(value, DIGITS, reads).map_or((value, false), |near| (near, true))
 }
 
-/// Gives `value` back where it is from `low` to `high`.
+/// Returns `value` if it is from `low` to `high`. Any other value is an error.
 pub(super) fn within(
     format: &'static str,
     field: impl FnOnce() -> String,

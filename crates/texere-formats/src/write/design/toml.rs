@@ -20,7 +20,8 @@ use crate::read::limits;
 pub(super) struct TomlFile<'a> {
     name: &'a str,
     cloth: &'a Woven,
-    /// The keys of `[cloth]` and `[finish]`, with headings where there are any.
+    /// The tables `[cloth]` and `[finish]`, each with its heading. A table without keys is left
+    /// out.
     tables: String,
     yarns: Yarns,
     sets: [String; 2],
@@ -53,7 +54,7 @@ impl<'a> TomlFile<'a> {
         tables.push_str(&table("finish", &finish_keys(design, &mut left_out)?));
         let yarns = Yarns::new(cloth)?;
         if let Some([name, other]) = &yarns.renamed {
-            left_out.push(format!("names of yarns that are not each another's: {name:?} becomes {other:?}"));
+            left_out.push(format!("names of yarns that can't be kept: {name:?} becomes {other:?}"));
         }
         let sets = [yarns.set("warp", cloth.warp())?, yarns.set("weft", cloth.weft())?];
         Ok(Self { name: &design.name, cloth, tables, yarns, sets, left_out })
@@ -105,7 +106,7 @@ fn finish_keys(design: &Design, left_out: &mut Vec<String>) -> Result<Vec<String
     Ok(keys)
 }
 
-/// A table of `keys`, or an empty text where there are none.
+/// A table of `keys`, or an empty text if there are none.
 fn table(name: &str, keys: &[String]) -> String {
     if keys.is_empty() { String::new() } else { format!("\n[{name}]\n{}\n", keys.join("\n")) }
 }

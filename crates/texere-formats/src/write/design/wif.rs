@@ -1,6 +1,6 @@
 //! A woven design as WIF 1.1, the Weaving Information File.
 //!
-//! An empty list is written as 0, because readers take a section of empty values as missing.
+//! An empty list is written as 0, because readers treat a section of empty values as missing.
 
 use std::borrow::Cow;
 use std::io::Write;
@@ -71,7 +71,7 @@ impl<'a> WifFile<'a> {
         match &self.draft.shedding {
             Shedding::TieUp { tie_up, treadling } => {
                 if tie_up.is_empty() {
-                    // Nothing is tied to any treadle. The section has to have a line all the same.
+                    // Nothing is tied to any treadle, but the section must have a line.
                     lists(&mut text, "TIEUP", &[Vec::new()])?;
                 } else {
                     lists(&mut text, "TIEUP", tie_up)?;

@@ -12,13 +12,13 @@ use super::interlacing::Kinds;
 use super::text::{Text, nearest, within};
 use crate::read::{WIF_LENGTH_MM, WIF_UNITS_MM};
 
-/// The highest number of a colour that is kept. The table has all numbers up to it, so that a high
-/// number would make a long table.
+/// The highest number of a colour that is kept. The table has all numbers up to the highest one, so
+/// a high number would make a long table.
 const NUMBER_MAX: u32 = 1000;
 
 /// The colours of a cloth by number.
 pub(super) struct Colors {
-    /// Red, green and blue of each number, from 1.
+    /// Red, green and blue of each number, counted from 1.
     pub(super) table: BTreeMap<u32, [u8; 3]>,
     /// The number of the colour of each material in use. Undyed materials have none.
     numbers: BTreeMap<u32, u32>,
@@ -61,7 +61,7 @@ impl Colors {
         self.numbers.insert(number, color);
     }
 
-    /// A note that names of yarns are left out, where they are.
+    /// A note that names of yarns are left out, or none if no yarn has a name of its own.
     pub(super) fn unnamed(&self, cloth: &Woven) -> Option<String> {
         let name = |(number, color): (&u32, &u32)| {
             let name = &cloth.materials()[*number as usize].name;
@@ -71,7 +71,7 @@ impl Colors {
         Some(format!("names of yarns, such as {name:?}: colours have numbers"))
     }
 
-    /// The number of a thread's colour, empty where it is undyed.
+    /// The number of a thread's colour, or an empty text for an undyed thread.
     fn of(&self, thread: &Thread) -> String {
         self.numbers.get(&thread.material).map_or_else(String::new, u32::to_string)
     }
@@ -101,8 +101,9 @@ struct Column {
     /// threads.
     keys: [&'static str; 2],
     kinds: Kinds,
-    /// The value of each kind. Empty where a thread has none.
+    /// The value of each kind. It is empty for threads that have none.
     values: Vec<String>,
+    /// The kind whose value is written for the whole set.
     common: usize,
 }
 
@@ -115,13 +116,13 @@ impl Column {
     ) -> Result<Self, WriteError> {
         let kinds = Kinds::new(threads.len(), |thread| key(&threads[thread]));
         let values = kinds.firsts.iter().map(|first| value(*first)).collect::<Result<Vec<_>, _>>()?;
-        // Where some threads have no value, the set can't have a value for all.
+        // If some threads have no value, the set can't have a value for all.
         let none = values.iter().position(String::is_empty);
         let common = none.unwrap_or_else(|| kinds.commonest());
         Ok(Self { keys, kinds, values, common })
     }
 
-    /// The value of all threads that have none of their own.
+    /// The value for the whole set, which all threads without a value of their own get.
     fn common(&self) -> &str {
         &self.values[self.common]
     }
@@ -132,7 +133,7 @@ impl Column {
     }
 }
 
-/// The warp, or the weft.
+/// The warp or the weft, with the properties of its threads.
 pub(super) struct Set {
     name: &'static str,
     threads: usize,
@@ -181,7 +182,7 @@ impl Set {
         odd.map(|column| format!("{} {}", self.name, column.keys[1]))
     }
 
-    /// Writes the values of all threads that have none of their own.
+    /// Writes the values for the whole set.
     pub(super) fn common<W: Write>(&self, text: &mut Text<W>) -> Result<(), WriteError> {
         text.line(&format!("\n[{}]\nThreads={}\nUnits={}", self.name, self.threads, self.unit))?;
         for column in &self.columns {
@@ -215,7 +216,7 @@ fn sizes(threads: &[Thread]) -> Kinds {
 }
 
 /// The unit that writes most sizes of threads to the bit, and among such units the one with the
-/// fewest digits; and its mm.
+/// fewest digits. Also the unit's length in mm.
 fn unit(threads: &[Thread]) -> (&'static str, f64) {
     let firsts = sizes(threads).firsts;
     let cost = |(_, mm): &&(&str, f64)| {

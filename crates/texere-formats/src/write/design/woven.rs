@@ -1,4 +1,4 @@
-//! The woven design that a writer takes.
+//! The woven design that a writer writes.
 
 use texere_fabric::{Structure, WovenDesign};
 

@@ -82,7 +82,7 @@ impl Yarns {
     }
 
     /// The items for `times` threads of one yarn: one item with a number, or an item for each
-    /// thread where the item with a number is another yarn's name.
+    /// thread if the item with a number is another yarn's name.
     fn items(&self, yarn: u32, times: usize) -> Vec<String> {
         let name = &self.names[yarn as usize];
         let counted = format!("{times} {name}");
@@ -103,7 +103,7 @@ struct Names {
 }
 
 impl Names {
-    /// Gives `name`, or a similar name where another yarn has it.
+    /// Returns `name`, or a similar name if another yarn has that name.
     fn give(&mut self, name: &str) -> String {
         let name = if name.trim().is_empty() { "yarn" } else { name.trim() };
         let mut own = name.to_owned();
@@ -116,7 +116,8 @@ impl Names {
     }
 }
 
-/// The key for one spacing of all threads: the key that takes the fewest digits.
+/// The key for one spacing of all threads: `spacing_mm`, or the number of threads to the cm or to
+/// the inch if only that number has few digits.
 fn one_spacing(spacing_mm: f64) -> String {
     const FEW: usize = 6;
     let keys = [("per_cm", 10.0), ("per_inch", 25.4)];

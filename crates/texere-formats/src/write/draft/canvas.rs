@@ -15,7 +15,7 @@ const SHOWN: u32 = 320;
 /// A drawing as pixels, with (0, 0) at its top left. Parts beyond its edges are cut off.
 #[derive(Debug)]
 pub(super) struct Canvas {
-    /// Width and height.
+    /// Width and height, pixels.
     pub(super) size: [usize; 2],
     pixels: Vec<Rgb>,
 }

@@ -6,8 +6,8 @@ pub(super) const GLYPH_WIDTH: usize = 5;
 /// Dots down a letter.
 pub(super) const GLYPH_HEIGHT: usize = 7;
 
-/// Row `row` from the top of a letter, its left dot in bit 4. Unknown letters, and rows below the
-/// last, are empty.
+/// Row `row` of a letter, counted from 0 at the top. Its left dot is bit 4. Unknown letters, and
+/// rows below the last, are empty.
 pub(super) fn row(letter: char, row: usize) -> u8 {
     let glyph = GLYPHS.iter().find(|(known, _)| *known == letter);
     glyph.and_then(|(_, rows)| rows.get(row)).copied().unwrap_or(0)

@@ -6,9 +6,9 @@
 //!  front bar      all bars
 //! ```
 //!
-//! Each bar has a diagram with one of its guides, or with all of them where it is a Jacquard bar.
-//! The diagram on the right has all guides of all bars. A guide passes behind the needles between
-//! two dots, goes round a dot above it, and moves on to the next course.
+//! Each bar has a diagram with one of its guides. The diagram of a Jacquard bar has all of its
+//! guides. The diagram on the right has all guides of all bars. A guide passes behind the needles
+//! between two dots, goes round a dot above it, and moves on to the next course.
 
 use std::io::Write;
 
@@ -21,29 +21,36 @@ use super::limits::SIDE_MAX;
 use super::sheet::{Block, INK, PAPER, Rgb, Sheet};
 use super::side::Side;
 
-/// Pixels from needle to needle, and from course to course.
+/// Pixels from needle to needle.
 const PITCH: f64 = 28.0;
+
+/// Pixels from course to course.
 const COURSE: f64 = 36.0;
 
-/// The radius at which a yarn goes round a needle, and the radius of the needle, pixels.
+/// The radius at which a yarn goes round a needle, pixels.
 const ROUND: f64 = 8.0;
+
+/// The radius of a needle, pixels.
 const NEEDLE: f64 = 2.5;
 
-/// The most wales and courses that are drawn.
+/// The most wales that are drawn.
 const WALES_MAX: u32 = 12;
+
+/// The most courses that are drawn.
 const COURSES_MAX: u32 = 48;
 
 /// The most diagrams beside one another, the diagram of all bars included.
 const DIAGRAMS_MAX: usize = 9;
 
-/// Straight pieces of half a turn round a needle.
+/// Number of straight pieces of half a turn round a needle.
 const PARTS: u32 = 12;
 
 /// Draws a warp knit's lapping diagram to a PNG file: its first wales and courses, at most 12 by
-/// 48, and below it the chain of each bar. From the face, needles are counted from the left, from
-/// the back from the right. Gives the picture's width and height in pixels.
+/// 48, and below it the chain of each bar. Needles are counted from the left if the diagram shows
+/// the face, and from the right if it shows the back. Returns the picture's width and height in
+/// pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`] for chains too long to be written below, [`WriteError::Spared`],
 /// [`WriteError::Io`].
 ///
@@ -70,9 +77,9 @@ pub fn warp_draft(
 }
 
 /// Draws a warp knit's lapping diagram to `out`: the bytes that [`warp_draft`] writes to a file.
-/// Gives the picture's width and height in pixels.
+/// Returns the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] if `out` refuses bytes.
 pub fn warp_draft_to(cloth: &WarpKnitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
     drawn(cloth, side, |sheet| sheet.save_to(out))
 }
@@ -93,7 +100,7 @@ fn drawn(
     save(&sheet)
 }
 
-/// A line for each bar of a warp knit, the front one first: its chain, as chains are written.
+/// A line for each bar of a warp knit, the front one first, with the bar's chain in chain notation.
 #[must_use]
 pub fn warp_rows(cloth: &WarpKnitted) -> Vec<String> {
     let line = |(number, bar): (usize, &texere_fabric::warp::Bar)| format!("bar {number}: {}", bar.chain);
@@ -103,7 +110,7 @@ pub fn warp_rows(cloth: &WarpKnitted) -> Vec<String> {
 /// All diagrams of a cloth.
 struct Drawing<'a> {
     cloth: &'a WarpKnitted,
-    /// Wales and courses that are drawn.
+    /// Number of wales and courses that are drawn.
     size: [u32; 2],
     diagrams: Vec<Canvas>,
 }
@@ -165,7 +172,7 @@ impl<'a> Drawing<'a> {
         canvas
     }
 
-    /// The pixel of a place, in needle spaces and courses.
+    /// The pixel of a place that is given in needle spaces and courses.
     fn place(&self, side: Side, [x, y]: [f64; 2]) -> [f64; 2] {
         let [wales, courses] = self.size.map(f64::from);
         let x = match side {

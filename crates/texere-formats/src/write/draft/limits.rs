@@ -10,7 +10,7 @@ pub(super) const SIDE_AIM: usize = 2400;
 /// The largest square, pixels.
 pub(super) const SQUARE_MAX: usize = 16;
 
-/// The longest side of a picture, pixels. Many programs count them in 16 bits with a sign.
+/// The longest side of a picture, pixels. Many programs count pixels in 16 bits with a sign.
 pub(super) const SIDE_MAX: usize = 32_767;
 
 /// The least width of a bar of yarns, and of the gap between blocks, pixels.

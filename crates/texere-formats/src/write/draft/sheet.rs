@@ -1,4 +1,5 @@
-//! A sheet of squared paper: blocks of squares with a legend below, painted row of pixels by row.
+//! A sheet of squared paper: blocks of squares with a legend below. The sheet is painted one row of
+//! pixels at a time.
 
 use std::io::Write;
 
@@ -10,35 +11,36 @@ use super::font::{self, GLYPH_HEIGHT, GLYPH_WIDTH};
 /// The colour of a pixel.
 pub(super) type Rgb = [u8; 3];
 
-/// The background.
+/// The colour of the background.
 pub(super) const PAPER: Rgb = [255, 255, 255];
 
-/// The drawing's colour.
+/// The colour of the drawing and of the legend.
 pub(super) const INK: Rgb = [0, 0, 0];
 
 /// The colours of a line between squares, and of a line between groups of squares.
 const LINES: [Rgb; 2] = [[184, 184, 184], [88, 88, 88]];
 
-/// Squares of a group. Point paper is printed in groups of eight.
+/// Number of squares of a group. Point paper is printed in groups of eight.
 const GROUP: usize = 8;
 
-/// The smallest square that has lines round it, pixels.
+/// The shortest side of a square that is drawn with lines round it, pixels. In a smaller square the
+/// line, one pixel wide, would take a third of the side or more.
 const LINED_MIN: usize = 4;
 
 /// The margin round the sheet, pixels.
 const MARGIN: usize = 12;
 
-/// Pixels of a dot of the legend's letters.
+/// The side of a dot of the legend's letters, pixels.
 const DOT: usize = 2;
 
-/// Dots from one line of the legend to the next.
+/// The distance from one line of the legend to the next, in dots of letters.
 const LEADING: usize = GLYPH_HEIGHT + 3;
 
 /// A rectangle of squares.
 pub(super) struct Block<'a> {
     /// The left and the top of the block, pixels.
     pub(super) place: [usize; 2],
-    /// Columns and rows.
+    /// Number of columns and rows.
     pub(super) squares: [usize; 2],
     /// Width and height of a square, pixels.
     pub(super) square: [usize; 2],
@@ -80,7 +82,8 @@ impl<'a> Sheet<'a> {
         Self { size: [0; 2], gap, mirrored, blocks: Vec::new(), legend: Vec::new(), legend_top: 0 }
     }
 
-    /// Puts a block in its place. Gives the places right of it and below it.
+    /// Puts a block in its place. Returns the left of a block beside it and the top of a block
+    /// below it, pixels.
     pub(super) fn put(&mut self, block: Block<'a>) -> [usize; 2] {
         let end = block.end();
         self.size = [0, 1].map(|axis| self.size[axis].max(end[axis] + MARGIN));
@@ -97,7 +100,7 @@ impl<'a> Sheet<'a> {
         self.legend = legend;
     }
 
-    /// Writes the sheet to a PNG file. Gives its width and height in pixels.
+    /// Writes the sheet to a PNG file. Returns the sheet's width and height in pixels.
     ///
     /// **Errors**: [`WriteError::Spared`], [`WriteError::Io`].
     pub(super) fn save(&self, output: Output) -> Result<[u32; 2], WriteError> {
@@ -106,7 +109,7 @@ impl<'a> Sheet<'a> {
         Ok(self.size.map(|side| side as u32))
     }
 
-    /// Writes the sheet to `out` as PNG. Gives its width and height in pixels.
+    /// Writes the sheet to `out` as PNG. Returns the sheet's width and height in pixels.
     ///
     /// **Errors**: [`WriteError::Writer`].
     pub(super) fn save_to(&self, out: impl Write) -> Result<[u32; 2], WriteError> {
@@ -137,7 +140,8 @@ impl<'a> Sheet<'a> {
         header.finish()
     }
 
-    /// Paints the row of pixels at height `y`, from the top, on a row of paper.
+    /// Paints row `y` of the sheet, counted from the top, into `pixels`, which have the colour of
+    /// paper before.
     fn paint(&self, y: usize, pixels: &mut [Rgb]) {
         for block in &self.blocks {
             let [left, top] = block.place;
@@ -170,15 +174,16 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Whether a line runs through pixel `at` of a block along an axis, and whether it is a line
-    /// between groups.
+    /// The line at pixel `at` of a block along an axis: true for a line between groups or at the
+    /// block's edge, false for a line between squares. `None` if there is no line.
     fn line(&self, block: &Block<'_>, axis: usize, at: usize) -> Option<bool> {
         let (squares, square) = (block.squares[axis], block.square[axis]);
         if !block.lined() || !at.is_multiple_of(square) {
             return None;
         }
         let before = at / square;
-        // Ends are counted from end 1, picks from the bottom.
+        // Groups of ends are counted from end 1, which is on the right if the sheet is mirrored.
+        // Groups of picks are counted from the bottom.
         let counted = if axis == 1 || self.mirrored { squares - before } else { before };
         Some(counted.is_multiple_of(GROUP) || before == 0 || before == squares)
     }

@@ -1,4 +1,4 @@
-//! Draws a weave: its shaft draft where there is one, its drawdown, and its yarns.
+//! Draws a weave: its shaft draft if there is one, its drawdown, and its yarns.
 
 use std::io::Write;
 
@@ -10,10 +10,10 @@ use super::side::Side;
 use crate::write::picture::png;
 use crate::write::{Output, WriteError};
 
-/// Draws a cloth, and where it has one its shaft `draft`, to a PNG file. Gives the picture's width
+/// Draws a cloth to a PNG file, with its shaft `draft` if there is one. Returns the picture's width
 /// and height in pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::DraftTooLarge`] for cloth that needs more pixels than pictures have,
 /// [`WriteError::Spared`], [`WriteError::Io`].
 ///
@@ -40,10 +40,10 @@ pub fn draft(
     drawn(cloth, draft, side, |sheet| sheet.save(output))
 }
 
-/// Draws a cloth to `out`: the bytes that [`draft`](fn@draft) writes to a file. Gives the picture's
-/// width and height in pixels.
+/// Draws a cloth to `out`: the bytes that [`draft`](fn@draft) writes to a file. Returns the
+/// picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::DraftTooLarge`], [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: [`WriteError::DraftTooLarge`], [`WriteError::Writer`] if `out` refuses bytes.
 pub fn draft_to(
     cloth: &Woven,
     draft: Option<&Draft>,
@@ -95,7 +95,7 @@ impl<'a> Loom<'a> {
         (1..=SHAFTS_MAX).contains(&self.shafts) && self.treadles <= SHAFTS_MAX
     }
 
-    /// Columns of the block on the right: treadles, or shafts of a lift plan.
+    /// Number of columns of the block on the right: treadles, or shafts of a lift plan.
     fn columns(&self) -> usize {
         match self.draft.shedding {
             Shedding::LiftPlan(_) => self.shafts,
@@ -112,7 +112,8 @@ impl<'a> Loom<'a> {
     }
 }
 
-/// Ink where the list of `thread` holds the shaft or treadle `number`. Both are counted from 0.
+/// Ink if the list of `thread` holds the shaft or treadle `number`, else paper. `thread` and
+/// `number` are counted from 0.
 fn mark(lists: &[Vec<u32>], thread: usize, number: usize) -> Rgb {
     let marked = lists.get(thread).is_some_and(|list| list.contains(&(number as u32 + 1)));
     if marked { INK } else { PAPER }

@@ -18,8 +18,10 @@ use crate::write::WriteError;
 use crate::write::places::Places;
 use crate::write::target::Target;
 
-/// The two views of the buffer: the index pattern, and every vertex.
+/// The number of the buffer view that holds the index pattern.
 const PATTERN: usize = 0;
+
+/// The number of the buffer view that holds all vertices.
 const VERTICES: usize = 1;
 
 const INDEX_BYTES: u64 = size_of::<u32>() as u64;
@@ -28,21 +30,24 @@ const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
 
-/// The roughness of yarn. Spun yarn is almost as rough as chalk. It is less than 1 for the faint
-/// sheen of parallel fibres.
+/// The roughness of yarn, in glTF from 0 (a mirror) to 1 (fully diffuse). It is a little less than
+/// 1, because parallel fibres give spun yarn a faint sheen.
 const ROUGHNESS: f32 = 0.9;
 
-/// The document of a GLB file. Its bounds are filled in as vertices pass.
+/// The document of a GLB file. The bounds of its positions are filled in while vertices are
+/// written.
 ///
 /// A tube is one primitive from its yarn's first ring to its last, and a cap is one primitive. Each
-/// has accessors of its own for positions and for normals. Primitives of equal length share the
-/// accessor of their indices.
+/// primitive has accessors of its own for positions and for normals. Tubes with equally many rings
+/// share one accessor of indices. Caps share one if they close the same end of yarns with the same
+/// section.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
     /// The shapes in the order of their vertices. Accessor 2 i has the positions of shape i.
     shapes: Vec<Shape>,
-    /// The gaps between rings of the longest tube. The pattern has indices for all of them.
+    /// Number of gaps between rings of the longest tube. The index pattern covers all of these
+    /// gaps.
     gaps: u64,
 }
 
@@ -56,8 +61,8 @@ struct Shape {
     indices: Range<u64>,
 }
 
-/// The tubes of `chunks`, then their caps; and the gaps of the longest tube. A tube that is in
-/// several chunks is one shape, from its first ring to its last.
+/// The tubes of `chunks` and then their caps, and the number of gaps between rings of the longest
+/// tube. A tube that is in several chunks is one shape, from its first ring to its last.
 fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec<Shape>, u64) {
     let sides = u64::from(plan.settings().sides);
     let (mut tubes, mut caps) = (Vec::<Shape>::new(), Vec::new());
@@ -68,7 +73,8 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
             let first = places.of(chunk, part.first_vertex);
             let vertices = first..first + u64::from(part.rings) * sides;
             match tubes.last_mut() {
-                // The last ring of the chunk before is the first of this part.
+                // The tube goes on from the chunk before, whose last ring is the first ring of this
+                // part.
                 Some(tube) if tube.yarn == part.yarn && tube.vertices.end == first + sides => {
                     tube.vertices.end = vertices.end;
                 }
@@ -85,8 +91,8 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
         }));
         places.pass(chunk);
     }
-    // A box may cut a lone ring out of a yarn. It is left out, for glTF has no shapes without
-    // triangles.
+    // If only a box of the cloth is written, a yarn may have a single ring in the box. A single
+    // ring has no triangles, so it gets no shape.
     tubes.retain(|tube| tube.vertices.end - tube.vertices.start > sides);
     let mut most = 0;
     for tube in &mut tubes {
@@ -127,8 +133,8 @@ impl Document {
                 material: yarns[shape.yarn as usize].material,
             });
         }
-        // A region may have no part of a yarn. The yarn is left out, for glTF has no mesh without
-        // triangles.
+        // If only a box of the cloth is written, some yarns may lie outside the box. They get no
+        // mesh, because a mesh in glTF needs triangles.
         meshes.retain(|mesh| !mesh.primitives.is_empty());
         let sides = u64::from(plan.settings().sides);
         let ends = if plan.settings().caps { 2 * plan.layout().sections().len() as u64 } else { 0 };
@@ -171,13 +177,13 @@ impl Document {
         Ok(())
     }
 
-    /// Bytes of the buffer.
+    /// The size of the buffer, bytes.
     pub(super) fn buffer_bytes(&self) -> u64 {
         self.gltf.buffers[0].byte_length
     }
 
-    /// Widens the bounds of the shapes that `vertices` belong to, from vertex number `first` of the
-    /// file on.
+    /// Widens the bounds of the shapes that `vertices` belong to. `vertices` are those of the file
+    /// from number `first` on.
     pub(super) fn include(&mut self, first: u64, vertices: &[Vertex]) {
         let end = first + vertices.len() as u64;
         let start = self.shapes.partition_point(|shape| shape.vertices.end <= first);
@@ -208,8 +214,8 @@ impl Document {
     }
 }
 
-/// The name of a yarn by its origin. Names need not be unique. A yarn of unknown origin is called
-/// by its number, from 1.
+/// The name of a yarn by its origin. Names need not be unique. A yarn of unknown origin is named
+/// after its number, counted from 1.
 fn name(number: usize, origin: Origin) -> String {
     match origin {
         Origin::Unknown => format!("yarn {}", number + 1),
@@ -246,8 +252,8 @@ fn surface(material: &Material) -> schema::Material {
     }
 }
 
-/// The accessors of positions and normals of a shape. Bounds start inside out, so that the first
-/// vertex sets them.
+/// The accessors of positions and normals of a shape. At first the minimum is the largest number
+/// and the maximum the smallest, so that the first vertex sets both.
 fn vertex_accessors(shape: &Shape) -> [Accessor; 2] {
     let of = |offset, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
         buffer_view: VERTICES,

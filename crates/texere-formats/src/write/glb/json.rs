@@ -28,7 +28,7 @@ macro_rules! objects {
 }
 pub(super) use objects;
 
-/// Writes an object of these keys and values.
+/// Writes an object of `fields`, keys with their values.
 pub(super) fn object(fields: &[(&str, &dyn Json)], text: &mut String) {
     let fields = fields.iter().filter(|(_, value)| !value.is_absent());
     enclosed(['{', '}'], fields, text, |(key, value), text| {
@@ -68,7 +68,7 @@ whole_numbers!(u32, u64, usize);
 
 impl Json for f32 {
     /// Every float takes fifteen bytes: a sign, nine digits and a point, and an exponent of four
-    /// bytes. JSON allows spaces before it.
+    /// bytes. JSON allows the spaces before a shorter number.
     fn write(&self, text: &mut String) {
         // Writing to a string does not fail.
         let _ = write!(text, "{self:15e}");

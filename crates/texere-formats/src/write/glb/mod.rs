@@ -27,7 +27,7 @@ const HEADER_BYTES: u64 = 12;
 /// Bytes of a chunk's header: length and type of the chunk.
 const CHUNK_HEADER_BYTES: u64 = 8;
 
-/// A GLB file under way.
+/// A GLB file that is being written.
 ///
 /// The document comes first in the file, but states the bounds of every yarn, which are known last.
 /// It is therefore written twice: at first to reserve its place, and at the end with the bounds.
@@ -47,7 +47,7 @@ impl<W: Write + Seek> GlbWriter<W> {
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
     ) -> Result<Self, WriteError> {
-        // The size is checked first, since there may be millions of chunks to go through.
+        // The size is checked first, because there may be millions of chunks to go through.
         check(plan.counts().vertices * size_of::<Vertex>() as u64)?;
         let document = Document::new(plan, chunks, materials);
         check(document.buffer_bytes())?;

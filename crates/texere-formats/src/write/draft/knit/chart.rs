@@ -30,11 +30,11 @@ const NONE: Rgb = [205, 205, 205];
 /// colours have symbols in white.
 const DARK: u32 = 300;
 
-/// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece where the knit has no
-/// repeat. From the face, and with at most 100 wales and 100 passes, the needle diagram stands
-/// below it. Gives the picture's width and height in pixels.
+/// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece if the knit has no
+/// repeat. The needle diagram stands below the chart if the chart shows the face and has at most
+/// 100 wales and 100 passes of carriers. Returns the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`,
+/// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
@@ -55,10 +55,10 @@ pub fn knit_draft(cloth: &Knitted, side: Side, output: impl Into<Output>) -> Res
     drawn(cloth, side, |sheet| sheet.save(output))
 }
 
-/// Draws a knit's stitch chart to `out`: the bytes that [`knit_draft`] writes to a file. Gives the
-/// picture's width and height in pixels.
+/// Draws a knit's stitch chart to `out`: the bytes that [`knit_draft`] writes to a file. Returns
+/// the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] where `out` refuses.
+/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] if `out` refuses bytes.
 pub fn knit_draft_to(cloth: &Knitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
     drawn(cloth, side, |sheet| sheet.save_to(out))
 }
@@ -82,7 +82,7 @@ fn drawn(
 }
 
 /// A row of letters for each course of a knit's stitch chart, the last course first. The letters
-/// are those of charts in design files, with `.` where no yarn comes.
+/// are those of charts in design files, with `.` for a square that no yarn comes to.
 ///
 /// **Errors**: [`WriteError::ChartTooLarge`].
 pub fn knit_rows(cloth: &Knitted, side: Side) -> Result<impl Iterator<Item = String>, WriteError> {
@@ -94,7 +94,8 @@ pub fn knit_rows(cloth: &Knitted, side: Side) -> Result<impl Iterator<Item = Str
     }))
 }
 
-/// The wales and courses of the chart, where they can be drawn, and its leftmost wale.
+/// The number of wales and courses of the chart, and its leftmost wale. A chart with too many
+/// squares is refused.
 fn sized(cloth: &Knitted) -> Result<([usize; 2], i64), WriteError> {
     let (size, left) = extent(cloth.stitches());
     if size[0].saturating_mul(size[1]) > SQUARES_MAX { Err(too_large(size)) } else { Ok((size, left)) }

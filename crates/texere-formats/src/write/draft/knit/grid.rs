@@ -6,27 +6,27 @@ use texere_fabric::weft::{Bed, Fate, LoopKind, Step, Stitch, Stitches};
 /// files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Symbol {
-    /// Drawn to the face: `k`.
+    /// The loop is drawn to the face: `k`.
     Knit,
-    /// Drawn to the back: `p`.
+    /// The loop is drawn to the back: `p`.
     Purl,
     /// Both needles of the wale knit: `b`.
     Both,
-    /// Knitted on an empty needle above the first course: a knitter's yarn over. `k`
+    /// Knitted on an empty needle above the first course, a knitter's yarn over: `k`.
     YarnOver,
-    /// Laid on a front needle: `t`.
+    /// The yarn is laid on a front needle: `t`.
     Tuck,
-    /// Laid on a back needle: `u`.
+    /// The yarn is laid on a back needle: `u`.
     BackTuck,
     /// The yarn floats past: `m`.
     Miss,
-    /// Knitted, and its head goes to another wale: `>` and `<`. Where it crosses others: `R` to the
-    /// right in front, and `r` to the left behind; `L` to the left in front, and `l` to the right
-    /// behind.
+    /// Knitted, and the head of the loop goes to another wale: `>` to the right, `<` to the left. A
+    /// head that crosses others is `R` (to the right, in front), `l` (to the right, behind), `L`
+    /// (to the left, in front) or `r` (to the left, behind).
     Moved {
-        /// To the right, not to the left.
+        /// Whether the head goes to the right. If not, it goes to the left.
         right: bool,
-        /// Whether it goes behind the stitches that it crosses. None where it crosses none.
+        /// Whether the head goes behind the stitches that it crosses. None if it crosses none.
         behind: Option<bool>,
     },
 }
@@ -66,22 +66,22 @@ impl Symbol {
     }
 }
 
-/// A square: what it shows, and the carrier that makes it.
+/// A square: its symbol, and the carrier whose yarn it shows. None if no yarn comes to it.
 pub(super) type Square = Option<(Symbol, u32)>;
 
 /// A stitch chart: squares by wale and course.
 #[derive(Debug)]
 pub(super) struct Grid {
-    /// Wales and courses.
+    /// Number of wales and courses.
     pub(super) size: [usize; 2],
-    /// Course by course, from the first.
+    /// The squares, course by course from the first.
     squares: Vec<Square>,
 }
 
-/// The furthest that a head is looked for crossing others, in wales.
+/// A head that moves further than this many wales is compared only with heads on its way so far.
 const CROSSING_MAX: i64 = 32;
 
-/// Wales and courses of a chart, and its leftmost wale.
+/// Number of wales and courses of a chart, and its leftmost wale.
 pub(super) fn extent(stitches: &Stitches) -> ([usize; 2], i64) {
     if let Some(repeat) = stitches.repeat {
         return (repeat.map(|side| side as usize), 0);
@@ -98,7 +98,7 @@ pub(super) fn extent(stitches: &Stitches) -> ([usize; 2], i64) {
 }
 
 impl Grid {
-    /// The chart of stitches. The caller knows its size.
+    /// The chart of `stitches`. The caller has checked the size of the chart.
     pub(super) fn new(stitches: &Stitches) -> Self {
         let (size, left) = extent(stitches);
         let mut grid = Self { size, squares: vec![None; size[0] * size[1]] };
@@ -114,8 +114,8 @@ impl Grid {
                 }
             }
         }
-        // Where yarns share a square, the loop on the face shows; where yarns are plated, the first
-        // one does.
+        // If yarns share a square, the loop on the face is shown. If yarns are plated, the first
+        // one is shown.
         for (stitch, &carrier) in stitches.loops.iter().zip(&carriers).rev() {
             let place = grid.place(stitch.at, stitch.course, left);
             let own = symbol(stitch, stitches.repeat.is_some());
@@ -137,7 +137,7 @@ impl Grid {
 
     fn place(&self, at: f32, course: u32, left: i64) -> usize {
         let wale = (at.floor() as i64 - left).rem_euclid(self.size[0] as i64);
-        // In a repeat, a yarn may float on into the next one.
+        // A yarn of a repeat may float on into the next repeat.
         course as usize % self.size[1] * self.size[0] + wale as usize
     }
 
@@ -167,7 +167,8 @@ impl Grid {
         }
     }
 
-    /// A square, by column and by row from the top, seen from a side.
+    /// The square in a column and in a row counted from the top, as it is seen from the face or
+    /// from the back.
     pub(super) fn square(&self, column: usize, row: usize, back: bool) -> Square {
         let [wales, courses] = self.size;
         let column = if back { wales - 1 - column } else { column };
@@ -176,7 +177,8 @@ impl Grid {
     }
 }
 
-/// How many wales to the right the head of a loop has gone.
+/// How many wales to the right the head of a loop has gone. It is 0 for a head that has gone to the
+/// other bed.
 fn by(stitch: &Stitch) -> i64 {
     if stitch.head.bed == stitch.bed { f64::from(stitch.head.at - stitch.at).round() as i64 } else { 0 }
 }

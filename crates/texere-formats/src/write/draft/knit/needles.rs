@@ -16,21 +16,23 @@ const PASS: i64 = 56;
 /// The distance of each bed's needles from the middle of a pass, pixels.
 const BED: i64 = 12;
 
-/// The radius of a loop round its needle, and of the needle, pixels.
+/// The radius of a loop round its needle, pixels.
 const LOOP: f64 = 7.0;
+
+/// The radius of a needle, pixels.
 const NEEDLE: f64 = 2.5;
 
 /// The colour of transfers.
 const MOVED: Rgb = [30, 90, 200];
 
-/// The diagram as pixels.
+/// The needle diagram as pixels.
 #[derive(Debug)]
 pub(super) struct Needles {
     pub(super) canvas: Canvas,
 }
 
-/// The steps of a carrier in one course and direction. `time` is the number of the first loop, by
-/// which passes are sorted.
+/// The steps of a carrier in one course and direction. `time` is the number of the pass's first
+/// loop. A pass without loops has the time of the pass before. Passes are sorted by `time`.
 struct Pass<'a> {
     carrier: u32,
     time: u32,
@@ -63,8 +65,8 @@ fn passes(stitches: &Stitches) -> Vec<Pass<'_>> {
 }
 
 impl Needles {
-    /// The diagram of a cloth whose chart has `wales` wales from `left` on. None where it has more
-    /// than `passes_max` passes.
+    /// The diagram of a cloth whose chart has `wales` wales from `left` on. None if it would have
+    /// more than `passes_max` passes.
     pub(super) fn new(cloth: &Knitted, wales: usize, left: i64, passes_max: usize) -> Option<Self> {
         let stitches = cloth.stitches();
         let passes = passes(stitches);
@@ -88,8 +90,8 @@ impl Needles {
         Some(needles)
     }
 
-    /// The middle of a pass is the `middle`th row of pixels; front needles lie below it, as in a
-    /// machine seen from above.
+    /// Draws a pass, whose middle is row `middle` of pixels. Front needles lie below the middle, as
+    /// in a machine seen from above.
     fn pass(&mut self, cloth: &Knitted, pass: &Pass<'_>, [left, middle]: [i64; 2], wrap: Option<f32>) {
         let stitches = cloth.stitches();
         let x = |at: f32| {
@@ -98,15 +100,15 @@ impl Needles {
         };
         let middle = middle as f64;
         let side = |bed: Bed| if bed == Bed::Front { 1.0 } else { -1.0 };
-        // Dark enough for paper.
+        // The colour is dark enough for paper.
         let yarn = on_paper(yarn_color(cloth, pass.carrier));
         let mut before: Option<f64> = None;
         for step in pass.steps {
             let visit = stitches.visit(step);
             let here = x(visit.at);
             let way = if visit.direction == Direction::Right { 1.0 } else { -1.0 };
-            // Where the next needle is in the repeat beside, the yarn leaves on one side and comes
-            // in on the other.
+            // If the next needle is in the repeat beside this one, the yarn leaves the diagram on
+            // one side and comes in on the other.
             let from =
                 before.filter(|from| (here - from) * way >= 0.0).unwrap_or(here - way * PITCH as f64 / 2.0);
             self.canvas.line([from, middle], [here + way * PITCH as f64 / 4.0, middle], yarn);
@@ -126,7 +128,7 @@ impl Needles {
                 let to = here + f64::from(stitch.head.at - stitch.at) * PITCH as f64;
                 let tip = [to, middle + side(stitch.head.bed) * BED as f64];
                 if stitch.head.bed == stitch.bed {
-                    // Round the needles between.
+                    // The transfer is drawn round the needles between.
                     let below = [(here + to) / 2.0, needle + side(stitch.bed) * 2.0 * LOOP];
                     self.canvas.line([here, needle], below, MOVED);
                     self.arrow(below, tip);

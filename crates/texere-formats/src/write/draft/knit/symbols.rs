@@ -2,9 +2,9 @@
 
 use super::grid::Symbol;
 
-/// Whether a pixel of a square is inked; `side` is the square's, in pixels.
+/// Whether a pixel of a square is inked. `side` is the length of the square's sides, pixels.
 pub(super) fn inked(symbol: Symbol, [x, y]: [usize; 2], side: usize) -> bool {
-    // From -1 at the left and at the bottom to 1.
+    // Coordinates in the square go from -1 at the left and at the bottom to 1.
     let unit = |at: usize| (2.0 * at as f32 + 1.0) / side as f32 - 1.0;
     let (u, v) = (unit(x), -unit(y));
     let stroke = (2.5 / side as f32).max(0.16);

@@ -9,7 +9,7 @@ use crate::backend::{
 };
 use crate::{Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, DeviceKind, Limits};
 
-/// A backend that writes nothing: outputs keep their contents.
+/// A backend that writes nothing, so that outputs keep their contents.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;

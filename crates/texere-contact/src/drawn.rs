@@ -8,28 +8,29 @@ use texere_core::{Settings, TWIST_SUBDIVISIONS_MAX, YarnPlace, Yarns};
 
 use crate::ContactError;
 
-/// A tube is wrung where its width between two rings falls below this share of its width on them.
-/// The two rings are then turned against one another by more than 120 degrees, two thirds of the
-/// turn that leaves no width.
+/// A tube is *wrung* if its width between two rings falls below this share of its width on the
+/// rings. The two rings are then turned against one another by more than 120 degrees, two thirds of
+/// the turn that leaves no width.
 pub const WRUNG: f64 = 0.5;
 
 /// Quality of a fabric's tubes between neighbouring rings of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawn {
     /// The least width half way between two rings, as a share of the width on the rings, with bends
-    /// straightened. It is 1 where neighbouring rings stand alike, and else the cosine of half the
-    /// turn between them. Below [`WRUNG`] the tube is wrung.
+    /// straightened. It is 1 if neighbouring rings have the same roll, and otherwise the cosine of
+    /// half the turn between them. Below [`WRUNG`] the tube is wrung.
     pub width: f64,
-    /// Where that is.
+    /// The place of the least width.
     pub width_at: Option<YarnPlace>,
-    /// Triangles that face inwards. They come from bends tighter than the section reaches.
+    /// Number of triangles that face inwards. They come from bends tighter than the section
+    /// reaches.
     pub inwards: u64,
-    /// Where the first of them is.
+    /// The place of the first triangle that faces inwards.
     pub inwards_at: Option<YarnPlace>,
 }
 
-/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. Memory is that of the
-/// yarns once more.
+/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. The memory needed is as
+/// much as the yarns have.
 ///
 /// **Errors**: [`ContactError::Settings`] for settings that no mesh is made with,
 /// [`ContactError::OutOfMemory`].
@@ -84,13 +85,13 @@ impl Drawn {
 
 /// The smallest number of points between control points, above that of `settings`, with which a
 /// mesh of `yarns` is [sound](Drawn::is_sound), and the mesh's measures. Each number that is tried
-/// halves the steps. None where no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
+/// halves the distance of the rings. None if no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
 ///
 /// **Errors**: the errors of [`drawn`].
 pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, ContactError> {
     let mut subdivisions = settings.subdivisions;
     while subdivisions < TWIST_SUBDIVISIONS_MAX {
-        // This many points halve the steps.
+        // This many points halve the distance of the rings.
         subdivisions = (2 * subdivisions + 1).min(TWIST_SUBDIVISIONS_MAX);
         let found = drawn(yarns, &Settings { subdivisions, ..*settings })?;
         if found.is_sound() {
@@ -128,7 +129,7 @@ impl Found {
     }
 }
 
-/// A ring with its vertices, as seen from its centre.
+/// A ring with its vertices, relative to its centre.
 struct Standing {
     centre: DVec3,
     tangent: DVec3,
@@ -173,7 +174,8 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
         }
         roll
     };
-    // A closed yarn spreads its whole turn over its rings, so that its last ring meets its first.
+    // The total turn of a closed yarn is spread over its rings, so that its last ring meets its
+    // first.
     let whole = if closed && plan.turns(yarn) { walk(&mut |_, _, _| ()) } else { Turn::ZERO };
     walk(&mut |number, sample, roll| {
         let roll =
@@ -187,8 +189,8 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
 /// A triangle has an edge of the outline in the plane of one ring, and its third corner on the
 /// other ring. Outlines go counter-clockwise about the tangent, so an edge crossed with the tangent
 /// points out of the outline, wherever the axis lies. The triangle's normal is that edge crossed
-/// with the way along the yarn to or from the third corner. It faces outwards where that way goes
-/// with the tangent.
+/// with the way along the yarn to or from the third corner. The triangle faces outwards if that way
+/// goes with the tangent.
 fn between(here: &Standing, next: &Standing) -> (f64, u64) {
     let carry = DQuat::from_rotation_arc(here.tangent, next.tangent);
     let (mut width, mut inwards) = (1.0_f64, 0);

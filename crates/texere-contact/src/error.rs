@@ -16,24 +16,24 @@ pub enum ContactError {
     /// More control points than clearance is measured for.
     #[error("clearance of {points}; {limit} are measured at most", points = counted(*.points, "control point"))]
     ClearancePoints {
-        /// Control points of all yarns.
+        /// Number of control points of all yarns.
         points: u64,
         /// Most taken.
         limit: u64,
     },
-    /// More control intervals than linking is compared for. In a repeat all copies count that an
-    /// interval reaches into.
+    /// More control intervals than linking is compared for. In a repeat, an interval counts once
+    /// for each copy of the repeat that it reaches into.
     #[error("linking of {intervals} with their copies; {limit} are compared at most", intervals = counted(*.intervals, "control interval"))]
     LinkingSize {
-        /// Intervals of all yarns, with their copies.
+        /// Number of intervals of all yarns, with their copies.
         intervals: u64,
         /// Most taken.
         limit: u64,
     },
     /// Two shapes that are not shapes of the same yarns, so that their linking can't be compared.
-    #[error("yarn {yarn} after is not the same as before: another number of control points, or another yarn")]
+    #[error("yarn {yarn} differs before and after: in its number of control points, or it is another yarn")]
     OtherLayout {
-        /// The first yarn that differs, from 0.
+        /// Number of the first yarn that differs, counted from 0.
         yarn: usize,
     },
     /// Two shapes whose splines have different tensions, so that they can't be compared.
@@ -48,8 +48,8 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// The part of the cloth that the error is about. None where no cloth is at fault: memory, a
-    /// cancelled call, settings, and calls that don't fit the yarns.
+    /// The part of the cloth that the error is about. None if the cloth is not at fault: for
+    /// memory, a cancelled call, settings, and calls that don't fit the yarns.
     ///
     /// ```
     /// use texere_contact::ContactError;

@@ -8,14 +8,15 @@ use rayon::prelude::*;
 use texere_core::OutOfMemory;
 use texere_core::backend::room;
 
-/// The most cells that an interval lies in on average. A grid that needs more takes larger cells.
+/// The most cells that an interval may lie in on average. If intervals lie in more, the cells are
+/// made larger.
 pub(crate) const ENTRIES: u64 = 6;
 
-/// A cell's side, over the mean side of the boxes. Most boxes then lie in one or two cells, and few
-/// boxes of a cell are far from one another.
+/// A cell's side over the mean of the boxes' longest sides. Most boxes then lie in one or two
+/// cells, and few boxes of a cell are far from one another.
 const CELL: f64 = 1.75;
 
-/// With fewer cells than this along an axis, one cell takes their place.
+/// If there are fewer cells than this along an axis, one cell replaces them.
 const LAYERS: f32 = 4.0;
 
 /// A box with sides along the axes.
@@ -37,14 +38,14 @@ impl Bounds {
     }
 }
 
-/// Which boxes reach into which cell.
+/// For each cell, the boxes that reach into the cell.
 #[derive(Debug)]
 pub(crate) struct Grid {
     low: Vec3A,
-    /// Cells to the millimetre.
+    /// Cells per millimetre along each axis.
     scale: Vec3A,
     cells: UVec3,
-    /// Where each cell's entries end. They start where the entries of the cell before end.
+    /// The end of each cell's entries. They start where the entries of the cell before end.
     ends: Vec<AtomicU32>,
     entries: Vec<AtomicU32>,
 }
@@ -66,12 +67,13 @@ impl Grid {
                 })
             })
             .reduce(|| (Bounds::NOTHING, 0.0, 0), |a, b| (a.0.joined(b.0), a.1 + b.1, a.2 + b.2));
-        // Cells grow where a few large boxes lie in too many of them.
+        // Cells are made larger as long as a few large boxes lie in too many of them.
         let mut cell = (CELL * sides / count.max(1) as f64) as f32;
         loop {
             let size = whole.high - whole.low;
             let wanted = (size / cell).floor() + 1.0;
-            // A fabric is thin: a few layers of cells would part what lies on top of one another.
+            // A fabric is thin: a few layers of cells would separate what lies on top of one
+            // another.
             let wanted = Vec3A::select(wanted.cmple(Vec3A::splat(LAYERS)), Vec3A::ONE, wanted);
             let total = wanted.as_dvec3().element_product();
             if total.is_finite() && total <= 2.0 * count as f64 + 1.0 {
@@ -96,8 +98,8 @@ impl Grid {
         }
     }
 
-    /// Counts the boxes that reach into each cell, and returns the sum of all counts. It stops
-    /// above `most`: a few boxes that reach into every cell would take hours.
+    /// Counts the boxes that reach into each cell, and returns the sum of all counts. Counting
+    /// stops above `most`, because a few boxes that reach into every cell would take hours.
     fn count<I: Iterator<Item = (usize, Bounds)>>(
         &self,
         tasks: usize,
@@ -119,7 +121,7 @@ impl Grid {
         reached.into_inner()
     }
 
-    /// Turns the counts into places of entries, and writes each box's number there.
+    /// Turns the counts into places of entries, and writes the boxes' numbers to these places.
     fn fill<I: Iterator<Item = (usize, Bounds)>>(&mut self, tasks: usize, boxes: impl Fn(usize) -> I + Sync) {
         let mut start = 0;
         for end in &mut self.ends {
@@ -127,7 +129,8 @@ impl Grid {
             *end.get_mut() = start;
             start += count;
         }
-        // Each entry that takes its place moves its cell's start on, until the starts are the ends.
+        // Each entry that is written moves its cell's start on by one. After all entries, the
+        // starts have become the ends.
         let grid = &*self;
         (0..tasks).into_par_iter().for_each(|task| {
             for (number, each) in boxes(task) {
@@ -160,7 +163,7 @@ impl Grid {
         }
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     pub(crate) const fn len(&self) -> usize {
         self.ends.len()
     }
@@ -170,7 +173,7 @@ impl Grid {
         if cell == 0 { 0..end(cell) } else { end(cell - 1)..end(cell) }
     }
 
-    /// How many boxes reach into `cell`.
+    /// Number of boxes that reach into `cell`.
     pub(crate) fn count_in(&self, cell: usize) -> usize {
         self.places(cell).len()
     }

@@ -9,9 +9,9 @@ use texere_core::{ControlPoint, Yarns};
 /// Distances from the middle and weights of the ten-point Gauss-Legendre rule on \[0, 1\], whose
 /// points lie in pairs (Abramowitz and Stegun, table 25.4).
 ///
-/// The speed of a crimped yarn is far from a polynomial where it turns: on yarns of dense plain
-/// cloth five points are off by 6e-5 at tension 0 and by 4e-4 at 0.8, ten points by 5e-8 and
-/// 1.4e-5.
+/// The speed of a crimped yarn is far from a polynomial where the yarn turns. On yarns of dense
+/// plain cloth, a rule of five points is off by 6e-5 at tension 0 and by 4e-4 at tension 0.8. A
+/// rule of ten points is off by 5e-8 and 1.4e-5.
 const RULE: [(f64, f64); 5] = [
     (0.074_437_169_490_815_61, 0.147_762_112_357_376_4),
     (0.216_697_697_064_623_6, 0.134_633_359_654_998_26),
@@ -20,8 +20,8 @@ const RULE: [(f64, f64); 5] = [
     (0.486_953_264_258_585_87, 0.033_335_672_154_344_07),
 ];
 
-/// Intervals that one task adds up: a fraction of a millisecond of work, and a fixed order of
-/// summation, so that the result does not depend on the number of threads.
+/// Number of intervals that one task adds up, in a fraction of a millisecond. The order of
+/// summation is fixed, so that the result does not depend on the number of threads.
 const TASK: usize = 4096;
 
 /// Length of each yarn, mm, in the yarns' order.
@@ -44,14 +44,14 @@ pub fn lengths_mm(yarns: &Yarns) -> Vec<f64> {
         .collect()
 }
 
-/// Length of all yarns together, mm: [`lengths_mm`] added up.
+/// Length of all yarns together, mm: the sum of [`lengths_mm`].
 #[must_use]
 pub fn length_mm(yarns: &Yarns) -> f64 {
     lengths_mm(yarns).iter().sum()
 }
 
-/// Length of one round of a yarn whose next round lies `shift` (x and y, mm) further on, mm. It
-/// includes the way from the last control point to the next round.
+/// Length of one round of a yarn whose next round lies `shift` (x and y, mm) further on, mm. The
+/// length includes the way from the last control point to the next round.
 pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
     let s = tangent_factor(tension);
     let count = points.len() as isize;

@@ -1,15 +1,16 @@
-//! How yarns lie against one another and against themselves. Everything here is measured on the
-//! yarns alone, whatever structure they come from.
+//! Measures how yarns lie against one another and against themselves. All measures come from the
+//! yarns alone, whatever structure they are of.
 //!
 //! - [`clearance()`]: how near surfaces come to one another, where they pierce, and how tightly
 //!   yarns bend.
 //! - [`linking()`]: whether yarns have passed through one another on their way from one shape to
 //!   another.
-//! - [`drawn()`]: whether the tubes of a mesh are wrung or turned inside out.
+//! - [`drawn()`]: whether the tubes of a mesh are [wrung](WRUNG), or triangles face inwards.
 //! - [`lengths_mm`]: how long yarns are.
 //! - [`yarns_under`]: which yarns lie under a point.
 //!
-//! Places are [`YarnPlace`](texere_core::YarnPlace)s: yarn, control interval, and where in it.
+//! A place is a [`YarnPlace`](texere_core::YarnPlace): a yarn, a control interval, and a parameter
+//! within the interval.
 //!
 //! ```
 //! use texere_contact::{CLEAR, clearance, length_mm};

@@ -1,15 +1,15 @@
-//! Which yarns lie under a point of the cloth.
+//! The yarns that lie under a point of the cloth.
 
 use texere_core::definitions::{Segment, neighbours, tangent_factor};
 use texere_core::{ControlPoint, YarnPlace, Yarns};
 
-/// Places at which each control interval is tried. Between two of them a yarn that bends round
-/// another moves less than half its radius.
+/// Number of steps between the places at which each control interval is tried. From one place to
+/// the next, a yarn that bends round another moves by less than half its radius.
 const STEPS: u16 = 24;
 
 /// Places of the yarns under the point (`x`, `y`), mm, the topmost first. A yarn lies under the
-/// point where its outline, seen from the face, holds the point. A yarn that passes several times
-/// is listed once for each pass, at the place nearest to the point.
+/// point if its outline, seen from the face, holds the point. A yarn that passes under the point
+/// several times is listed once for each pass, at the place nearest to the point.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -30,7 +30,7 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2]) -> Vec<YarnPlace> {
     for (number, yarn) in layout.yarns().iter().enumerate() {
         let points = yarns.yarn_points(number).unwrap_or(&[]);
         let intervals = if yarn.closed { points.len() } else { points.len().saturating_sub(1) };
-        // The pass that goes on from the interval before: its distance and its place.
+        // The distance and the place of the pass that goes on from the interval before.
         let mut passage: Option<(f64, YarnPlace)> = None;
         for interval in 0..intervals {
             let four = neighbours(points, yarn.closed, interval);
@@ -64,7 +64,7 @@ fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
 }
 
 /// Distance and parameter of the centreline's nearest place to the point, in the plane of the
-/// cloth. None where the yarn is not that wide there.
+/// cloth. None if the point lies outside the yarn's half width there.
 fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f64)> {
     let segment = Segment::new(four, s);
     let samples = (0..=STEPS).map(|step| {

@@ -1,4 +1,4 @@
-//! Progress of a measurement, and the caller's wish to stop it.
+//! Progress of a measurement, and the caller's request to stop.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::ContactError;
 
-/// The caller's progress function. It is behind a pointer, so that the work is compiled once for
-/// all callers.
+/// The caller's progress function. It is behind a pointer, so that the code that calls it is
+/// compiled once for all callers.
 pub(crate) type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
 
-/// Reports progress to a caller, from any thread that works.
+/// Reports progress to a caller, from any working thread.
 pub(crate) struct Watch<'a> {
     total: AtomicU64,
     done: AtomicU64,
@@ -26,7 +26,7 @@ impl fmt::Debug for Watch<'_> {
 }
 
 impl<'a> Watch<'a> {
-    /// For work of `total` units.
+    /// Starts at 0 of `total` units.
     pub(crate) fn new(total: u64, report: &'a mut Report<'a>) -> Self {
         Self {
             total: total.into(),
@@ -36,17 +36,17 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Adds units to the total, before the first one is done.
+    /// Adds units to the total. To be called before any unit is done.
     pub(crate) fn expect(&self, units: u64) {
         self.total.fetch_add(units, Ordering::Relaxed);
     }
 
-    /// Counts units as done, and reports.
+    /// Counts units as done, and calls the progress function with the share of the total.
     ///
     /// **Errors**: [`ContactError::Cancelled`] once the caller has asked to stop.
     pub(crate) fn advance(&self, units: u64) -> Result<(), ContactError> {
         self.done.fetch_add(units, Ordering::Relaxed);
-        // A thread that finds another one reporting does not wait for it.
+        // If another thread is reporting, this one does not wait.
         if let Ok(mut report) = self.report.try_lock() {
             let total = self.total.load(Ordering::Relaxed);
             let done = self.done.load(Ordering::Relaxed).min(total);

@@ -1,4 +1,4 @@
-//! Yarns moved, put together and taken apart.
+//! Moves yarns, puts cloths together, and takes yarns out of a cloth.
 
 use glam::Vec3;
 
@@ -6,14 +6,15 @@ use crate::{ControlPoint, Layout, Material, Section, Yarn, YarnError, Yarns};
 
 /// A placement of a cloth: it is scaled, then turned, then moved.
 ///
-/// It turns a cloth only in its own plane. [`Yarns::mapped`] turns it any way, and bends it.
+/// A placement turns a cloth only in its own plane. [`Yarns::mapped`] turns a cloth about any axis,
+/// and bends it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Turn about z, from x towards y, rad.
     pub turn: f64,
     /// The factor of size, above 0.
     pub scale: f32,
-    /// The new position of its origin, mm.
+    /// The new position of the cloth's origin, mm.
     pub at: [f32; 3],
 }
 
@@ -25,12 +26,12 @@ impl Default for Placement {
 }
 
 impl Yarns {
-    /// These yarns in another place. Sizes scale, and twist per mm shrinks by the same factor, so
-    /// that the mesh is the same up to the placement. If any yarn leans by [up
+    /// These yarns in another place. Sizes are multiplied by the scale, and twist per mm is divided
+    /// by it, so that the mesh differs by the placement alone. If any yarn leans by [up
     /// directions](Layout::ups), all yarns of the placed cloth get ups.
     ///
-    /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns leave the limits of
-    /// size, twist and position, which also catches an unsound scale or turn.
+    /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns exceed the limits of
+    /// size, twist and position. An invalid scale or turn gives the same errors.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
@@ -75,7 +76,7 @@ impl Yarns {
     }
 
     /// All yarns of several cloths, one after the other. Equal materials and equal sections are
-    /// kept once. Sources are kept if all cloths have some.
+    /// kept once. Sources are kept if all cloths have sources.
     ///
     /// **Errors**: [`YarnError::NoYarns`] for no cloths, [`YarnError::OtherTension`] if their
     /// splines differ in tension.
@@ -120,12 +121,13 @@ impl Yarns {
         if cloths.iter().all(|cloth| cloth.ups().is_none()) {
             return Ok(merged);
         }
-        // If one cloth has ups, all others state theirs.
+        // If one cloth has ups, the ups of all other cloths are written out, too.
         let ups = cloths.iter().flat_map(|cloth| cloth.standing_ups());
         merged.with_ups(ups.map(|up| up.to_array()).collect())
     }
 
-    /// Some of the yarns, in the order of `yarns`. Materials and sections keep their numbers.
+    /// A cloth of some of these yarns, in the order of `yarns`. Materials and sections keep their
+    /// numbers.
     ///
     /// **Errors**: [`YarnError::UnknownYarn`], and [`YarnError::NoYarns`] for an empty list.
     pub fn only(&self, yarns: impl IntoIterator<Item = usize>) -> Result<Self, YarnError> {
@@ -147,7 +149,8 @@ impl Yarns {
         if self.sources().is_some() { only.with_sources(sources) } else { Ok(only) }
     }
 
-    /// Adds the sources of several cloths' points, one after the other, if all have some.
+    /// Adds the sources of the points of several cloths, one cloth after the other, if all cloths
+    /// have sources.
     pub(crate) fn with_sources_of<'a>(
         self,
         cloths: impl IntoIterator<Item = &'a Self>,
@@ -160,7 +163,7 @@ impl Yarns {
     }
 }
 
-/// The number of `item` among `items`. A new item is added.
+/// The number of `item` among `items`, counted from 0. If `items` lacks it, it is added.
 fn number_of<T: Clone + PartialEq>(items: &mut Vec<T>, item: &T) -> u32 {
     let number = items.iter().position(|known| known == item).unwrap_or_else(|| {
         items.push(item.clone());

@@ -11,25 +11,25 @@ use bytemuck::{Pod, Zeroable};
 /// **Shape**: six 4-byte values, 24 bytes. **Units**: radians and mm.
 ///
 /// A ring's first corner is not repeated, so between the last corner and the first the angle falls
-/// back to 0. A shader that draws a texture there looks at the corner's number, or interpolates
-/// sine and cosine of the angle instead.
+/// back to 0. A shader that draws a texture there uses the corner's number, or interpolates sine
+/// and cosine of the angle instead.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Attribute {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
-    /// The angle round the section from its first corner: corner k of n has 2πk/n, rad. It turns
-    /// with the yarn's twist.
+    /// The angle round the section from its first corner, rad. Corner k of n, with k counted from
+    /// 0, has 2πk/n. The first corner turns with the yarn's twist.
     pub angle: f32,
     /// The length of the yarn from its start to the vertex's ring, mm.
     pub along: f32,
-    /// The unit tangent of the yarn there.
+    /// The unit tangent of the yarn at the vertex's ring.
     pub tangent: [f32; 3],
 }
 
 const _: () = assert!(size_of::<Attribute>() == 24 && std::mem::offset_of!(Attribute, tangent) == 12);
 
-/// The angle of corner number `corner` of a section of `sides` corners, rad.
+/// The angle of corner number `corner`, counted from 0, of a section of `sides` corners, rad.
 ///
 /// ```
 /// assert_eq!(texere_core::definitions::corner_angle(2, 8), std::f32::consts::FRAC_PI_2);
@@ -41,7 +41,7 @@ pub fn corner_angle(corner: u32, sides: u32) -> f32 {
 }
 
 /// A length along a yarn in whole steps of 2⁻³² mm, so that a sum has the same bits in any order.
-/// It holds 4,294 km; longer sums wrap round to 0.
+/// The longest length is 4,294 km. Longer sums wrap round to 0.
 ///
 /// ```
 /// use texere_core::ArcLength;
@@ -57,7 +57,7 @@ impl ArcLength {
     /// The length 0.
     pub const ZERO: Self = Self(0);
 
-    /// Steps in a millimetre.
+    /// Number of steps in a millimetre.
     pub const STEPS: f32 = 4_294_967_296.0;
 
     /// The largest number of whole millimetres: the greatest `f32` below 2³².
@@ -110,7 +110,8 @@ mod tests {
             assert_eq!(ArcLength::from_mm(odd), ArcLength::ZERO, "{odd}");
         }
         assert_eq!(ArcLength::from_mm(f32::INFINITY).0 >> 32, 4_294_967_040);
-        // A million steps of a tenth of a micrometre: f32 would be off by a hundredth.
+        // A million steps of a tenth of a micrometre are added. In f32 the sum would be off by a
+        // hundredth.
         let sum: ArcLength = (0..1_000_000).map(|_| ArcLength::from_mm(1e-4)).sum();
         assert!((sum.mm() - 100.0).abs() < 1e-3, "{}", sum.mm());
     }

@@ -1,4 +1,4 @@
-//! Types to write a backend with.
+//! The types that a backend is written with.
 //!
 //! A [`Backend`](crate::Backend) opens a [`Session`] for a [`Plan`], and the session drives the
 //! backend's [`Engine`] chunk by chunk.

@@ -9,13 +9,13 @@ pub use self::error::BoundaryError;
 /// The continuation of a yarn after its last control point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Ends {
-    /// None: the yarn is cut off at both ends.
+    /// The yarn does not go on: it is cut off at both ends.
     #[default]
     Open,
-    /// Its first control point: the yarn is a ring.
+    /// The yarn goes on at its first control point: it is a ring.
     Closed,
-    /// Its first control point again, moved by this number of whole repeats along x and along y,
-    /// and so on without end in both directions.
+    /// The yarn goes on at a copy of its first control point that is moved by this number of whole
+    /// repeats along x and along y. It goes on in this way without end in both directions.
     Repeats([i32; 2]),
 }
 
@@ -40,7 +40,7 @@ impl Ends {
 ///
 /// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis
 /// that has a period. Control points may lie anywhere, even beyond the repeat's edge. The only
-/// condition is that a yarn's next round begins where this one ends.
+/// condition is that each round of a yarn begins where the round before ends.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -59,8 +59,8 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// A boundary with a repeat of `repeat` mm along x and y (0 for none) for the yarns of
-    /// `layout`, with the ends of each.
+    /// A boundary for the yarns of `layout`, with a repeat of `repeat` mm along x and y (0 for
+    /// none) and the `ends` of each yarn.
     ///
     /// **Errors**: [`BoundaryError::Repeat`] for a repeat that is not finite, negative or beyond
     /// [`COORDINATE_LIMIT`], and the errors of [`Boundary::check`].
@@ -93,9 +93,9 @@ impl Boundary {
 
     /// Checks that the boundary fits the yarns of `layout`.
     ///
-    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed in only one
-    /// of the two, a yarn that goes on along an axis without a period, and one that goes on by no
-    /// repeat at all.
+    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed in the
+    /// boundary or in the layout alone, a yarn that goes on along an axis without a period, and a
+    /// yarn that goes on by 0 repeats along both axes.
     pub fn check(&self, layout: &Layout) -> Result<(), BoundaryError> {
         if self.ends.len() != layout.yarns().len() {
             return Err(BoundaryError::EndsCount { ends: self.ends.len(), yarns: layout.yarns().len() });
@@ -120,7 +120,7 @@ impl Boundary {
         Ok(())
     }
 
-    /// The repeat's length along x and y, mm; 0 for none.
+    /// The repeat's length along x and y, mm, 0 for none.
     #[must_use]
     pub const fn repeat(&self) -> [f32; 2] {
         self.repeat
@@ -132,7 +132,7 @@ impl Boundary {
         &self.ends
     }
 
-    /// The way along x and y to a yarn's next round, mm. 0 unless the yarn repeats.
+    /// The way along x and y to a yarn's next round, mm. It is 0 unless the yarn repeats.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

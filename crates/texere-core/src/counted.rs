@@ -1,8 +1,8 @@
-//! Counts in words.
+//! Counts with their nouns.
 
 use std::fmt::Display;
 
-/// A count with its noun, as a person writes it. The plural is the noun with an s.
+/// A count with its noun, in the singular or the plural. The plural is the noun with an s.
 ///
 /// ```
 /// use texere_core::counted;

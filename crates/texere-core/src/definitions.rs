@@ -1,5 +1,5 @@
-//! The definitions of the geometry: arithmetic that all CPU backends agree on to the bit, and GPU
-//! backends up to rounding.
+//! The definitions of the geometry. All CPU backends give the same results to the bit, and GPU
+//! backends the same up to rounding.
 //!
 //! | of | definition |
 //! |---|---|
@@ -10,7 +10,7 @@
 //! | its corners | [`Section`](crate::Section), [`corner_angle`] |
 //! | triangles | [`index_pattern`] |
 //!
-//! Constants belong to these definitions. Kernels and shaders have the same values.
+//! The constants belong to these definitions. Kernels and shaders use the same values.
 
 pub use crate::attribute::corner_angle;
 pub use crate::frame::{Basis, NO_MIRROR, VERTICAL};

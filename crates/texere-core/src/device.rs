@@ -53,8 +53,8 @@ pub enum Schedule {
     /// One lane per ring, in a GPU's workgroup or in a processor's vector.
     #[default]
     PerRing,
-    /// One lane per yarn: the paper's algorithms 2 and 4, kept to measure against. It takes only
-    /// upright, untwisted, open yarns without caps.
+    /// One lane per yarn: the paper's algorithms 2 and 4, kept to compare with. This schedule makes
+    /// only upright, untwisted, open yarns without caps.
     PerYarn,
 }
 
@@ -68,8 +68,8 @@ impl fmt::Display for Schedule {
     }
 }
 
-/// The capabilities of a device beyond making meshes. A call for anything that it lacks fails with
-/// the error that is named at the field.
+/// The capabilities of a device beyond making meshes. A call for a capability that the device lacks
+/// fails with the error named at the field.
 ///
 /// The default is a device that only makes meshes.
 ///
@@ -81,23 +81,23 @@ impl fmt::Display for Schedule {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Capabilities {
-    /// Yarns can be settled by their contacts with [`Backend::settler`]. Otherwise
-    /// [`BackendError::NoSettling`].
+    /// Yarns can be settled by their contacts with [`Backend::settler`]. Otherwise the call fails
+    /// with [`BackendError::NoSettling`].
     pub settle: bool,
     /// Woven cloth can be settled by its crossings with [`Backend::crossings_settler`]. Otherwise
-    /// [`BackendError::NoCrossings`].
+    /// the call fails with [`BackendError::NoCrossings`].
     pub settle_crossings: bool,
     /// A mesh can stay on the device and be edited there: [`LiveMesh`](crate::backend::LiveMesh).
-    /// Otherwise [`BackendError::NoEditing`].
+    /// Otherwise the call fails with [`BackendError::NoEditing`].
     pub edit: bool,
     /// Vertices can have attributes: [`Session::attributes`](crate::backend::Session::attributes).
-    /// Otherwise [`BackendError::NoAttributes`].
+    /// Otherwise the call fails with [`BackendError::NoAttributes`].
     pub attributes: bool,
-    /// Vertices can be packed: [`Session::packed`](crate::backend::Session::packed). Otherwise
-    /// [`BackendError::NoPacking`].
+    /// Vertices can be packed: [`Session::packed`](crate::backend::Session::packed). Otherwise the
+    /// call fails with [`BackendError::NoPacking`].
     pub pack: bool,
-    /// The crate `texere-render` can draw pictures on the device. Otherwise opening it for pictures
-    /// is [`BackendError::NoDevice`].
+    /// The crate `texere-render` can draw pictures on the device. Otherwise opening the device for
+    /// pictures fails with [`BackendError::NoDevice`].
     pub draw: bool,
 }
 
@@ -123,7 +123,7 @@ pub struct DeviceInfo {
     pub can: Capabilities,
     /// Whether the device's own clock measures the
     /// [`Session::timings`](crate::backend::Session::timings) of scan, trajectory and mesh, from
-    /// the start of the work to its end. If not, the host's clock does.
+    /// the start of the work to its end. If not, the host's clock measures them.
     pub timed_by_device: bool,
 }
 

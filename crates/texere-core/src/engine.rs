@@ -1,5 +1,5 @@
-//! The engine trait: the work of a device for a session. The session checks every call, so an
-//! engine gets only valid input.
+//! The engine trait: what a device does for a session. The session checks every call, so an engine
+//! gets only valid input.
 
 use std::any::Any;
 use std::fmt;
@@ -12,10 +12,10 @@ use crate::definitions::Ring;
 use crate::settling::{Settler, points_of};
 use crate::{Attribute, BackendError, ControlPoint, MeshPiece, PackedVertex};
 
-/// One of an engine's places for a chunk. The chunk's tables, rings and mesh stay there until
-/// another chunk takes the slot.
+/// One of an engine's places for a chunk. The chunk's tables, rings and mesh stay in the slot until
+/// another chunk is loaded into it.
 ///
-/// A [`Session`](crate::backend::Session) has two slots, a [`LiveMesh`](crate::backend::LiveMesh)
+/// A [`Session`](crate::backend::Session) has two slots. A [`LiveMesh`](crate::backend::LiveMesh)
 /// has one for each of its chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Slot(u32);
@@ -24,7 +24,7 @@ impl Slot {
     /// Both slots of a session.
     pub const BOTH: [Self; 2] = [Self(0), Self(1)];
 
-    /// The slot with this number, from 0.
+    /// The slot with this number, counted from 0.
     #[must_use]
     pub const fn new(number: u32) -> Self {
         Self(number)
@@ -40,15 +40,15 @@ impl Slot {
 /// The time that a session has spent in each stage so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StageTimings {
-    /// Transfer of control points to the device.
+    /// The transfer of control points to the device.
     pub upload: Duration,
     /// The scan of rolls.
     pub scan: Duration,
-    /// Rings. Their time counts as `mesh` in an engine that fuses the two stages.
+    /// The making of rings. In an engine that fuses both stages, this time is part of `mesh`.
     pub trajectory: Duration,
-    /// Vertices and indices.
+    /// The making of vertices and indices.
     pub mesh: Duration,
-    /// Transfer of results to the host.
+    /// The transfer of results to the host.
     pub readback: Duration,
 }
 
@@ -58,12 +58,12 @@ pub type RingSink<'a> = &'a mut dyn FnMut(&[Ring]) -> ControlFlow<()>;
 /// A callback that borrows vertices and indices, piece by piece.
 pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 
-/// A callback that borrows attributes, piece by piece. Its number is that of the piece's first
-/// vertex, counted from the chunk's start.
+/// A callback that borrows attributes, piece by piece. The number that it gets is that of the
+/// piece's first vertex, counted from the chunk's start.
 pub type AttributeSink<'a> = &'a mut dyn FnMut(u32, &[Attribute]) -> ControlFlow<()>;
 
-/// A callback that borrows packed vertices, piece by piece. Its number is that of the piece's first
-/// vertex, counted from the chunk's start.
+/// A callback that borrows packed vertices, piece by piece. The number that it gets is that of the
+/// piece's first vertex, counted from the chunk's start.
 pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow<()>;
 
 /// The work on one plan on one device. An engine owns all the memory that the work needs.
@@ -73,12 +73,14 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// - Control points come within the plan's range. Results of earlier control points are not read
 ///   afterwards.
-/// - If the plan needs a scan, it comes after any number of uploads, before the next stage. A
-///   session scans all yarns at once, a live mesh each run of neighbouring yarns that have changed.
-/// - Every chunk is one of the plan's own or a patch of one: the chunk with only some rows of its
-///   block table, whose results have the places that they have in the whole chunk. A chunk is
-///   loaded into a slot before a stage runs for it there. While a chunk's results are still wanted,
-///   only patches of it follow in its slot, and they must leave its other results untouched.
+/// - If the plan needs a scan, it comes after any number of uploads and before the next stage. A
+///   session scans all yarns at once. A live mesh scans each run of neighbouring yarns that have
+///   changed.
+/// - Every chunk is one of the plan's own, or a patch of one. A patch is the chunk with only some
+///   rows of its block table. Its results have the places that they have in the whole chunk. A
+///   chunk is loaded into a slot before a stage runs for it there. While a chunk's results are
+///   still needed, only patches of the chunk are loaded into its slot, and they must leave the
+///   chunk's other results untouched.
 /// - For an engine that [reads rings](Engine::mesh_reads_rings), `mesh` and `packed` come after
 ///   `trajectory` in the same slot.
 /// - Only results that have been made are read, while their chunk still has its slot. Slices to
@@ -91,11 +93,10 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// Calls may return before their work is done, except those that read.
 ///
-/// **Errors**: all methods return a [`BackendError`] for failures that could not be foreseen, and
-/// for nothing else.
+/// **Errors**: all methods return a [`BackendError`], only for failures that could not be foreseen.
 pub trait Engine: Any + fmt::Debug + Send {
-    /// Takes control points, the first of which is number `first` of the fabric. Returns the bytes
-    /// sent, virtual ends included.
+    /// Copies control points to the device. The first of them is number `first` of the fabric.
+    /// Returns the bytes sent, virtual ends included.
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
 
     /// Takes all control points from a settler, whose yarns have as many as the plan's. Returns the
@@ -119,9 +120,9 @@ pub trait Engine: Any + fmt::Debug + Send {
     }
 
     /// Takes a plan that was [edited](crate::backend::Plan::edited) from the engine's own. Only
-    /// `yarns` differ, perhaps in their numbers of control points. When many yarns are edited, the
-    /// same plan comes once for each run of neighbouring `yarns`. The tables in all slots are
-    /// forgotten, the results stay.
+    /// `yarns` differ, perhaps in their numbers of control points. If many yarns are edited, this
+    /// method is called with the same plan once for each run of neighbouring `yarns`. The tables in
+    /// all slots become invalid. The results stay.
     ///
     /// The provided method fails with [`BackendError::NoEditing`]. It suits engines that are not
     /// [editable](Engine::is_editable).
@@ -130,17 +131,17 @@ pub trait Engine: Any + fmt::Debug + Send {
         Err(BackendError::NoEditing)
     }
 
-    /// Works out the roll at each block's start, and the whole turn of each closed yarn, for the
+    /// Works out the roll at each block's start, and the total turn of each closed yarn, for the
     /// yarns of [`ScanChunks::yarns`]. `chunks` holds all chunks of the plan, or chunks that
-    /// together hold all blocks of those yarns. Each has a slot, for an engine that needs the
-    /// tables there.
+    /// together hold all blocks of those yarns. Each chunk has a slot, for an engine that needs the
+    /// chunk's tables there.
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError>;
 
     /// Loads the tables of `chunk` into `slot`, in place of any other chunk's.
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
 
-    /// Whether `mesh` and `packed` read the rings that `trajectory` left. If not, they work from
-    /// control points.
+    /// Whether `mesh` and `packed` read the rings that `trajectory` has made. If not, they start
+    /// from control points.
     fn mesh_reads_rings(&self) -> bool {
         false
     }
@@ -160,9 +161,9 @@ pub trait Engine: Any + fmt::Debug + Send {
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError>;
 
-    /// Waits for the mesh in `slot` and lends it piece by piece, from its own or from mapped
-    /// memory: all vertices in order, then all indices in order. If the sink answers `Break`,
-    /// reading ends and the answer is returned.
+    /// Waits for the mesh in `slot` and lends it piece by piece, from the engine's own or from
+    /// mapped memory: all vertices in order, then all indices in order. If the sink answers
+    /// `Break`, reading ends and the answer is returned.
     fn read_mesh(
         &mut self,
         slot: Slot,
@@ -221,7 +222,7 @@ pub trait Engine: Any + fmt::Debug + Send {
         Err(BackendError::NoPacking)
     }
 
-    /// Stage 2 with its results in the caller's slices.
+    /// Stage 2, with the results in the caller's slices.
     ///
     /// The provided method calls `mesh`, then reads and copies. An engine that can write there
     /// directly overrides it.
@@ -262,7 +263,7 @@ pub fn take_over_host<E: Engine + ?Sized>(
     Ok(Traffic { uploaded: engine.upload(0, &points)?, read })
 }
 
-/// A chunk of a scan, with its slot.
+/// A chunk of a scan, with the slot for its tables.
 #[derive(Debug)]
 pub struct ScanChunk {
     /// The slot for the chunk's tables.
@@ -274,8 +275,8 @@ pub struct ScanChunk {
     pub loaded: bool,
 }
 
-/// The chunks of a scan, in order, each with its slot. An engine that takes one has to load its
-/// tables unless they are there.
+/// The chunks of a scan, in order, each with its slot. An engine that uses a chunk has to load the
+/// chunk's tables unless they are in the slot already.
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
     yarns: Range<usize>,
@@ -286,7 +287,7 @@ impl<'a> ScanChunks<'a> {
         Self { chunks, yarns }
     }
 
-    /// The yarns whose rolls are asked for.
+    /// The yarns whose rolls, or lengths, are asked for.
     #[must_use]
     pub const fn yarns(&self) -> Range<usize> {
         self.yarns.start..self.yarns.end

@@ -8,16 +8,16 @@ use crate::turn::atan2_turns;
 /// The orientation of sections along a yarn. Twist turns them further in either frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Frame {
-    /// The section's side lies level (at right angles to z) and its up points out of the fabric:
-    /// right for flat yarns in cloth. It is the paper's equation 7 turned by half a turn. It would
-    /// flip where a yarn passes through the vertical. A yarn that is
-    /// [steep](crate::Layout::is_steep) anywhere is carried along instead, and the outline of a
-    /// flattened one [leans](crate::Layout::ups) there.
+    /// The section's side lies level (at right angles to z), and its up points out of the fabric.
+    /// This suits flat yarns in cloth. The frame is that of the paper's equation 7, turned by half
+    /// a turn. It would flip where a yarn passes through the vertical. A yarn that is
+    /// [steep](crate::Layout::is_steep) anywhere therefore has the rotation minimising frame
+    /// instead, and the outline of a flattened yarn [leans](crate::Layout::ups).
     #[default]
     Upright,
-    /// The section is carried along without turning about the yarn: no twist of its own, no flip
-    /// where the tangent meets z. Double reflection (Wang, Jüttler, Zheng and Liu, 2008), held as a
-    /// turn against the upright frame.
+    /// The section is carried along without turning about the yarn. The frame has no twist of its
+    /// own, and does not flip where the tangent passes z. It is computed by double reflection
+    /// (Wang, Jüttler, Zheng and Liu, 2008), and stored as a turn against the upright frame.
     RotationMinimizing,
 }
 
@@ -34,12 +34,12 @@ pub struct Basis {
 /// The squared sine of the angle to z, 1e-6 rad, below which a tangent counts as parallel to z.
 pub const VERTICAL: f32 = 1e-12;
 
-/// The squared length below which the second reflection's mirror has no direction: a hairpin to
-/// within a milliradian.
+/// The squared length below which the second reflection's mirror has no direction. The yarn then
+/// makes a hairpin, to within a milliradian.
 ///
-/// On a smooth curve the mirror is two tangents long. At a hairpin's tip it vanishes but for the
-/// rounding of the last chord, whose direction is off by some (K + 1)² units in the last place. Up
-/// to K = 90 the bound is clear of that.
+/// On a smooth curve the mirror is two tangents long. At a hairpin's tip it vanishes, apart from
+/// the rounding of the last chord, whose direction is off by some (K + 1)² units in the last place.
+/// Up to K = 90 the bound lies above that error.
 pub const NO_MIRROR: f32 = 1e-6;
 
 impl Basis {
@@ -76,12 +76,13 @@ impl Basis {
 }
 
 impl Frame {
-    /// The change of roll from a ring to the next: the turn that keeps the section from turning
-    /// (rotation minimising only), plus `turns_per_mm`, the twist, times the length of `chord`.
+    /// The change of roll from a ring to the next. It is the twist `turns_per_mm` times the length
+    /// of `chord`. In a rotation minimising frame the turn that keeps the section from turning is
+    /// added.
     ///
-    /// `chord` (mm) leads from one centre to the next; tangents are unit vectors. **Source**: Wang,
-    /// Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM TOG 27(1), 2008,
-    /// table I.
+    /// `chord` (mm) leads from one ring's centre to the next. Tangents are unit vectors.
+    /// **Source**: Wang, Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM
+    /// TOG 27(1), 2008, table I.
     #[must_use]
     #[inline]
     pub fn step(self, tangent: Vec3, next_tangent: Vec3, chord: Vec3, turns_per_mm: f32) -> Turn {
@@ -92,15 +93,15 @@ impl Frame {
         Turn::from_turns(turns + turns_per_mm * chord.length_squared().sqrt())
     }
 
-    /// The frame of a yarn that is [steep](crate::Layout::is_steep) or not. Upright frames would
-    /// wring a steep yarn, so it is carried along.
+    /// The frame of a yarn that is [steep](crate::Layout::is_steep) or not. A steep yarn has the
+    /// rotation minimising frame, because its tube would be wrung in an upright one.
     #[must_use]
     #[inline]
     pub const fn of(self, steep: bool) -> Self {
         if steep { Self::RotationMinimizing } else { self }
     }
 
-    /// Whether every roll of a yarn of this twist, in any unit, is zero, so that there is nothing
+    /// Whether every roll of a yarn with this twist (in any unit) is zero, so that there is nothing
     /// to scan.
     #[must_use]
     #[inline]
@@ -110,11 +111,11 @@ impl Frame {
 }
 
 /// The angle, as a fraction of a turn, from the next ring's upright side to this ring's upright
-/// side carried there.
+/// side after it is carried to the next ring.
 #[inline]
 fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
     let side = Basis::upright(tangent).side;
-    // If two rings coincide, the tangent stands in for the chord: the two reflections are then the
+    // If two rings coincide, the tangent is used as the chord. The two reflections are then the
     // smallest turn from one tangent to the next.
     let length_squared = chord.length_squared();
     let (mirror, mirror_squared) =

@@ -1,6 +1,6 @@
 //! Half floats (IEEE 754 binary16) as bits: the sizes of control points.
 
-/// The nearest half float, ties to even. Infinity from 65,520 on.
+/// The nearest half float, ties to even. Values from 65,520 on become infinity.
 pub(crate) const fn from_f32(value: f32) -> u16 {
     let bits = value.to_bits();
     let (sign, size) = ((bits >> 16 & 0x8000) as u16, bits & 0x7fff_ffff);
@@ -10,12 +10,12 @@ pub(crate) const fn from_f32(value: f32) -> u16 {
     } else if size >= 65_536_f32.to_bits() {
         0x7c00
     } else if size >= LEAST_NORMAL.to_bits() {
-        // Exponents count from 15 instead of 127, and 13 bits are rounded away. A carry belongs to
-        // the exponent.
+        // The exponent's bias becomes 15 instead of 127, and 13 bits are rounded away. A carry of
+        // the rounding correctly goes into the exponent.
         (size - (112 << 23) + 0xfff + (size >> 13 & 1)) >> 13
     } else {
-        // Floats from 0.5 on have the steps of the smallest half floats, so the sum is rounded to
-        // these.
+        // Floats from 0.5 to 1 have the steps of the smallest half floats, so the sum is rounded to
+        // such a step.
         (f32::from_bits(size) + 0.5).to_bits() - 0.5_f32.to_bits()
     };
     sign | magnitude as u16
@@ -56,8 +56,8 @@ mod tests {
         }
     }
 
-    /// Checks each half float, the middle between it and the next, and the floats beside both; then
-    /// floats of all exponents.
+    /// Checks each half float, the middle between it and the next, and the floats beside both. Then
+    /// checks floats of all exponents.
     #[test]
     fn floats_are_rounded_as_the_crate_half_does() {
         let check = |bits: u32| {

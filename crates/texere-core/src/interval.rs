@@ -12,8 +12,8 @@ pub(crate) const fn intervals(points: &[ControlPoint], closed: bool) -> Range<us
     0..if closed { points.len() } else { points.len() - 1 }
 }
 
-/// The four control points that define interval `interval`, with the paper's virtual ends beyond an
-/// open yarn's own.
+/// The four control points that define interval `interval`. Beyond the ends of an open yarn they
+/// are the paper's virtual ends.
 #[inline]
 pub fn neighbours(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
     if let Some(&[before, start, end, after]) = points.get(interval.wrapping_sub(1)..interval.wrapping_add(3))
@@ -28,7 +28,7 @@ pub fn neighbours(points: &[ControlPoint], closed: bool, interval: usize) -> [Co
     [before, start, end, after]
 }
 
-/// The tangent at a control point.
+/// The unit tangent at control point `point`.
 pub(crate) fn tangent(points: &[ControlPoint], closed: bool, point: usize) -> Vec3 {
     // At control points the tangent does not depend on the tension.
     let (interval, t) = if !closed && point + 1 == points.len() { (point - 1, 1.0) } else { (point, 0.0) };

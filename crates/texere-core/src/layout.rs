@@ -1,4 +1,4 @@
-//! The layout of yarns: the data of each yarn, and the ranges of control points that belong to it.
+//! The layout of yarns: the data of each yarn, and its range of control points.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -22,16 +22,16 @@ pub enum Origin {
     End(u32),
     /// A weft yarn: the pick's number from the first one woven.
     Pick(u32),
-    /// A weft-knitted yarn: the first course that it knits, counted within the repeat, so that
-    /// copies of a course share a number.
+    /// A weft-knitted yarn: the number of the first course that it knits. Courses are counted
+    /// within the repeat, so that copies of a course share a number.
     Course(u32),
-    /// A weft-knitted yarn: its carrier.
+    /// A weft-knitted yarn: the number of its carrier.
     Carrier(u32),
-    /// A warp-knitted yarn: its guide bar and guide.
+    /// A warp-knitted yarn: the numbers of its guide bar and its guide.
     Guide {
-        /// Guide bar, 1 in front.
+        /// Number of the guide bar, 1 in front.
         bar: u32,
-        /// Guide within the bar.
+        /// Number of the guide within the bar.
         guide: u32,
     },
 }
@@ -58,14 +58,14 @@ pub struct Yarn {
     pub section: u32,
     /// Whether the last control point is joined to the first.
     pub closed: bool,
-    /// Twist, rad per mm along the yarn; positive is Z twist (right-handed).
+    /// Twist, rad per mm along the yarn. Positive is Z twist (right-handed).
     pub twist: f32,
     /// The yarn's origin in the structure.
     pub origin: Origin,
 }
 
 impl Yarn {
-    /// The least number of control points.
+    /// The least number of control points that such a yarn needs.
     pub(crate) const fn points_least(&self) -> u64 {
         if self.closed { 3 } else { 2 }
     }
@@ -75,11 +75,12 @@ impl Yarn {
 /// sewing thread.
 pub const TWIST_LIMIT: f32 = 1e3;
 
-/// Edits of yarns. The key is a yarn's number from 0, the value its new data and control points.
+/// Edits of yarns. The key is a yarn's number, counted from 0, and the value its new data and
+/// control points.
 pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
 
-/// All data of yarns that decide counts and offsets, and the tension of their splines: everything
-/// but positions and colours.
+/// All data of yarns that decide counts and offsets, their up directions, and the tension of their
+/// splines. Positions and materials are in [`Yarns`](crate::Yarns).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     offsets: Vec<u64>,
@@ -87,15 +88,16 @@ pub struct Layout {
     sections: Vec<Section>,
     /// Whether each yarn runs too steeply for upright frames.
     steep: Vec<bool>,
-    /// The up directions of the yarns that lean, by their numbers.
+    /// The up directions of the yarns that lean, by the yarns' numbers.
     leaning: BTreeMap<usize, Arc<Leaning>>,
     /// The tension of the splines through the control points.
     tension: f32,
 }
 
 impl Layout {
-    /// A layout of `yarns`, `offsets` and `sections`. `offsets` has the start of each yarn's
-    /// control points, and their total last. The [tension](Layout::tension) of the splines is 0.
+    /// A layout of `yarns`, `offsets` and `sections`. `offsets` holds the start of each yarn's
+    /// control points, and the number of all control points last. The [tension](Layout::tension) of
+    /// the splines is 0.
     ///
     /// **Errors**: [`YarnError`] for no yarns, offsets that are not increasing prefix sums, a yarn
     /// of fewer than two control points (three when closed), an unknown section, a twist that is
@@ -145,8 +147,8 @@ impl Layout {
         Ok(Self { tension, ..self })
     }
 
-    /// The tension of the splines through the control points (the paper's u), in \[0, 1): 0 is the
-    /// Catmull-Rom spline. Towards 1, yarns run straight from point to point.
+    /// The tension of the splines through the control points (the paper's u), in \[0, 1). 0 gives
+    /// the Catmull-Rom spline. Towards 1, yarns run straight from point to point.
     #[must_use]
     pub const fn tension(&self) -> f32 {
         self.tension
@@ -166,7 +168,7 @@ impl Layout {
         }
     }
 
-    /// The stand of `yarn`.
+    /// Whether and how `yarn` is steep or leans.
     pub(crate) fn stand(&self, yarn: usize) -> Stand {
         Stand { steep: self.steep[yarn], leaning: self.leaning.get(&yarn).cloned() }
     }
@@ -179,8 +181,8 @@ impl Layout {
         };
     }
 
-    /// The start of each yarn's control points, and their total last (the paper's Ωτ): yarns + 1
-    /// values.
+    /// The start of each yarn's control points, and the number of all control points last (the
+    /// paper's Ωτ). There is one value more than there are yarns.
     #[must_use]
     pub fn offsets(&self) -> &[u64] {
         &self.offsets
@@ -198,7 +200,8 @@ impl Layout {
     }
 
     /// The part of a range of control points that belongs to one of [its yarns](Layout::yarns_of),
-    /// as two ranges: counted from the yarn's first point, and counted from the range's first.
+    /// as two ranges: counted from the yarn's first point, and counted from the first point of
+    /// `points`.
     ///
     /// **Panics** past the last yarn, and for a yarn that the range does not touch.
     #[must_use]
@@ -231,10 +234,10 @@ impl Layout {
     }
 
     /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more
-    /// than 4 degrees within a control interval. Such a yarn is carried along instead.
-    /// [`Yarns::new`](crate::Yarns::new) works this out; a layout without control points has no
-    /// steep yarns. A flattened yarn gets [ups](Layout::ups) instead, and is steep only if its ups
-    /// turn over from one control point to the next.
+    /// than 4 degrees within a control interval. If so, it has the rotation minimising frame
+    /// instead. [`Yarns::new`](crate::Yarns::new) works out which yarns are steep. A layout without
+    /// control points has no steep yarns. A flattened yarn gets [ups](Layout::ups) instead, and is
+    /// steep only if its ups turn over from one control point to the next.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -250,9 +253,10 @@ impl Layout {
 
     /// The up directions of the control points of `yarn`, unit vectors. They are
     /// [given](crate::Yarns::with_ups), or worked out for a flattened yarn whose upright frame
-    /// would turn about it by more than 15 degrees within a control interval. Worked-out ups follow
-    /// the upright frame where it turns slowly, and are carried along near the vertical. `None` for
-    /// a yarn that stands upright, for a round yarn without given ups, and past the last yarn.
+    /// would turn about the yarn by more than 15 degrees within a control interval. Ups that are
+    /// worked out follow the upright frame where it turns slowly. Near the vertical they are
+    /// carried along the yarn. `None` for a yarn that stands upright, for a round yarn without
+    /// given ups, and past the last yarn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -270,12 +274,12 @@ impl Layout {
         self.leaning(yarn).map(|leaning| &leaning.ups[..])
     }
 
-    /// The up directions of `yarn`, with their points.
+    /// The up directions of `yarn`, with the control points that they belong to.
     pub(crate) fn leaning(&self, yarn: usize) -> Option<&Leaning> {
         self.leaning.get(&yarn).map(|leaning| &**leaning)
     }
 
-    /// The up directions of the yarns that lean, by their numbers.
+    /// The up directions of the yarns that lean, by the yarns' numbers.
     pub(crate) const fn all_leaning(&self) -> &BTreeMap<usize, Arc<Leaning>> {
         &self.leaning
     }

@@ -1,4 +1,4 @@
-//! The lean of outlines: yarns that leave the plane of their cloth, and flat ones that run up or
+//! The lean of outlines. Yarns that leave the plane of their cloth, and flat yarns that run up or
 //! down, have an up direction at each control point.
 
 use glam::{DVec3, Vec3};
@@ -10,24 +10,24 @@ use crate::turn::atan2_turns;
 /// The up directions of a yarn's control points, with the points that they belong to.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Leaning {
-    /// Unit vectors.
+    /// The up directions, unit vectors.
     pub(crate) ups: Vec<Vec3>,
     pub(crate) points: Vec<ControlPoint>,
     /// Whether the ups were given. Given ups stay when the points move.
     pub(crate) given: bool,
 }
 
-/// The largest cosine of two ups that count as at right angles. It covers rounding.
+/// The largest cosine of two ups that count as at right angles. It allows for rounding.
 const RIGHT_ANGLE: f64 = 1e-9;
 
 /// The direction of a yarn's height at `t`, from 0 to 1, of a control interval. `ups` are the up
 /// directions of the interval's two control points, `tangents` the yarn's tangents there, `tangent`
-/// the tangent at `t`: all unit vectors. Returns a unit vector at right angles to `tangent`, or
+/// the tangent at `t`. All are unit vectors. Returns a unit vector at right angles to `tangent`, or
 /// zero if there is none.
 ///
-/// Each up is carried to the tangent by the smallest rotation, and the two are mixed linearly. A
-/// yarn's height has two ends, so of the second up and its opposite the one nearer to the first
-/// counts. At a right angle, up to rounding, the up itself counts.
+/// Each up is carried to the tangent by the smallest rotation, and the two are mixed linearly. An
+/// outline turned over is the same outline, so the second up may be replaced by its opposite. The
+/// one nearer to the first up counts. At a right angle, up to rounding, the up itself counts.
 ///
 /// ```
 /// use glam::DVec3;
@@ -43,7 +43,7 @@ pub fn up_between(ups: [DVec3; 2], tangents: [DVec3; 2], tangent: DVec3, t: f64)
     let [one, other] = [0, 1].map(|end| across(carried(ups[end], tangents[end], tangent), tangent));
     let other = if one.dot(other) < -RIGHT_ANGLE { -other } else { other };
     match across(one * (1.0 - t) + other * t, tangent) {
-        // An up along the yarn has no direction across it.
+        // An up that points along the yarn has no direction across the yarn.
         DVec3::ZERO if one == DVec3::ZERO => other,
         DVec3::ZERO => one,
         mixed => mixed,
@@ -83,7 +83,7 @@ impl IntervalLean {
         up_between(self.ups, self.tangents, end, 1.0).dot(across(self.ups[1], end)) < 0.0
     }
 
-    /// The turn about the tangent from the upright frame's up to the yarn's own at `t`.
+    /// The turn about the tangent at `t` from the upright frame's up to the yarn's own up.
     pub(crate) fn at(&self, t: f32) -> Turn {
         let tangent = self.segment.sample(t).tangent;
         let up = up_between(self.ups, self.tangents, tangent.as_dvec3(), f64::from(t)).as_vec3();

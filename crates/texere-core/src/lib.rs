@@ -7,9 +7,9 @@
 //! ```
 //!
 //! [`Yarns`] hold the control points and the data of each yarn: material, section, twist. A
-//! [`Plan`](backend::Plan) works out every count and offset for one choice of [`Settings`]. A
+//! [`Plan`](backend::Plan) holds every count and offset for one choice of [`Settings`]. A
 //! [`Backend`] turns control points into [`Ring`](definitions::Ring)s, and rings into a [`Mesh`]. A
-//! [`Pipeline`] drives the backend.
+//! [`Pipeline`] calls the backend.
 //!
 //! | module | holds |
 //! |---|---|
@@ -18,9 +18,9 @@
 //! | [`mod@backend`] | types to write a backend with: plans, chunks, engines, sessions |
 //! | [`settling`], [`crossings`] | how yarns come to rest, and the part of a device in it |
 //!
-//! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course,
-//! y along the warp or wale, z out of the technical face; right-handed. Triangles are
-//! counter-clockwise seen from outside.
+//! Lengths are in mm, and angles in radians unless a name says turns. x runs along the weft or
+//! course, y along the warp or wale, and z out of the technical face. The axes are right-handed.
+//! Triangles are counter-clockwise seen from outside.
 //!
 //! This crate does no I/O, knows no GPU and holds no unsafe code.
 

@@ -10,12 +10,12 @@ use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
-/// The whole mesh of a fabric on a device. Yarns can be edited, and only the changes are sent,
-/// scanned and made again.
+/// The whole mesh of a fabric on a device. Yarns can be edited. Then only the changed yarns are
+/// sent and scanned again, and only the changed parts of the mesh are made again.
 ///
-/// A [`Session`](crate::backend::Session) works chunk by chunk in the memory of two chunks; a live
-/// mesh keeps the meshes of all chunks. With [room](Plan::with_room) in the plan a yarn may get
-/// more control points, or fewer, and all others stay in place.
+/// A [`Session`](crate::backend::Session) works chunk by chunk in the memory of two chunks, while a
+/// live mesh keeps the meshes of all chunks. With [room](Plan::with_room) in the plan, a yarn may
+/// get more or fewer control points, and the meshes of all other yarns stay in place.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -44,28 +44,29 @@ use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 pub struct LiveMesh<E: Engine + ?Sized = dyn Engine> {
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
-    /// All control points: whether a yarn is steep depends on the points beside those that are
-    /// sent.
+    /// All control points. They are kept because whether a yarn is steep also depends on points
+    /// beside those that are uploaded.
     points: PaddedPoints,
     /// The rings to be made again, yarn by yarn.
     stale: BTreeMap<usize, Range<u32>>,
-    /// Whether attributes are made as well.
+    /// Whether attributes are made as well as the mesh.
     attributes: bool,
     traffic: Traffic,
     engine: Box<E>,
 }
 
-/// A stretch that an update has made again: vertices and indices of a chunk, counted from its
+/// Part of a chunk that an update has made again. Vertices and indices are counted from the chunk's
 /// start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
-    /// The chunk, an index into [`LiveMesh::chunks`].
+    /// The chunk's index in [`LiveMesh::chunks`].
     pub chunk: usize,
-    /// Its vertices, without those of caps, which follow after all others.
+    /// The vertices that were made again, without those of caps, which follow after all others.
     pub vertices: Range<u32>,
-    /// Its indices, without those of caps. Empty unless the topology is [`Topology::Indexed`].
+    /// The indices that were made again, without those of caps. Empty unless the topology is
+    /// [`Topology::Indexed`].
     pub indices: Range<u32>,
-    /// Its caps: a range of indices into [`Chunk::caps`].
+    /// The caps that were made again, as a range of indices into [`Chunk::caps`].
     pub caps: Range<usize>,
 }
 
@@ -80,8 +81,9 @@ impl LiveMesh {
 }
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
-    /// Makes room with an engine that was opened for `plan`, on a device of `limits`. For backends
-    /// whose engines can do more than the trait [`Engine`].
+    /// Makes room for the whole mesh of `plan` with an engine that was opened for `plan`, on a
+    /// device with `limits`. This is for backends whose engines can do more than the trait
+    /// [`Engine`].
     ///
     /// **Errors**: [`SessionError::Region`] for a plan of a region, [`SessionError::Plan`] if not
     /// even one block fits, [`BackendError::OutOfMemory`] if all chunks together do not fit, and
@@ -125,8 +127,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         &self.chunks
     }
 
-    /// The rings of a yarn: each chunk that holds some, an index into [`LiveMesh::chunks`], with
-    /// their part of it.
+    /// The parts of chunks that hold the rings of a yarn, each with the chunk's index in
+    /// [`LiveMesh::chunks`].
     ///
     /// **Panics** past the last yarn.
     pub fn parts(&self, yarn: usize) -> impl Iterator<Item = (usize, &Part)> {
@@ -154,10 +156,10 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         self.engine.timings()
     }
 
-    /// Makes again everything that has changed, and returns the changed stretches, chunk by chunk.
-    /// May return before the work is done; later reads and draws see it.
+    /// Makes again everything that has changed, and returns the changes, chunk by chunk. The call
+    /// may return before the device's work is done. Later reads and draws come after that work.
     ///
-    /// **Errors**: [`SessionError::Backend`]. The changes then remain to be made.
+    /// **Errors**: [`SessionError::Backend`]. The next update then makes the same changes.
     pub fn update(&mut self) -> Result<Vec<Change>, SessionError> {
         if self.plan.needs_scan() {
             self.go_through(E::scan)?;
@@ -183,9 +185,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(changes)
     }
 
-    /// Makes [attributes](crate::Attribute) as well from the next update on. That update makes
-    /// everything again. From then on an edit changes the whole yarn, since everything behind the
-    /// edit lies further along.
+    /// Makes [attributes](crate::Attribute), too, from the next update on. That update makes
+    /// everything again. From then on an edit changes the whole yarn, because the length along the
+    /// yarn changes everywhere behind the edit.
     pub fn keep_attributes(&mut self) {
         if !self.attributes {
             self.attributes = true;
@@ -228,7 +230,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
 
     /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by
     /// piece, as [`Session::read_mesh`](crate::backend::Session::read_mesh) does. Unused room is
-    /// lent too, without meaning: [`Chunk::parts`] has the places of yarns.
+    /// lent too, with contents that mean nothing. [`Chunk::parts`] has the places of yarns.
     ///
     /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed,
     /// [`SessionError::NoChunk`] past the last chunk, and [`SessionError::Backend`].
@@ -246,7 +248,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(flow?)
     }
 
-    /// Whether a chunk has anything for `call` to read. It may consist of room only.
+    /// Whether a chunk has anything for `call` to read. A chunk may consist of room only.
     fn is_made(&self, call: &'static str, chunk: usize) -> Result<bool, SessionError> {
         let here =
             self.chunks.get(chunk).ok_or(SessionError::NoChunk { chunk, chunks: self.chunks.len() })?;
@@ -267,7 +269,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         *stale = stale.start.min(rings.start)..stale.end.max(rings.end);
     }
 
-    /// The chunks that hold some of `yarn` or of its room.
+    /// The chunks that hold part of `yarn` or of its room.
     fn chunks_of(&self, yarn: usize) -> Range<usize> {
         let blocks = &self.plan.block_offsets()[yarn..yarn + 2];
         let first = self.chunks.partition_point(|chunk| chunk.block_range().end <= blocks[0]);
@@ -330,7 +332,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 }
 
-/// The runs of neighbours among `yarns`, which are in order.
+/// The runs of neighbouring numbers among `yarns`, which are in order.
 fn runs(yarns: &[usize]) -> impl Iterator<Item = Range<usize>> {
     yarns.chunk_by(|one, next| one + 1 == *next).map(|run| run[0]..run[run.len() - 1] + 1)
 }

@@ -1,4 +1,4 @@
-//! Cloth that is bent, turned, or carried by any other smooth map.
+//! Bends or turns cloth, or carries it by any other smooth map.
 
 use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
@@ -8,10 +8,11 @@ use crate::interval::tangent;
 use crate::{ControlPoint, Layout, Yarn, YarnError, Yarns};
 
 /// The step of the difference quotients that measure how a map stretches, as a share of the yarn's
-/// half height there.
+/// half height at the point.
 const NEAR: f64 = 0.01;
 
-/// A mapped yarn: its control points, its up directions, and its length over the length before.
+/// A mapped yarn: its control points, its up directions, and its length divided by its length
+/// before.
 struct Carried {
     points: Vec<ControlPoint>,
     ups: Vec<[f32; 3]>,
@@ -19,17 +20,17 @@ struct Carried {
 }
 
 impl Yarns {
-    /// These yarns carried by `map`, mm to mm: round a cylinder, over a saddle, or turned any way.
-    /// Control points, half widths, half heights and [up directions](Yarns::with_ups) follow the
-    /// map's stretch and turn near each point. Where the map bends the cloth little over a yarn's
-    /// thickness, yarns stay as clear of one another as they were. Each yarn keeps its number of
-    /// turns of twist. The spline runs between the carried points, so a map that bends much between
-    /// two points needs more of them.
+    /// These yarns carried by `map`, from mm to mm: for example round a cylinder, over a saddle, or
+    /// turned about any axis. Control points, half widths, half heights and [up
+    /// directions](Yarns::with_ups) follow the map's stretch and turn near each point. If the map
+    /// bends the cloth only little over a yarn's thickness, yarns stay as clear of one another as
+    /// they were. Each yarn keeps its number of turns of twist. The spline runs between the carried
+    /// points, so a map that bends much between two points needs more of them.
     ///
     /// `map` must be smooth. It must not fold space or turn it inside out.
     ///
-    /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns leave the limits of
-    /// size, twist and position, and [`YarnError::Up`] if the map leaves no direction.
+    /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns exceed the limits of
+    /// size, twist and position, and [`YarnError::Up`] if a mapped up direction is zero.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -72,7 +73,8 @@ impl Yarns {
         mapped.with_sources_of([self])
     }
 
-    /// The up direction of each control point: the yarn's own, or else the upright frame's.
+    /// The up direction of each control point: that of the yarn, or that of the upright frame if
+    /// the yarn has none.
     pub(crate) fn standing_ups(&self) -> Vec<Vec3> {
         let yarns = self.layout().yarns().iter().enumerate();
         let of_yarn = |(number, yarn): (usize, &Yarn)| {
@@ -112,14 +114,14 @@ fn carry(
             DMat3::from_cols_array_2d(&[DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
                 ((map(place + axis * near) - map(place - axis * near)) / (2.0 * near)).to_array()
             }));
-        // The section at right angles to the carried yarn. The part along the yarn lies in its
-        // surface.
+        // The section is taken at right angles to the carried yarn. What the map moves along the
+        // yarn only slides along its surface.
         let tangent = (stretch * along).normalize_or_zero();
         let across = |v: DVec3| v - tangent * v.dot(tangent);
         let (side, up) = (across(stretch * up.cross(along) * wide), across(stretch * up * high));
         let half_height = up.length();
-        // The width gives the section the area of the carried ellipse. Its axes are those of the
-        // ellipse, apart from the map's shear over the yarn's width.
+        // The width gives the section the area of the carried ellipse. The section's axes are those
+        // of the ellipse, apart from the map's shear over the yarn's width.
         let half_width = side.cross(up).length() / half_height;
         let [x, y, z] = map(place).as_vec3().to_array();
         let carried_point = ControlPoint { x, y, z, ..*point };

@@ -1,6 +1,6 @@
 //! Materials: the look and the weight of yarns.
 
-/// A yarn's material. Many yarns can share one, and it can change without touching any geometry.
+/// A yarn's material. Many yarns can share a material. Changing a material changes no geometry.
 ///
 /// ```
 /// use texere_core::Material;
@@ -9,14 +9,15 @@
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Name, as the design gives it.
+    /// The material's name in the design.
     pub name: String,
     /// Colour, sRGB, 8 bits a channel.
     pub srgb: [u8; 3],
     /// Linear density in tex (g/km), if the design has one.
     pub tex: Option<f32>,
-    /// Fibres that stand off the yarn: their length in cm per cm of yarn, the H of Uster testers. 0
-    /// for none, as in filament; at most [`HAIRINESS_LIMIT`]. Only pictures show them.
+    /// Hairiness: the length in cm of the fibres that stand off one cm of yarn (the H of Uster
+    /// testers). It is 0 for yarn without such fibres, as filament, and [`HAIRINESS_LIMIT`] at
+    /// most. Only pictures show these fibres.
     pub hairiness: f32,
 }
 

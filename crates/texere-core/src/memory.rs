@@ -1,4 +1,4 @@
-//! Allocations that the system may refuse.
+//! Allocations that return an error if the system refuses them.
 
 use bytemuck::Zeroable;
 use thiserror::Error;
@@ -15,9 +15,9 @@ use crate::counted;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
 pub struct OutOfMemory {
-    /// The purpose.
+    /// What the memory was for.
     pub what: &'static str,
-    /// The bytes asked for.
+    /// Number of bytes that were asked for.
     pub bytes: u64,
 }
 
@@ -28,7 +28,8 @@ impl OutOfMemory {
     }
 }
 
-/// A list of `count` zeroed values, in fresh pages that the system maps only when they are touched.
+/// A list of `count` zeroed values. Large lists lie in new pages that the system maps only when
+/// they are first used.
 ///
 /// **Errors**: [`OutOfMemory`], naming `what`.
 ///

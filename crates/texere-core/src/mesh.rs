@@ -10,22 +10,23 @@ use crate::{End, Material, Topology, Vertex};
 /// A range of indices that draws (part of) one yarn.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Draw {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
     /// The range of the mesh's indices.
     pub indices: std::ops::Range<u64>,
     /// The number to add to an index to get a vertex of the mesh.
     pub base_vertex: u64,
     /// The number of vertices from `base_vertex` on that the draw may refer to, for file formats
-    /// and interfaces that need it: those of the chunk, or with a shared pattern those of the draw.
+    /// and interfaces that need it. These are the vertices of the chunk, or those of the draw if
+    /// the pattern is shared.
     pub vertices: u64,
 }
 
-/// A range of indices that draws (part of) one yarn of a chunk from the chunk's own buffers: the
-/// arguments of an indexed draw of a GPU's interface.
+/// A range of indices that draws (part of) one yarn of a chunk from the chunk's own buffers. The
+/// fields are the arguments of an indexed draw on a GPU.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChunkDraw {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
     /// The range of the chunk's indices, or of the [shared pattern](Plan::shared_indices).
     pub indices: std::ops::Range<u32>,
@@ -34,8 +35,8 @@ pub struct ChunkDraw {
 }
 
 impl Plan {
-    /// The gaps between rings that the shared pattern covers: those of the longest part, room
-    /// included, but at most [`SHARED_GAPS`].
+    /// The number of gaps between rings that the shared pattern covers: as many as the longest yarn
+    /// has, room included, but at most [`SHARED_GAPS`].
     fn shared_gaps(&self) -> u64 {
         let longest = self.ring_offsets().windows(2).map(|bounds| bounds[1] - bounds[0] - 1).max();
         longest.unwrap_or(0).min(SHARED_GAPS)
@@ -47,8 +48,8 @@ impl Plan {
         self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
     }
 
-    /// The indices of [`Topology::Shared`]: the pattern of the longest part. With caps, the indices
-    /// of the start cap and of the finish cap follow for each section.
+    /// The indices of [`Topology::Shared`]: the pattern of as many gaps as one draw may cover. With
+    /// caps, the indices of the start cap and of the finish cap follow for each section.
     #[must_use]
     pub fn shared_indices(&self) -> Vec<u32> {
         let sides = self.settings().sides;
@@ -66,9 +67,9 @@ impl Plan {
         indices
     }
 
-    /// [`Plan::shared_indices`] in half the memory, for interfaces that draw with 16-bit indices
-    /// and a base vertex. `None` if an index does not fit, which needs more than seven sides and a
-    /// long yarn.
+    /// The indices of [`Plan::shared_indices`] as `u16`, in half the memory, for interfaces that
+    /// draw with 16-bit indices and a base vertex. `None` if an index does not fit, which needs
+    /// more than seven sides and a long yarn.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -96,18 +97,19 @@ impl Plan {
         })
     }
 
-    /// The draws of a chunk as part of a whole mesh, yarn by yarn, its caps last. Empty with
+    /// The draws of a chunk as part of a whole mesh, yarn by yarn, the caps last. Empty with
     /// [`Topology::None`].
     pub fn draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = Draw> + 'a {
         self.draws_from(chunk, chunk.first_vertex(), chunk.first_index())
     }
 
-    /// The draws of a chunk from its own buffers, such as a device lends: vertices and indices
-    /// count from the chunk's first. Yarn by yarn, caps last. Empty with [`Topology::None`].
+    /// The draws of a chunk from its own buffers, such as a device lends, yarn by yarn, the caps
+    /// last. Vertices and indices are counted from the chunk's first. Empty with
+    /// [`Topology::None`].
     ///
-    /// Draw only these of a [`LiveMesh`](crate::backend::LiveMesh): unused room between yarns holds
-    /// triangles from before an edit. The draws change with an edit that makes a yarn longer or
-    /// shorter.
+    /// Draw nothing but these ranges of a [`LiveMesh`](crate::backend::LiveMesh), because unused
+    /// room between yarns holds triangles from before an edit. The draws change with an edit that
+    /// makes a yarn longer or shorter.
     pub fn chunk_draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = ChunkDraw> + 'a {
         self.draws_from(chunk, 0, 0).map(|draw| ChunkDraw {
             yarn: draw.yarn,
@@ -127,8 +129,8 @@ impl Plan {
         let topology = self.settings().topology;
         let tubes = chunk.parts().iter().flat_map(move |part| {
             let gaps = u64::from(part.rings) - 1;
-            // A shared pattern starts again at each stretch's first ring. An indexed part is one
-            // stretch.
+            // With a shared pattern, a part is drawn in stretches, and the pattern starts again at
+            // each stretch's first ring. An indexed part is one stretch.
             let stretch = if topology == Topology::Shared { SHARED_GAPS } else { gaps.max(1) };
             (0..gaps.div_ceil(stretch)).map(move |number| {
                 let here = stretch.min(gaps - number * stretch);
@@ -173,18 +175,18 @@ impl Plan {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MeshPiece<'a> {
-    /// Vertices, the first of which is number `first` of its chunk.
+    /// Consecutive vertices of the chunk.
     Vertices {
-        /// Number of the first, from the chunk's start.
+        /// Number of the first vertex, counted from the chunk's start.
         first: u32,
         /// The vertices.
         vertices: &'a [Vertex],
     },
-    /// Indices, the first of which is number `first` of its chunk.
+    /// Consecutive indices of the chunk.
     Indices {
-        /// Number of the first, from the chunk's start.
+        /// Number of the first index, counted from the chunk's start.
         first: u32,
-        /// The indices, numbered from the chunk's first vertex.
+        /// The indices. They count vertices from the chunk's first.
         indices: &'a [u32],
     },
 }
@@ -201,16 +203,16 @@ impl MeshPiece<'_> {
 /// The caller's memory for a chunk's mesh: slices of exactly the planned lengths.
 #[derive(Debug)]
 pub struct MeshMut<'a> {
-    /// `chunk.vertices()` long.
+    /// The chunk's vertices, `chunk.vertices()` of them.
     pub vertices: &'a mut [Vertex],
-    /// `chunk.indices()` long.
+    /// The chunk's indices, `chunk.indices()` of them.
     pub indices: &'a mut [u32],
 }
 
 /// A whole fabric's mesh in host memory.
 ///
-/// It keeps the plan, chunks and materials, so a writer needs nothing else, and a change of colour
-/// never rebuilds geometry.
+/// The mesh keeps the plan, chunks and materials, so that a writer needs nothing else. A change of
+/// colour never rebuilds geometry.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;

@@ -9,7 +9,7 @@ use crate::backend::{
 };
 use crate::{Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, DeviceKind, Limits};
 
-/// A backend that writes nothing: outputs keep their contents.
+/// A backend that writes nothing, so that outputs keep their contents.
 ///
 /// It takes every call that a session or a live mesh makes, so that tests of the two need no
 /// device. A small backend that makes meshes is explained in docs/BACKENDS.md.

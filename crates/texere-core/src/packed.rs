@@ -4,11 +4,11 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::Vertex;
 
-/// The step of the grid that packed positions lie on: a power of two of mm, the same for a whole
-/// fabric.
+/// The step of the grid that packed positions lie on. It is a power of two of mm, and the same for
+/// a whole fabric.
 ///
-/// It is one of the [`Settings`](crate::Settings). A finer step is more exact, a coarser one
-/// [reaches](Quantum::reach) further.
+/// The quantum is one of the [`Settings`](crate::Settings). A finer step is more exact, and a
+/// coarser step [reaches](Quantum::reach) further.
 ///
 /// ```
 /// use texere_core::Quantum;
@@ -23,10 +23,10 @@ pub struct Quantum {
 }
 
 /// The exponents of the finest and the coarsest quantum. With the finest, a fibre of the least
-/// radius is a thousand quanta thick. The coarsest reaches across all coordinates.
+/// radius is a thousand quanta thick. The coarsest reaches over all coordinates that are allowed.
 const EXPONENTS: std::ops::RangeInclusive<i8> = -24..=11;
 
-/// The bits of a coordinate.
+/// The mask of a packed coordinate's bits.
 const COORDINATE: u32 = (1 << Quantum::BITS) - 1;
 
 impl Default for Quantum {
@@ -37,25 +37,25 @@ impl Default for Quantum {
 }
 
 impl Quantum {
-    /// 2⁻¹² mm, a quarter of a micrometre: 1/400 of the radius of a thread of 0.2 mm. It reaches
-    /// 256 mm.
+    /// The usual quantum, 2⁻¹² mm. It is a quarter of a micrometre, 1/400 of the radius of a thread
+    /// of 0.2 mm, and reaches 256 mm.
     pub const USUAL: Self = Self { exponent: -12 };
 
-    /// Bits of each packed coordinate.
+    /// Number of bits of each packed coordinate.
     pub const BITS: u32 = 21;
 
-    /// The quanta after which packed coordinates repeat.
+    /// The number of quanta after which packed coordinates repeat.
     pub const WRAP: f32 = (1 << Self::BITS) as f32;
 
-    /// The finest quantum that reaches `mm`, at least 2⁻²⁴ mm. If none reaches it, the coarsest: 2
-    /// m.
+    /// The finest quantum that reaches `mm`. The finest of all is 2⁻²⁴ mm. If none reaches so far,
+    /// the result is the coarsest, 2¹¹ mm or about 2 m.
     #[must_use]
     pub fn reaching(mm: f32) -> Self {
         let all = EXPONENTS.map(|exponent| Self { exponent });
         all.clone().find(|quantum| quantum.reach() >= mm).unwrap_or(Self { exponent: *EXPONENTS.end() })
     }
 
-    /// Its length, mm.
+    /// The quantum's length, mm.
     #[must_use]
     #[inline]
     pub const fn mm(self) -> f32 {
@@ -70,8 +70,8 @@ impl Quantum {
     }
 
     /// The largest distance, mm, in x, y or z between a vertex and the place near which it is
-    /// [unpacked](PackedVertex::unpack): half of the range of a packed coordinate, less the
-    /// rounding of both.
+    /// [unpacked](PackedVertex::unpack). It is half of the range of a packed coordinate, less the
+    /// rounding of the vertex and of the place.
     #[must_use]
     pub const fn reach(self) -> f32 {
         (Self::WRAP / 2.0 - 2.0) * self.mm()
@@ -82,7 +82,7 @@ impl Quantum {
         (mm * self.per_mm()).round_ties_even() as i64
     }
 
-    /// The lowest bits of a coordinate's whole quanta. All products are by powers of two, and the
+    /// The lowest bits of a coordinate in whole quanta. All factors are powers of two, and the
     /// difference is exact.
     #[inline]
     fn wrapped(self, mm: f32) -> u32 {
@@ -94,17 +94,17 @@ impl Quantum {
 
 /// A [`Vertex`] in half the bytes.
 ///
-/// **Shape**: two `u32` and two `i16`, 12 bytes. `position` has the lowest 21 bits of x, y and z in
-/// whole [quanta](crate::Settings::quantum): x in bits 0 to 20 of the 64, first word lowest, y in
-/// bits 21 to 41, z in bits 42 to 62. The last bit is 0. `normal` is the octahedral map of the
-/// normal (Meyer, Süßmuth, Sußner, Stamminger and Greiner 2010), in steps of 1/32767 from -32767 to
-/// 32767.
+/// **Shape**: two `u32` and two `i16`, 12 bytes. `position` holds the lowest 21 bits of x, y and z
+/// in whole [quanta](crate::Settings::quantum). The first word is the lower half of 64 bits. x has
+/// bits 0 to 20, y bits 21 to 41, and z bits 42 to 62. Bit 63 is 0. `normal` is the octahedral map
+/// of the normal (Meyer, Süßmuth, Sußner, Stamminger and Greiner 2010), in steps of 1/32767 from
+/// -32767 to 32767.
 ///
-/// The bits of a coordinate above these 21 are not kept. A vertex lies within the quantum's
-/// [reach](Quantum::reach) of a place that the reader names, such as the middle of the cloth, the
-/// eye, or a control point beside it, and that place supplies the high bits. The packed bits depend
-/// on the position alone, not on a block, a chunk or a cap: equal positions are packed alike, and
-/// unpack alike near any place. Where a cloth is cut apart there are no cracks.
+/// The higher bits of a coordinate are not kept. To unpack a vertex, the reader names a place
+/// within the quantum's [reach](Quantum::reach) of the vertex, such as the middle of the cloth, the
+/// eye, or a control point beside it. That place supplies the high bits. The packed bits depend on
+/// the position alone, not on a block, a chunk or a cap. Equal positions have equal bits, and
+/// unpack to equal positions near any place. There are no cracks where a cloth is cut into chunks.
 ///
 /// **Errors of rounding**: half a quantum in each coordinate, 6.6e-5 rad in the normal.
 ///
@@ -119,20 +119,20 @@ impl Quantum {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Pod, Zeroable)]
 pub struct PackedVertex {
-    /// Position: 21 bits of x, of y and of z.
+    /// The position: 21 bits each of x, y and z.
     pub position: [u32; 2],
-    /// Outward normal, octahedral.
+    /// The outward normal, in the octahedral map.
     pub normal: [i16; 2],
 }
 
 const _: () = assert!(size_of::<PackedVertex>() == 12 && std::mem::offset_of!(PackedVertex, normal) == 8);
 
 impl PackedVertex {
-    /// A number that rounds: added to an `f32` of less than 2²², it leaves the nearest whole
-    /// number, ties to even, in the lowest bits of the sum.
+    /// A number for rounding. If it is added to an `f32` below 2²² in size, the lowest bits of the
+    /// sum are the nearest whole number, ties to even.
     pub const ROUNDING: f32 = 12_582_912.0;
 
-    /// Steps of the normal from 0 to 1.
+    /// Number of steps of a normal's coordinate from 0 to 1.
     pub const NORMAL_STEPS: f32 = 32767.0;
 
     /// Packs a vertex.
@@ -152,8 +152,8 @@ impl PackedVertex {
         Self { normal: octahedral(normal), ..self }
     }
 
-    /// The vertex within [reach](Quantum::reach) of `near`, mm. `quantum` is the one that it was
-    /// packed with.
+    /// The vertex within [reach](Quantum::reach) of the place `near`, mm. `quantum` is the one that
+    /// the vertex was packed with.
     #[must_use]
     pub fn unpack(&self, near: [f32; 3], quantum: Quantum) -> Vertex {
         let [low, high] = self.position;
@@ -169,8 +169,8 @@ impl PackedVertex {
     }
 }
 
-/// The steps of a normal on the octahedron |x| + |y| + |z| = 1, whose lower half is folded
-/// outwards.
+/// A normal projected to the octahedron |x| + |y| + |z| = 1, whose lower half is folded outwards,
+/// in steps.
 #[inline]
 fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
     let scale = 1.0 / (x.abs() + y.abs() + z.abs());
@@ -180,7 +180,7 @@ fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
     flat.map(|value| (value * PackedVertex::NORMAL_STEPS + PackedVertex::ROUNDING).to_bits() as i16)
 }
 
-/// The unit vector of these steps.
+/// The unit vector whose octahedral map is `steps`.
 fn from_octahedral(steps: [i16; 2]) -> [f32; 3] {
     let [x, y] = steps.map(|steps| f32::from(steps) / PackedVertex::NORMAL_STEPS);
     let z = 1.0 - x.abs() - y.abs();

@@ -34,7 +34,7 @@ impl PaddedPoints {
         Ok(Self { points: zeroed("control points", count)? })
     }
 
-    /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual
+    /// Stores `points`, the first of which is number `first` of the fabric, and renews the virtual
     /// ends that depend on them. Points past the fabric's last are ignored.
     ///
     /// Returns the range of padded points that may have changed.
@@ -76,8 +76,8 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
 /// equations 3 and 4 for an open yarn, wrapped neighbours for a closed one.
 ///
 /// `padded` has the layout of [`Plan::padded_offsets`]: one place before the yarn's own points, and
-/// one (open) or three (closed) behind them. **Panics** for fewer than two own points (three if
-/// closed).
+/// one place (for an open yarn) or three (for a closed one) behind them. **Panics** for fewer than
+/// two own points (three if closed).
 ///
 /// ```
 /// use texere_core::backend::renew_virtual_ends;

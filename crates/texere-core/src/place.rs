@@ -9,23 +9,23 @@ use crate::{ControlPoint, Yarns};
 /// A place on a yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YarnPlace {
-    /// The yarn, from 0.
+    /// Number of the yarn, counted from 0.
     pub yarn: usize,
-    /// The control interval: the number of the control point that it starts from, from 0 within the
-    /// yarn.
+    /// Number of the control interval, which is that of the control point at its start, counted
+    /// from 0 within the yarn.
     pub interval: usize,
-    /// The parameter in the interval, from 0 to 1.
+    /// The parameter within the interval, from 0 to 1.
     pub t: f64,
-    /// The centreline there, mm.
+    /// The point of the centreline, mm.
     pub position: [f64; 3],
     /// The source of the nearer of the interval's control points, if the yarns have sources.
     pub source: Option<u32>,
 }
 
 impl YarnPlace {
-    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`, for
-    /// example of a picked triangle. `None` if there is no such yarn or interval, or `t` is outside
-    /// its range.
+    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`. A
+    /// picked triangle has such numbers, for example. `None` if there is no such yarn or interval,
+    /// or `t` is outside its range.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};

@@ -6,17 +6,18 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::half;
 
-/// A point that a yarn's centreline passes through, with the yarn's half width and half height
-/// there.
+/// A point that a yarn's centreline passes through, with the yarn's half width and half height at
+/// that point.
 ///
-/// The half width lies level in the cloth, the half height out of it, both at right angles to the
-/// yarn, whatever its twist: yarns flatten where they cross and spread where they float, while
-/// their fibres turn inside. In a round yarn both are the radius.
+/// The half width lies level in the cloth, and the half height points out of the cloth. Both are at
+/// right angles to the yarn. They do not turn with the yarn's twist: yarns flatten where they cross
+/// and spread where they float, while their fibres turn inside the outline. In a round yarn both
+/// are the radius.
 ///
 /// **Shape**: three `f32` and two half floats (IEEE 754 binary16), 16 bytes, 16-byte stride.
 /// **Units**: millimetres. The spline interpolates all five components, so half width and half
-/// height alone make slubs (thick places) and flat places. A half float has 11 bits: sizes are
-/// rounded to the nearest one, by at most 1 in 2048.
+/// height alone make slubs (thick places) and flat places. A half float has 11 bits, so sizes are
+/// rounded by at most 1 in 2048.
 ///
 /// ```
 /// use texere_core::ControlPoint;
@@ -29,11 +30,11 @@ use crate::half;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ControlPoint {
-    /// Along the weft or the course, mm.
+    /// Position along the weft or the course, mm.
     pub x: f32,
-    /// Along the warp or the wale, mm.
+    /// Position along the warp or the wale, mm.
     pub y: f32,
-    /// Out of the technical face, mm.
+    /// Height out of the technical face, mm.
     pub z: f32,
     /// Half the yarn's width and half its height.
     pub halves: Halves,
@@ -50,16 +51,16 @@ const _: () = assert!(
         && std::mem::offset_of!(ControlPoint, halves) == 12
 );
 
-/// The largest distance of a coordinate from the origin, mm (a thousand kilometres).
+/// The largest coordinate on either side of the origin, mm (a thousand kilometres).
 ///
-/// Beyond it, squares and cubes in the spline could leave the range of `f32`.
+/// With larger coordinates, squares and cubes in the spline could leave the range of `f32`.
 pub const COORDINATE_LIMIT: f32 = 1e9;
 
 /// The least half width and half height of a yarn, mm: a tenth of a micrometre. The smallest number
 /// that a half float holds with all its bits is 6.1e-5.
 pub const RADIUS_MIN: f32 = 1e-4;
 
-/// The largest half width and half height of a yarn, mm: thirty metres. A half float ends at
+/// The largest half width and half height of a yarn, mm: thirty metres. The largest half float is
 /// 65,504, and a virtual end may be twice as large as its neighbour.
 pub const RADIUS_MAX: f32 = 3e4;
 
@@ -72,8 +73,8 @@ impl ControlPoint {
         Self { x, y, z, halves: Halves::new(radius, radius) }
     }
 
-    /// This point with other sizes, for a yarn that is flattened there, mm. They are rounded like
-    /// the radius of [`ControlPoint::new`].
+    /// This point with another half width and half height, mm, for a flattened yarn. Both are
+    /// rounded like the radius of [`ControlPoint::new`].
     #[must_use]
     #[inline]
     pub fn flattened(self, half_width: f32, half_height: f32) -> Self {
@@ -101,7 +102,7 @@ impl ControlPoint {
         self.halves.height()
     }
 
-    /// Whether the yarn is as wide as it is high here.
+    /// Whether the yarn is as wide as it is high at this point.
     #[must_use]
     #[inline]
     pub const fn is_round(&self) -> bool {
@@ -111,7 +112,7 @@ impl ControlPoint {
     /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes
     /// are computed in `f32` and rounded to half floats.
     ///
-    /// The sizes of a virtual end may be negative; they only steer the spline's slope.
+    /// The sizes of a virtual end may be negative. They only affect the spline's slope.
     #[must_use]
     pub fn reflected(&self, other: &Self) -> Self {
         let far = |here: f32, there: f32| 2.0 * here - there;
@@ -123,7 +124,7 @@ impl ControlPoint {
 }
 
 impl Halves {
-    /// Both sizes, mm, rounded to the nearest half floats, ties to even.
+    /// Half `width` and half `height`, mm, rounded to the nearest half floats, ties to even.
     #[must_use]
     #[inline]
     pub fn new(width: f32, height: f32) -> Self {
@@ -144,8 +145,9 @@ impl Halves {
         half::to_f32(self.0[1])
     }
 
-    /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero have the
-    /// order of their bits. Negative ones, infinity and NaN come after all of them.
+    /// Whether both sizes lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are
+    /// in the order of their bits. The bits of infinity, NaN and negative numbers come after those
+    /// of all others.
     pub(crate) const fn within_limits(self) -> bool {
         const LEAST: u16 = half::from_f32(RADIUS_MIN);
         const MOST: u16 = half::from_f32(RADIUS_MAX);

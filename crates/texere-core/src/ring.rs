@@ -6,10 +6,10 @@ use glam::Vec3;
 use crate::definitions::{Basis, Sample, Turn};
 use crate::{SectionPoint, Vertex};
 
-/// A sample of a yarn's centreline with everything that its section needs there.
+/// A sample of a yarn's centreline, with everything that the section at that place needs.
 ///
-/// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm; growths in mm per mm; `roll` in 2⁻³²
-/// turns.
+/// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm, growths in mm per mm, `roll` and
+/// `lean` in 2⁻³² turns.
 ///
 /// ```
 /// use texere_core::definitions::Ring;
@@ -63,14 +63,15 @@ impl Ring {
         }
     }
 
-    /// Whether the yarn is round here and stays round: width and height are equal and grow alike.
+    /// Whether the yarn is round at this ring and stays round: width and height are equal, and so
+    /// are their growths.
     #[must_use]
     #[inline]
     pub fn is_round(&self) -> bool {
         self.half_width == self.half_height && self.width_growth == self.height_growth
     }
 
-    /// The stance of a section here.
+    /// The stance of the section on this ring.
     #[must_use]
     #[inline]
     pub fn stance(&self) -> Stance {
@@ -89,8 +90,8 @@ impl Ring {
     ///
     /// The section is turned by the roll, then stretched to the half width along the side and to
     /// the half height along the up of the upright frame. Its normal is stretched by the inverse
-    /// transpose. The normal of a section that grows leans back: it is at right angles both to the
-    /// outline and to the line along the surface.
+    /// transpose. If the section grows along the yarn, the normal leans back, so that it is at
+    /// right angles both to the outline and to the line along the surface.
     #[must_use]
     #[inline]
     pub fn vertex(&self, stance: &Stance, point: &SectionPoint) -> Vertex {
@@ -111,8 +112,8 @@ impl Ring {
                 let SectionPoint { x, y, normal_x, normal_y } = point.rolled(*sin, *cos);
                 let (wide, high) = (self.half_width, self.half_height);
                 let at = |x: f32, y: f32| *side * x + *up * y;
-                // Each component times the other's half: the inverse transpose, times the product
-                // of both halves.
+                // Each component is multiplied by the other component's half. That is the inverse
+                // transpose, times the product of both halves.
                 let (normal_x, normal_y) = (normal_x * high, normal_y * wide);
                 let lean = self.width_growth * x * normal_x + self.height_growth * y * normal_y;
                 let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y + lean * lean).sqrt();
@@ -130,12 +131,12 @@ impl Ring {
 /// The stance of a section on a [`Ring`], common to all its vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stance {
-    /// For a round yarn. Flattening does nothing, so the frame may turn with the section.
+    /// The stance in a round yarn. Its outline is a circle, so the frame may turn with the section.
     Round {
         /// The frame, turned by the roll.
         basis: Basis,
     },
-    /// For a flattened yarn: the section turns inside an outline that does not.
+    /// The stance in a flattened yarn, whose section turns inside an outline that does not turn.
     Flattened {
         /// The upright frame, turned by the lean.
         basis: Basis,
@@ -146,12 +147,13 @@ pub enum Stance {
     },
 }
 
-/// The centrelines of a fabric: rings of all yarns one after the other.
+/// The centrelines of a fabric: the rings of all yarns, one yarn after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// All rings, yarn after yarn.
     pub rings: Vec<Ring>,
-    /// The start of each yarn's rings, and their total last (the paper's Ωp): yarns + 1 values.
+    /// The start of each yarn's rings, and the number of all rings last (the paper's Ωp). There is
+    /// one value more than there are yarns.
     pub offsets: Vec<u64>,
 }
 

@@ -3,7 +3,8 @@
 use crate::definitions::{Sample, Segment, tangent_factor};
 use crate::{ArcLength, ControlPoint, Layout, PlanError};
 
-/// The tension of the spline and the points inserted between control points (the paper's u and K).
+/// The tension of the spline and the number of points inserted between control points (the paper's
+/// u and K).
 ///
 /// ```
 /// use texere_core::definitions::Sampling;
@@ -24,22 +25,22 @@ pub struct Sampling {
     step: f32,
 }
 
-/// The most points that may be inserted between two control points. A thousand already put the
-/// rings of a 0.1 mm yarn less than a micrometre apart.
+/// The most points that may be inserted between two control points. With a thousand, the rings of a
+/// 0.1 mm yarn are already less than a micrometre apart.
 pub(crate) const SUBDIVISIONS_MAX: u32 = 1023;
 
 impl Default for Sampling {
-    /// The paper's: Catmull-Rom (tension 0), one inserted point.
+    /// The sampling of the paper: Catmull-Rom (tension 0), one inserted point.
     fn default() -> Self {
         Self { tension: 0.0, subdivisions: 1, s: 0.5, step: 0.5 }
     }
 }
 
 impl Sampling {
-    /// A sampling of the yarns of `layout`, whose [tension](Layout::tension) is the u, with
-    /// `subdivisions` K from 0 to 1023.
+    /// The sampling of the yarns of `layout`, whose [tension](Layout::tension) is u. `subdivisions`
+    /// is K, from 0 to 1023.
     ///
-    /// **Errors**: [`PlanError::Subdivisions`] above that.
+    /// **Errors**: [`PlanError::Subdivisions`] for more than 1023.
     pub fn new(layout: &Layout, subdivisions: u32) -> Result<Self, PlanError> {
         let tension = layout.tension();
         if subdivisions > SUBDIVISIONS_MAX {
@@ -55,7 +56,7 @@ impl Sampling {
         self.tension
     }
 
-    /// The points K inserted between two control points.
+    /// The number K of points inserted between two control points.
     #[must_use]
     pub const fn subdivisions(&self) -> u32 {
         self.subdivisions
@@ -68,16 +69,16 @@ impl Sampling {
         self.s
     }
 
-    /// `1 / (K + 1)` as `f32`. Ring k of an interval lies at t = k times this, with one rounding on
-    /// every device.
+    /// `1 / (K + 1)` as `f32`. Ring k of an interval lies at t = k times this value, with one
+    /// rounding on every device.
     #[must_use]
     #[inline]
     pub const fn step(&self) -> f32 {
         self.step
     }
 
-    /// The rings of a yarn of `points` control points: `(points - 1)(K + 1) + 1` if open, `points
-    /// (K + 1) + 1` if closed.
+    /// The number of rings of a yarn of `points` control points: `(points - 1)(K + 1) + 1` if open,
+    /// `points (K + 1) + 1` if closed.
     #[must_use]
     pub const fn rings(&self, points: u64, closed: bool) -> u64 {
         let intervals = if closed { points } else { points - 1 };
@@ -115,7 +116,8 @@ impl Sampling {
         let per_interval = self.subdivisions + 1;
         let (interval, part) = ((ring / per_interval) as usize, ring % per_interval);
         let window = [padded[interval], padded[interval + 1], padded[interval + 2], padded[interval + 3]];
-        // Not a multiple of the step: its last multiple may differ from 1 in the last bit.
+        // The interval's end is 1 itself, because the last multiple of the step may differ from 1
+        // in the last bit.
         let end = if part + 1 == per_interval { 1.0 } else { (part + 1) as f32 * self.step };
         ArcLength::from_mm(Segment::new(&window, self.s).length(part as f32 * self.step, end))
     }
@@ -124,7 +126,7 @@ impl Sampling {
 /// The spline at a ring, with the data for the step to the next ring.
 #[derive(Debug, Clone, Copy)]
 pub struct RingSample {
-    /// The spline there.
+    /// The spline at the ring.
     pub sample: Sample,
     /// The interval's end relative to its start, mm.
     pub span: glam::Vec3,

@@ -1,4 +1,5 @@
-//! A session: one fabric on one device. It keeps the order of calls and the chunks in flight.
+//! A session: one fabric on one device. The session checks the order of calls and keeps two chunks
+//! in flight.
 
 mod error;
 
@@ -16,11 +17,11 @@ use crate::{Backend, BackendError, ControlPoint, Limits, Vertex};
 
 pub use self::error::SessionError;
 
-/// One fabric on one device: upload and scan, then the stages chunk by chunk.
+/// The work on one fabric on one device: upload and scan, then the stages chunk by chunk.
 ///
-/// Chunks come from [`Plan::chunks`] of the session's plan, cut to the device's limits or stricter
-/// ones. Two chunks may be in flight: a stage for a third may reuse the memory of the oldest.
-/// [`Pipeline`](crate::Pipeline) does all this. By hand it reads
+/// Chunks come from [`Plan::chunks`] of the session's plan, cut to the device's limits or to
+/// stricter ones. Two chunks may be in flight. A stage for a third chunk reuses the memory of the
+/// oldest. [`Pipeline`](crate::Pipeline) makes all these calls. Without a pipeline they are:
 ///
 /// ```
 /// use std::{ops::ControlFlow, sync::Arc};
@@ -49,7 +50,7 @@ pub use self::error::SessionError;
 #[derive(Debug)]
 pub struct Session<E: Engine + ?Sized = dyn Engine> {
     plan: Arc<Plan>,
-    /// The limits that a scan's chunks are cut to.
+    /// The limits that the chunks of a scan are cut to.
     limits: Limits,
     scanned: bool,
     measured: bool,
@@ -63,8 +64,8 @@ pub struct Session<E: Engine + ?Sized = dyn Engine> {
 /// The contents of a slot.
 #[derive(Debug, Default)]
 struct InFlight {
-    /// The tables in the slot. A chunk's index can't stand for them: chunks of different cuts share
-    /// indices.
+    /// The identity of the tables in the slot. A chunk's index does not identify them, because
+    /// chunks of different cuts have equal indices.
     tables: Option<TablesId>,
     has_rings: bool,
     has_mesh: bool,
@@ -89,8 +90,8 @@ impl Session {
 }
 
 impl<E: Engine + ?Sized> Session<E> {
-    /// Starts a session for `plan` with an engine that was opened for it, on a device of `limits`.
-    /// For backends whose engines can do more than the trait [`Engine`].
+    /// Starts a session for `plan` with an engine that was opened for `plan`, on a device with
+    /// `limits`. This is for backends whose engines can do more than the trait [`Engine`].
     #[must_use]
     pub fn with_engine(engine: Box<E>, limits: Limits, plan: Arc<Plan>) -> Self {
         Self {
@@ -105,8 +106,8 @@ impl<E: Engine + ?Sized> Session<E> {
         }
     }
 
-    /// Cuts a scan's chunks to `limits` where they are stricter than the device's own. With the
-    /// limits that the caller cuts chunks to, tables are sent once for scan and stages.
+    /// Cuts a scan's chunks to `limits` if they are stricter than the device's own. If the caller
+    /// cuts chunks to the same limits, tables are sent once for the scan and the stages.
     #[must_use]
     pub fn with_limits(mut self, limits: &Limits) -> Self {
         self.limits = self.limits.min(limits);
@@ -125,11 +126,11 @@ impl<E: Engine + ?Sized> Session<E> {
         &self.engine
     }
 
-    /// Takes control points, the first of which is number `first` of the fabric. Any range is
-    /// allowed: a generator can feed block by block, and an edit can send one yarn. Points that
-    /// never come are zeros. The session does not check positions and sizes: points of
-    /// [`Yarns`](crate::Yarns) are sound, and [`check_points`](crate::check_points) checks any
-    /// others.
+    /// Copies control points to the device. The first of `points` is number `first` of the fabric.
+    /// Any range is allowed: a generator can send block by block, and an edit can send one yarn.
+    /// Points that are never uploaded are zeros. The session does not check positions and sizes.
+    /// Points of [`Yarns`](crate::Yarns) are valid, and [`check_points`](crate::check_points)
+    /// checks any other points.
     ///
     /// **Errors**: [`SessionError::UploadRange`] past the last control point, and
     /// [`SessionError::Backend`].
@@ -143,9 +144,9 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Takes all control points from a settler. If it works on the same device, the points never
-    /// leave that device. The new points change neither which yarns are
-    /// [steep](crate::Layout::is_steep) nor how outlines [lean](crate::Layout::ups): both stay as
+    /// Copies all control points from a settler. If the settler works on the same device, the
+    /// points never leave that device. The new points change neither which yarns are
+    /// [steep](crate::Layout::is_steep) nor how outlines [lean](crate::Layout::ups). Both stay as
     /// planned.
     ///
     /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of
@@ -163,9 +164,9 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Works out the roll at each block's start, and the whole turn of each closed yarn: once after
-    /// uploads. Does nothing if [`Plan::needs_scan`] is false, or if nothing was uploaded since the
-    /// last scan.
+    /// Works out the roll at each block's start, and the total turn of each closed yarn. The call
+    /// is needed once after uploads. It does nothing if [`Plan::needs_scan`] is false, or if
+    /// nothing was uploaded since the last scan.
     ///
     /// **Errors**: [`SessionError::Plan`] if not even one block fits the device's limits, and
     /// [`SessionError::Backend`].
@@ -177,8 +178,9 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Works out the length of yarn before each block's start, which [`Session::attributes`] needs:
-    /// once after uploads. Does nothing if nothing was uploaded since the last call.
+    /// Works out the length of yarn before each block's start, which [`Session::attributes`] needs.
+    /// The call is needed once after uploads. It does nothing if nothing was uploaded since the
+    /// last call.
     ///
     /// **Errors**: [`BackendError::NoAttributes`], and the errors of [`Session::scan`].
     pub fn measure(&mut self) -> Result<(), SessionError> {
@@ -189,7 +191,7 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Calls `scan` with all chunks, each in a slot.
+    /// Calls `scan` with all chunks of the whole plan, each in a slot.
     fn go_through(
         &mut self,
         scan: impl FnOnce(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
@@ -198,7 +200,8 @@ impl<E: Engine + ?Sized> Session<E> {
         // whole plan.
         let whole = self.plan.whole();
         let chunks = whole.chunks(&self.limits)?;
-        // Put back only on success: after an error it is unknown which tables are loaded.
+        // The slots' contents are put back only on success. After an error it is unknown which
+        // tables are loaded.
         let mut in_flight = std::mem::take(&mut self.in_flight);
         let mut in_slots = chunks.map(|chunk| {
             let (slot, loaded) = claim(&mut in_flight, &mut self.next, &chunk);
@@ -210,7 +213,7 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Stage 1: makes rings from control points. May return before the work is done.
+    /// Stage 1: makes rings from control points. The call may return before the work is done.
     ///
     /// **Errors**: [`SessionError::OutOfOrder`] before a scan that is needed,
     /// [`SessionError::ForeignChunk`], and [`SessionError::Backend`].
@@ -219,8 +222,8 @@ impl<E: Engine + ?Sized> Session<E> {
         self.ensure_rings(slot, chunk)
     }
 
-    /// Stage 2: makes vertices and indices, after stage 1 if that has not run for this chunk. May
-    /// return before the work is done.
+    /// Stage 2: makes vertices and indices. If the engine reads rings and stage 1 has not run for
+    /// this chunk, stage 1 runs first. The call may return before the work is done.
     ///
     /// **Errors**: the errors of [`Session::trajectory`].
     pub fn mesh(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
@@ -271,7 +274,7 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 
     /// Makes the [attributes](crate::Attribute) of each vertex of `chunk`, for shaders and
-    /// textures, in memory of their own. May return before the work is done.
+    /// textures, in memory of their own. The call may return before the work is done.
     ///
     /// ```
     /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
@@ -320,10 +323,10 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Stage 2 with packed vertices, 12 bytes each, in memory of their own. It needs no mesh. They
-    /// have the order of the mesh's vertices and come without indices: [`Plan::shared_indices`] has
-    /// those of [`Topology::Shared`](crate::Topology::Shared), the topology for little memory. May
-    /// return before the work is done.
+    /// Stage 2 with packed vertices, 12 bytes each, in memory of their own. No mesh is needed.
+    /// Packed vertices are in the order of the mesh's vertices, and no indices are made.
+    /// [`Plan::shared_indices`] has the indices of [`Topology::Shared`](crate::Topology::Shared), a
+    /// topology that needs little memory. The call may return before the work is done.
     ///
     /// ```
     /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
@@ -341,7 +344,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// **Errors**: [`BackendError::NoPacking`], and the errors of [`Session::trajectory`].
     pub fn packed(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         let slot = self.start_mesh("packed", chunk)?;
-        // The results of an earlier call are lost even if this one fails.
+        // The results of an earlier call are lost even if this call fails.
         self.in_flight[slot.index()].has_packed = false;
         self.engine.packed(slot, chunk)?;
         self.in_flight[slot.index()].has_packed = true;
@@ -369,7 +372,7 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
-    /// Stage 2 with its results in the caller's slices, which must have exactly the planned
+    /// Stage 2 with the results in the caller's slices, which must have exactly the planned
     /// lengths. The mesh is not in flight afterwards.
     ///
     /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and the errors of
@@ -392,8 +395,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Sends the tables of `chunk` unless they are on the device, and starts no stage. For a
-    /// backend that lends them to its caller's kernels.
+    /// Sends the tables of `chunk` unless they are on the device, and returns their slot. No stage
+    /// starts. This is for a backend that lends the tables to its caller's kernels.
     ///
     /// **Errors**: the errors of [`Session::trajectory`].
     pub fn slot_of_tables(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
@@ -429,13 +432,13 @@ impl<E: Engine + ?Sized> Session<E> {
         self.engine.timings()
     }
 
-    /// The bytes moved so far.
+    /// The bytes moved between host and device so far.
     #[must_use]
     pub const fn traffic(&self) -> Traffic {
         self.traffic
     }
 
-    /// Forgets earlier results, which belong to the old points.
+    /// Forgets all earlier results, because they belong to the old points.
     fn forget_points(&mut self) {
         (self.scanned, self.measured) = (false, false);
         self.in_flight.iter_mut().for_each(InFlight::forget_results);
@@ -455,7 +458,7 @@ impl<E: Engine + ?Sized> Session<E> {
 
     /// The slot of `chunk` for a stage, with its tables loaded.
     fn start(&mut self, call: &'static str, chunk: &Chunk) -> Result<Slot, SessionError> {
-        // Checked first: a refused chunk takes no slot.
+        // This is checked first, so that a refused chunk gets no slot.
         self.check_own(chunk)?;
         if self.plan.needs_scan() && !self.scanned {
             return Err(SessionError::OutOfOrder { call, needed: "scan" });
@@ -499,19 +502,19 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 }
 
-/// The slot that has the tables of `chunk`.
+/// The slot that holds the tables of `chunk`, if there is one.
 fn slot_of(in_flight: &[InFlight; 2], chunk: &Chunk) -> Option<Slot> {
     let holds = |slot: &Slot| in_flight[slot.index()].tables.as_ref() == Some(chunk.tables());
     Slot::BOTH.into_iter().find(holds)
 }
 
-/// The slot that holds the tables of `chunk`, and `true`. If no slot does: the slot that was taken
-/// longest ago, emptied, and `false`.
+/// The slot that holds the tables of `chunk`, and `true`. If there is none, this empties the slot
+/// whose tables were loaded first, and returns that slot and `false`.
 fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot, bool) {
     if let Some(slot) = slot_of(in_flight, chunk) {
         return (slot, true);
     }
-    // An empty slot goes first: a chunk that could not be loaded leaves one.
+    // An empty slot is used first. A chunk that could not be loaded leaves its slot empty.
     let is_empty = |slot: Slot| in_flight[slot.index()].tables.is_none();
     let slot = if is_empty(other(*next)) && !is_empty(*next) { other(*next) } else { *next };
     *next = other(slot);

@@ -1,8 +1,8 @@
 //! The cubic cardinal spline through the control points (the paper's equations 1 to 4).
 //!
-//! Everything is evaluated on differences from the interval's first point, which is added last.
-//! From absolute coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3
-//! rad.
+//! Everything is evaluated on differences from the interval's first point, and that point is added
+//! last. With absolute coordinates, the tangent of a yarn ten metres from the origin would be off
+//! by 3e-3 rad.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -26,11 +26,12 @@ pub struct Segment {
     start: Vec3,
     /// `P[j+1] - P[j]`: the offset at t = 1, without rounding.
     span: Vec3,
-    /// Coefficients of t, t², t³.
+    /// Coefficients of t, t² and t³ in the offset.
     position: [Vec3; 3],
     half_width: Size,
     half_height: Size,
-    /// The largest difference between a control point and the start along any axis, mm.
+    /// The largest difference between any of the four control points and the start along an axis,
+    /// mm.
     largest: f32,
     /// The largest squared velocity that counts as zero.
     at_rest: f32,
@@ -39,28 +40,28 @@ pub struct Segment {
 /// Bounds of a stretch of a [`Segment`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hull {
-    /// The least of its centres, mm.
+    /// The least coordinates of the stretch's centreline, mm.
     pub(crate) low: Vec3,
-    /// The greatest of its centres, mm.
+    /// The greatest coordinates of the stretch's centreline, mm.
     pub(crate) high: Vec3,
-    /// The largest of its half widths, mm.
+    /// The largest half width in the stretch, mm.
     pub(crate) half_width: f32,
-    /// The largest of its half heights, mm.
+    /// The largest half height in the stretch, mm.
     pub(crate) half_height: f32,
 }
 
 /// The spline at one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Centre relative to the segment's first control point, mm.
+    /// The centre relative to `P[j]`, mm.
     pub offset: Vec3,
-    /// Centre, mm.
+    /// The centre, mm.
     pub centre: Vec3,
-    /// Half the width, mm; always positive.
+    /// Half the width, mm. It is always positive.
     pub half_width: f32,
-    /// Half the height, mm; always positive.
+    /// Half the height, mm. It is always positive.
     pub half_height: f32,
-    /// Unit tangent.
+    /// The unit tangent.
     pub tangent: Vec3,
     /// The growth of the half width along the yarn (mm per mm), within ±[`SLOPE_LIMIT`].
     pub width_growth: f32,
@@ -68,15 +69,15 @@ pub struct Sample {
     pub height_growth: f32,
 }
 
-/// The share of the segment's squared size below which a squared velocity counts as zero.
+/// The share of the segment's squared size up to which a squared velocity counts as zero.
 ///
-/// Repeated points and cusps give exact zeros. The share (a millionth of the size) also catches
-/// zeros that rounding moves a little, whose direction would be noise.
+/// Repeated points and cusps give exact zeros. With this share (a millionth of the size), zeros
+/// that rounding changes a little also count. The direction of such a velocity would be noise.
 pub const ZERO_VELOCITY: f32 = 1e-12;
 
-/// The squared length, mm², up to which a length counts as zero whatever the segment's size: 1e-15
-/// mm. The squares of much shorter lengths leave the normal range of `f32`, and some devices flush
-/// them to zero.
+/// The square, mm², of the length up to which a length counts as zero, whatever the segment's size.
+/// That length is 1e-15 mm. The squares of much shorter lengths leave the normal range of `f32`,
+/// and some devices round them to zero.
 pub const NO_LENGTH: f32 = 1e-30;
 
 /// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is
@@ -84,15 +85,15 @@ pub const NO_LENGTH: f32 = 1e-30;
 /// of `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
 
-/// The least half width and half height between two control points, as a share of the smaller one
-/// at the two.
+/// The least half width and half height between two control points, as a share of the smaller value
+/// at the two points.
 ///
-/// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no
+/// A spline overshoots. Between a slub and a thin place it can fall below zero, where there is no
 /// tube.
 pub const RADIUS_FLOOR: f32 = 0.5;
 
-/// The nodes of Gauss and Legendre's rule with eight points, for functions between -1 and 1: these
-/// four and their negatives.
+/// The four positive nodes of Gauss and Legendre's rule with eight points, for functions between -1
+/// and 1. The other four nodes are their negatives.
 ///
 /// **Source**: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, table 25.4.
 pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_289_84];
@@ -100,12 +101,12 @@ pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_2
 /// The weight of each node and of its negative.
 pub const ARC_WEIGHTS: [f32; 4] = [0.362_683_8, 0.313_706_64, 0.222_381_03, 0.101_228_54];
 
-/// The evenness that a single rule needs: the speed at its slowest node over that at its fastest.
-/// Below it the spline may almost stand still in between, and its speed has a kink there. Then each
-/// of [`ARC_PANELS`] parts has a rule of its own.
+/// The least evenness for a single rule. Evenness is the speed at the slowest node divided by that
+/// at the fastest. Below this value the spline's speed may almost reach zero between nodes and have
+/// a kink there. Then the length is divided into [`ARC_PANELS`] parts with a rule each.
 pub const ARC_EVEN: f32 = 0.5;
 
-/// The parts of a length where the spline's speed is uneven.
+/// Number of parts into which a length is divided if the spline's speed is uneven.
 pub const ARC_PANELS: u32 = 16;
 
 /// s = (1 - tension) / 2, the factor of the spline's tangents (the paper's equation 2), in the
@@ -153,9 +154,9 @@ impl Segment {
 
     /// The spline at `t` in \[0, 1\].
     ///
-    /// At a point without velocity the tangent is the direction that the yarn takes right after
-    /// (right before, at t = 1, a yarn's end): the first derivative that does not vanish, or +x if
-    /// all do.
+    /// If the velocity at `t` is zero, the tangent is the direction of the yarn just after that
+    /// place (just before it at t = 1, a yarn's end). It follows from the first derivative that is
+    /// not zero. If all are zero, the tangent is +x.
     #[must_use]
     #[inline]
     pub fn sample(&self, t: f32) -> Sample {
@@ -167,7 +168,7 @@ impl Segment {
             let inverse = 1.0 / speed_squared.sqrt();
             (velocity * inverse, inverse)
         } else {
-            // Nothing grows along a yarn that stands still.
+            // If the velocity is zero, growth along the yarn counts as zero.
             (self.direction_at_rest(t), 0.0)
         };
         let (half_width, width_growth) = self.half_width.sample(t, inverse);
@@ -214,7 +215,7 @@ impl Segment {
         })
     }
 
-    /// The length by a single rule, and whether the speed is even.
+    /// The length by a single rule, and whether the speed is [even](ARC_EVEN).
     #[inline]
     fn length_by_rule(&self, from: f32, to: f32) -> (f32, bool) {
         let (middle, half) = ((from + to) * 0.5, (to - from) * 0.5);
@@ -231,12 +232,12 @@ impl Segment {
     }
 
     /// A box that holds the spline's samples between `from` and `to`, and upper bounds of its
-    /// sizes: those of the stretch's control points as a Bézier curve, enlarged by the rounding
-    /// that samples may have.
+    /// sizes. Both come from the Bézier control points of that stretch, and are enlarged by the
+    /// rounding that samples may have.
     pub(crate) fn hull(&self, from: f32, to: f32) -> Hull {
         let [low, high] = extremes(self.position, Vec3::ZERO, from, to, [Vec3::min, Vec3::max]);
         // Coefficients are up to 3.5 times the largest difference, and each is rounded some ten
-        // times here and in `sample`. Together that is less than 50 units in the last place of the
+        // times here and in `sample`. Together that is less than 50 units in the last place of that
         // difference.
         let slack = Vec3::splat(64.0 * f32::EPSILON * self.largest);
         let size = |size: &Size| {
@@ -252,7 +253,7 @@ impl Segment {
         }
     }
 
-    /// The tangent where the velocity vanishes: the limit from the right, or from the left at t =
+    /// The tangent at a `t` with zero velocity: the limit from the right, or from the left at t =
     /// 1.
     fn direction_at_rest(&self, t: f32) -> Vec3 {
         let [_, c2, c3] = self.position;
@@ -269,8 +270,8 @@ impl Segment {
     }
 }
 
-/// The coefficients of t, t² and t³ between a point and the next. Relative to the point, the next
-/// lies at `b`, the one before at `a`, and the one after next at `c`.
+/// The coefficients of t, t² and t³ of the spline from a control point to the next. Relative to
+/// this point, the point before it lies at `a`, the next at `b`, and the one after the next at `c`.
 #[inline]
 pub(crate) fn coefficients<T>(a: T, b: T, c: T, s: f32) -> [T; 3]
 where
@@ -279,9 +280,8 @@ where
     [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)]
 }
 
-/// The least and the greatest control point, by the two functions, of `start + (terms[0] +
-/// (terms[1] + terms[2] t) t) t` as a Bézier curve between `from` and `to`. The curve stays within
-/// them.
+/// The least and the greatest Bézier control point, by the functions `least` and `most`, of the
+/// curve `start + (c1 + (c2 + c3 t) t) t` between `from` and `to`. The curve stays between them.
 fn extremes<T>(
     [c1, c2, c3]: [T; 3],
     start: T,
@@ -292,7 +292,7 @@ fn extremes<T>(
 where
     T: Copy + Add<Output = T> + Mul<f32, Output = T>,
 {
-    // The polynomial as a function of the share of the stretch, from 0 to 1.
+    // The polynomial is rewritten as a function of the share of the stretch, from 0 to 1.
     let along = to - from;
     let first = start + (c1 + (c2 + c3 * from) * from) * from;
     let (c1, c2, c3) = (
@@ -310,7 +310,7 @@ const THIRD: f32 = 1.0 / 3.0;
 #[derive(Debug, Clone, Copy)]
 struct Size {
     start: f32,
-    /// Coefficients of t, t², t³.
+    /// Coefficients of t, t² and t³.
     terms: [f32; 3],
     floor: f32,
 }

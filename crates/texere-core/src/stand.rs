@@ -11,23 +11,23 @@ use crate::lean::Leaning;
 use crate::steep::{UPRIGHT_TURN, carried_steps, is_flat, runs_straight, upright_turns_beyond, wrings};
 
 /// The largest turn of the upright frame of a flattened yarn within a control interval, turns: 15
-/// degrees. It is also the largest turn of its ups from control point to control point where they
-/// return to the upright frame.
+/// degrees. It is also the largest turn of the yarn's ups from control point to control point while
+/// they return to the upright frame.
 ///
-/// With 20 degrees, rings of a flat jersey turn by up to 34, since its tangents bend between two
-/// points (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With less, a quarter
-/// of a turn takes longer, and the sections of a flat yarn stand off the plane of their cloth for
-/// longer.
+/// With 20 degrees, rings of a flat jersey turn by up to 34, because its tangents bend between two
+/// points (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With a smaller angle,
+/// a quarter of a turn needs more points, and the sections of a flat yarn are out of the plane of
+/// their cloth for longer.
 const HANDED_OVER: f32 = 15.0 / 360.0;
 
 /// The squared sine of the angle to z, 15 degrees, within which the upright frame of a flattened
-/// yarn does not count. A binder that goes straight down through the cloth has a side whose
-/// direction is a matter of small tremors. Without this limit a binder is turned on its way down,
+/// yarn does not count. In a binder that goes straight down through the cloth, tiny sideways moves
+/// decide the direction of that frame's side. Without this limit a binder turns on its way down,
 /// and is still turned where it lies level again (`a_flat_yarn_stands_upright_where_it_lies_flat`).
 const NEAR_POLE: f32 = 0.067;
 
-/// The points on either side of the lap of a closed yarn that its ups depend on. In this many steps
-/// of [`HANDED_OVER`] a frame makes a whole turn.
+/// The number of points before and after one lap of a closed yarn that the lap's ups depend on. In
+/// this many steps of [`HANDED_OVER`] a frame makes a full turn.
 const LAP_POINTS: usize = 24;
 
 /// Whether a yarn is steep, and the up directions of its outline if it leans.
@@ -38,9 +38,9 @@ pub(crate) struct Stand {
 }
 
 impl Stand {
-    /// The stand of the yarn through `points` with the given up directions, or without any.
+    /// The stand of the yarn through `points`, with given up directions or without.
     ///
-    /// A flattened yarn without ups gets some if its upright frame turns too fast.
+    /// A flattened yarn without given ups gets ups if its upright frame turns too fast.
     pub(crate) fn of(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3]>) -> Self {
         let given = ups.is_some();
         let upright = Self { steep: false, leaning: None };
@@ -53,8 +53,8 @@ impl Stand {
             None => {
                 let tangents: Vec<_> =
                     (0..points.len()).map(|point| tangent(points, closed, point)).collect();
-                // On a vertical yarn the upright frame has no direction but a convention that does
-                // not turn with the cloth.
+                // On a vertical yarn the upright frame's side is +y by convention, and does not
+                // turn with the cloth.
                 let stands_on_end = tangents.iter().any(|tangent| level(tangent) < VERTICAL);
                 if !stands_on_end && !upright_turns_beyond(points, closed, HANDED_OVER) {
                     return upright;
@@ -67,9 +67,9 @@ impl Stand {
     }
 }
 
-/// The ups of a flattened yarn. They are those of the upright frame where it turns slowly.
-/// Elsewhere, and near the vertical, they are carried along, and turned by at most [`HANDED_OVER`]
-/// from point to point towards the upright frame further on.
+/// The ups of a flattened yarn. They are those of the upright frame where that frame turns slowly.
+/// Elsewhere, and near the vertical, they are carried along the yarn, and turned by at most
+/// [`HANDED_OVER`] from point to point towards the upright frame further on.
 fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<Vec3> {
     let count = points.len();
     // The turn of a carried frame against the upright one at each point.
@@ -78,8 +78,8 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
         let window = neighbours(points, closed, interval);
         rolls.push(rolls[interval] + carried_steps(&window).map(|step| f64::from(step.turns())).sum::<f64>());
     }
-    // A closed yarn is laid out in several laps, so that its middle lap has enough neighbours on
-    // either side for a frame to return by half a turn.
+    // For a closed yarn, several laps are computed, so that the middle lap has enough points before
+    // and after it for a frame to return by half a turn.
     let laps = if closed { 2 * LAP_POINTS.div_ceil(count) + 1 } else { 1 };
     let whole = rolls[rolls.len() - 1];
     let mut before: Option<f64> = None;
@@ -88,15 +88,15 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
             let (lap, point) = (place / count, place % count);
             let counts = level(&tangents[point]) > NEAR_POLE;
             let upright = counts.then(|| -rolls[point] - lap as f64 * whole)?;
-            // An outline turned by half a turn is the same outline.
+            // An outline that is turned by half a turn is the same outline.
             let near = before.map_or(upright, |before| upright - ((upright - before) * 2.0).round() / 2.0);
             before = Some(near);
             before
         })
         .collect();
     let turns = if closed && asked.iter().all(Option::is_none) {
-        // No point asks for a direction: the turn of a lap is spread over its points, up to half
-        // turns, which leave an outline the same.
+        // No point asks for a direction. The turn of a lap, less half turns, which leave an outline
+        // the same, is spread over the lap's points.
         let left = whole - (whole * 2.0).round() / 2.0;
         (0..laps * count)
             .map(|place| -whole * (place / count) as f64 - left * (place % count) as f64 / count as f64)
@@ -119,8 +119,8 @@ fn level(tangent: &Vec3) -> f32 {
 }
 
 /// The turns nearest to those asked for, one per place, whose steps are at most [`HANDED_OVER`].
-/// They lie half way between two bounds: the highest turns that exceed nothing asked for, and the
-/// lowest that fall below nothing asked for.
+/// They lie half way between two bounds: the highest turns that nowhere exceed those asked for, and
+/// the lowest turns that nowhere fall below them.
 fn followed(asked: &[Option<f64>]) -> Vec<f64> {
     let step = f64::from(HANDED_OVER);
     let bound = |sign: f64| {

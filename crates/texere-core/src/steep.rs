@@ -1,4 +1,4 @@
-//! Steep yarns: those that upright frames would wring.
+//! Steep yarns: yarns whose tubes would be wrung in upright frames.
 
 use std::f32::consts::TAU;
 use std::iter::once;
@@ -11,23 +11,24 @@ use crate::lean::IntervalLean;
 use crate::{ControlPoint, Frame};
 
 /// The largest turn of an upright frame about a yarn within one control interval, turns: 4 degrees.
-/// Yarns above it are steep.
+/// Yarns whose frame turns by more are steep.
 ///
-/// Woven threads that keep to their planes turn by nothing, and those that a settled cloth pushes
-/// aside by up to a degree. The loops of knits turn by 10 degrees and more. Two rings are at most
-/// an interval apart, so the tube between them is never narrower than cos 2° of its radius.
+/// The frames of woven threads that keep to their planes do not turn, and those of threads that are
+/// pushed aside in a settled cloth turn by up to a degree. The frames of the loops of knits turn by
+/// 10 degrees and more. Two rings are at most an interval apart, so the tube between them is never
+/// narrower than cos 2° of its radius.
 pub(crate) const UPRIGHT_TURN: f32 = 4.0 / 360.0;
 
-/// The places within an interval between which the turn is added up. With 4 places a hairpin
-/// through the vertical counted for half its turn.
+/// Number of steps within an interval whose turns are added up. With 4 steps a hairpin through the
+/// vertical counted for half its turn.
 const PLACES: u32 = 16;
 
-/// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly changes
-/// the turn over the whole of it.
+/// The spline's `s` at tension 0. Tension changes the tangents within an interval, but hardly the
+/// turn over the whole interval.
 const S: f32 = 0.5;
 
-/// Whether the upright frame of a yarn turns about it by more than `most` turns within an interval,
-/// against a frame that is carried along.
+/// Whether, within any interval, the upright frame of a yarn turns about the yarn by more than
+/// `most` turns against a rotation minimising frame.
 pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: f32) -> bool {
     intervals(points, closed).any(|interval| {
         let window = neighbours(points, closed, interval);
@@ -35,10 +36,11 @@ pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: 
     })
 }
 
-/// Whether frames along the up directions `ups` of a yarn's points would wring it.
+/// Whether a yarn's tube would be wrung in frames along the up directions `ups` of the yarn's
+/// points.
 ///
 /// The frame of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a
-/// flattened yarn turns with its ups in any case, and its section goes along, so its shape stays,
+/// flattened yarn turns with its ups in any case, and so does the section, so that the shape stays
 /// unless the ups turn over.
 pub(crate) fn wrings(points: &[ControlPoint], closed: bool, ups: &[Vec3]) -> bool {
     let flat = is_flat(points);
@@ -55,15 +57,15 @@ pub(crate) fn is_flat(points: &[ControlPoint]) -> bool {
     points.iter().any(|point| !point.is_round())
 }
 
-/// Whether the yarn's direction in plan swings so little that no interval can turn by more than
-/// [`UPRIGHT_TURN`], however steep it is. This test alone settles woven threads, in some thirty
-/// instructions per control point instead of 450.
+/// Whether the yarn's direction in plan changes so little that no interval can turn by more than
+/// [`UPRIGHT_TURN`], however steep the interval is. For woven threads no other test is needed. This
+/// one takes some thirty instructions per control point instead of 450.
 ///
-/// The bound is that of [`turn_at_most`], with the tangent of the swing for its angle and 1 for the
-/// sine of the slope. In plan, the middle one of an interval's three Bézier velocities is three
-/// times the chord less the two at the ends. In a yarn that keeps to a plane the middle velocity
-/// may point backwards, as it does beside a chord that is much longer, provided the velocity itself
-/// never does.
+/// The bound is that of [`turn_at_most`], with the tangent of the swing instead of its angle, and 1
+/// instead of the sine of the slope. In plan, the middle one of an interval's three Bézier
+/// velocities is three times the chord, less the two velocities at the ends. In a yarn that keeps
+/// to a plane, the middle velocity may point backwards, beside a much longer chord for example, if
+/// the velocity itself never does.
 pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
     let (first, last) = (&points[0], &points[points.len() - 1]);
@@ -85,10 +87,11 @@ pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     })
 }
 
-/// An upper bound on the interval's turn, from the three Bézier points of its velocity. Infinite if
-/// they give no bound.
+/// An upper bound on the turn of an interval's upright frame, from the three Bézier points of the
+/// velocity. It is infinite if they give no bound.
 ///
-/// An upright frame turns by the sine of the yarn's slope times the turn of its direction in plan.
+/// An upright frame turns by the sine of the yarn's slope times the turn of the yarn's direction in
+/// plan.
 fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     let [before, start, end, after] = window.map(|point| point.position());
     let (span, first, last) = (end - start, (end - before) * S, (after - start) * S);
@@ -102,12 +105,12 @@ fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     let highest = velocities.iter().map(|velocity| velocity.z.abs()).fold(0.0, f32::max);
     let swing = plan.map(|velocity| along.perp_dot(velocity).atan2(along.dot(velocity)));
     let swing = swing.iter().fold(0.0, |swing, angle| angle.abs().max(swing));
-    // The factor 4: a cubic's direction may swing out and back, on both sides.
+    // The factor is 4 because a cubic's direction may swing out and back, to both sides.
     4.0 * swing / TAU * highest / (highest * highest + least * least).sqrt()
 }
 
-/// The sum of the absolute turns, from place to place along the interval, of a frame that stands
-/// `lean` turns off the upright one.
+/// The sum of the absolute turns, from place to place along the interval, of a frame that is turned
+/// by `lean` from the upright one.
 fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     let mut here = lean(0.0);
     let steps = carried_steps(window).enumerate().map(|(place, step)| {
@@ -119,7 +122,8 @@ fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     steps.sum()
 }
 
-/// The turns of a carried frame against the upright one, from place to place along the interval.
+/// The turns of a rotation minimising frame against the upright one, from place to place along the
+/// interval.
 pub(crate) fn carried_steps(window: &[ControlPoint; 4]) -> impl Iterator<Item = Turn> {
     let segment = Segment::new(window, S);
     let mut here = segment.sample(0.0);

@@ -1,10 +1,10 @@
-//! Subjects of errors: the property of a cloth that an error is about, so that readers can name the
-//! line of a design that sets it.
+//! Subjects of errors: the property of a cloth that an error is about. With the subject, readers of
+//! designs can name the line that sets the property.
 
 use crate::{BackendError, BoundaryError, CrossingsError, Origin, SettlingError, YarnError};
 
-/// The property of a cloth that an error is about, in the words of its designer. Numbers are
-/// counted from 1.
+/// The property of a cloth that an error is about, in a designer's words. Numbers are counted from
+/// 1.
 ///
 /// ```
 /// use texere_core::SettlingError;
@@ -80,7 +80,7 @@ pub enum Subject {
     Calender,
 }
 
-// The methods below match every variant by name, so that a new error needs a decision.
+// The methods below match every variant by name, so that each new error must be given a subject.
 
 impl SettlingError {
     /// The property of the cloth that the error is about. `None` for memory, settings that no

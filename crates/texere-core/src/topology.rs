@@ -15,14 +15,14 @@ pub enum Topology {
     /// Three `u32` indices per triangle, counted from the chunk's first vertex.
     #[default]
     Indexed,
-    /// One index pattern for all parts, drawn with a base vertex. It halves the bytes to be
-    /// written.
+    /// One index pattern for all parts, drawn with a base vertex. Half as many bytes have to be
+    /// written as with [`Topology::Indexed`].
     Shared,
-    /// No indices: for a caller who knows the pattern.
+    /// No indices. This is for a caller who has the pattern.
     None,
 }
 
-/// The most gaps between rings that the shared pattern covers. Longer parts take several draws.
+/// The most gaps between rings that the shared pattern covers. Longer parts need several draws.
 /// With up to seven sides every index fits 16 bits.
 pub(crate) const SHARED_GAPS: u64 = 8192;
 

@@ -1,15 +1,15 @@
-//! Bytes moved between host and device.
+//! The bytes moved between host and device.
 
-/// The bytes that a session has moved between host and device so far. A backend that works in the
-/// host's own memory lends its results there, so nothing counts as read.
+/// The bytes that a session has moved between host and device so far. If a backend works in the
+/// host's own memory, its results are lent there, and nothing counts as read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Traffic {
-    /// Control points with their virtual ends, sent by
+    /// Bytes of control points with their virtual ends, sent by
     /// [`Session::upload`](crate::backend::Session::upload) or
-    /// [`Session::take_settled`](crate::backend::Session::take_settled). Tables do not count: they
-    /// are sent once.
+    /// [`Session::take_settled`](crate::backend::Session::take_settled). Tables do not count,
+    /// because they are sent once.
     pub uploaded: u64,
-    /// Rings, vertices (packed or not) and indices that were read, and control points read from a
-    /// settler on another device.
+    /// Bytes of rings, vertices (packed or not), attributes and indices that were read, and of
+    /// control points that were read from a settler on another device.
     pub read: u64,
 }

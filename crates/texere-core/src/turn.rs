@@ -1,5 +1,5 @@
-//! Angles as fractions of a full turn, and the one sine, cosine and arctangent that every path
-//! uses.
+//! Angles as fractions of a full turn, and the sine, cosine and arctangent that all CPU backends
+//! share.
 //!
 //! A roll adds up over millions of rings. In `f32` radians it would lose digits as it grows, and a
 //! sum would depend on its order. Addition of `u32` fractions of a turn wraps and is associative to
@@ -7,8 +7,8 @@
 //!
 //! The polynomials are those of Moshier's Cephes library (`sinf`, `cosf`, `atanf`, single
 //! precision, 1992). The arctangent's coefficients are divided by 2π so that the result is in
-//! turns. The polynomials are written out here because `sin` differs from platform to platform in
-//! the last bit.
+//! turns. They are written out here because the last bit of the standard library's `sin` differs
+//! from platform to platform.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -39,20 +39,21 @@ pub const ARCTANGENT: [f32; 5] =
 pub const TAN_EIGHTH: f32 = 0.414_213_57;
 
 impl Turn {
-    /// Steps in a full turn.
+    /// Number of steps in a full turn.
     pub const STEPS: f32 = 4_294_967_296.0;
 
     /// Radians in one step.
     pub const RADIANS_PER_STEP: f32 = (std::f64::consts::TAU / 4_294_967_296.0) as f32;
 
-    /// No turn at all.
+    /// The turn 0.
     pub const ZERO: Self = Self(0);
 
-    /// `turns` full turns, reduced to one and rounded to the nearest step.
+    /// `turns` full turns, reduced to within one turn and rounded to the nearest step.
     #[must_use]
     #[inline]
     pub fn from_turns(turns: f32) -> Self {
-        // In [-1/2, 1/2]. The subtraction may round a hair below -1/2, which `max` corrects.
+        // The value lies in [-1/2, 1/2]. The subtraction may round it to slightly below -1/2, which
+        // `max` corrects.
         let wrapped = (turns - (turns + 0.5).floor()).max(-0.5);
         Self(((wrapped * Self::STEPS + 0.5).floor() as i32).cast_unsigned())
     }
@@ -74,8 +75,8 @@ impl Turn {
     #[must_use]
     #[inline]
     pub fn sin_cos(self) -> (f32, f32) {
-        // The nearest quarter turn, and what is left of it, at most an eighth either way: exact in
-        // integers.
+        // The nearest quarter turn, and the rest, at most an eighth of a turn either way. Both are
+        // exact in integers.
         let quarter = self.0.wrapping_add(1 << 29) >> 30;
         let rest = self.0.wrapping_sub(quarter << 30).cast_signed();
         let x = rest as f32 * Self::RADIANS_PER_STEP;
@@ -88,8 +89,8 @@ impl Turn {
         (if quarter & 2 == 0 { sin } else { -sin }, if (quarter + 1) & 2 == 0 { cos } else { -cos })
     }
 
-    /// The turn scaled by `part / whole`, rounded to the nearest step. A closed yarn spreads its
-    /// whole turn like this.
+    /// The turn scaled by `part / whole`, rounded to the nearest step. In this way the total turn
+    /// of a closed yarn is spread over its rings.
     #[must_use]
     #[inline]
     pub fn share(self, part: u32, whole: u32) -> Self {
@@ -118,8 +119,8 @@ impl std::iter::Sum for Turn {
     }
 }
 
-/// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], within 3e-8
-/// turns; 0 for (0, 0).
+/// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], exact to 3e-8
+/// turns. It is 0 for (0, 0).
 #[must_use]
 #[inline]
 pub(crate) fn atan2_turns(y: f32, x: f32) -> f32 {

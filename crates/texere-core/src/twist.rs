@@ -1,5 +1,5 @@
-//! The number of rings that twist needs, worked out from the twist of yarns and the distances of
-//! their control points before anything is made.
+//! The number of rings that twist needs. It is worked out from the twist of yarns and the distances
+//! of their control points, before anything is made.
 
 use std::fmt;
 
@@ -11,26 +11,27 @@ use crate::definitions::tangent_factor;
 use crate::sampling::SUBDIVISIONS_MAX;
 use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 
-/// The largest turn of a section by twist from one ring to the next, where it shows, radians: 30
-/// degrees.
+/// The largest turn, by twist, of a section that shows its turn from one ring to the next, radians:
+/// 30 degrees.
 ///
-/// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of its width on them. At
-/// half a lobe's turn, 90 degrees of two plies, the direction in which plies lean is lost; beyond
-/// that they appear to lean the other way.
+/// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of its width on them. If
+/// rings turn by half the angle from ply to ply (90 degrees with two plies), the direction in which
+/// plies lean is lost. If they turn by more, plies appear to lean the other way.
 pub const TWIST_STEP: f64 = std::f64::consts::FRAC_PI_6;
 
 /// The largest turn of a round yarn in a mesh, radians: 90 degrees. A circle looks the same however
-/// it is turned, so the only visible effect is that the tube gets narrower between rings, here to
-/// cos 45°, 0.71. The command `check` counts it as wrung from 120 degrees on.
+/// it is turned. The only visible effect is that the tube gets narrower between rings, at 90
+/// degrees to cos 45°, 0.71. The command `check` counts a tube as wrung from 120 degrees on.
 const ROUND_STEP: f64 = std::f64::consts::FRAC_PI_2;
 
-/// The most subdivisions that twist alone leads to: 5.3 turns between two control points. A
-/// three-ply sewing thread with 1,200 turns a metre needs them where control points lie 4.4 mm
-/// apart, a woollen yarn of 300 turns a metre at 18 mm.
+/// The most subdivisions that are chosen for twist alone. They are enough for 5.3 turns between two
+/// control points. A three-ply sewing thread with 1,200 turns a metre needs as many if control
+/// points lie 4.4 mm apart, and a woollen yarn of 300 turns a metre if they lie 18 mm apart.
 pub const TWIST_SUBDIVISIONS_MAX: u32 = 63;
 
-/// The most rings that twist alone leads to in a whole fabric: 600 MB of mesh with six sides.
-/// Without this limit a hostile twist would make gigabytes of any cloth of a few hundred threads.
+/// The most rings of a whole fabric that are chosen for twist alone. With six sides they are 600 MB
+/// of mesh. Without this limit, a hostile twist would make a mesh of gigabytes from any cloth of a
+/// few hundred threads.
 const TWIST_RINGS_MAX: u64 = 1 << 21;
 
 /// A warning: the rings of a mesh are too far apart for the twist of a yarn, so that its plies lean
@@ -63,7 +64,7 @@ pub struct Undersampled {
     /// The largest turn that shows correctly, radians: [`TWIST_STEP`], and three times that for
     /// round yarns.
     pub step_max: f64,
-    /// The fewest subdivisions that are enough. A mesh may not allow that many.
+    /// The fewest subdivisions that are enough. They may be more than a mesh can have.
     pub needed: u64,
 }
 
@@ -114,19 +115,20 @@ impl Settings {
         Self { sides: yarns.layout().corners().unwrap_or(usual.sides), ..usual }
     }
 
-    /// These settings with enough subdivisions for the twist of all `yarns`: it turns no yarn by
-    /// more than [`TWIST_STEP`] from one ring to the next. A round yarn, whose twist hardly shows,
-    /// may turn by 90 degrees.
+    /// These settings with enough subdivisions for the twist of all `yarns`. No yarn then turns by
+    /// more than [`TWIST_STEP`] from one ring to the next, or by more than 90 degrees if it is
+    /// round, because its twist hardly shows.
     ///
-    /// The number never falls. It never grows above [`TWIST_SUBDIVISIONS_MAX`], or beyond two
-    /// million rings in all. [`Undersampled::of`] reports the twist that is still undersampled.
+    /// The number of subdivisions never falls. It is not raised above [`TWIST_SUBDIVISIONS_MAX`],
+    /// or to more than two million rings in all. [`Undersampled::of`] reports the twist that is
+    /// still undersampled.
     #[must_use]
     pub fn following(self, yarns: &Yarns) -> Self {
         self.with_steps(yarns, Turning::most(yarns, step_of_outline))
     }
 
-    /// These settings with enough subdivisions for pictures, which show fibres and so the twist of
-    /// round yarns: no yarn turns by more than [`TWIST_STEP`], within the bounds of
+    /// These settings with enough subdivisions for pictures. Pictures show fibres and therefore the
+    /// twist of round yarns, so no yarn turns by more than [`TWIST_STEP`]. The bounds are those of
     /// [`Settings::following`].
     #[must_use]
     pub fn following_fibres(self, yarns: &Yarns) -> Self {
@@ -152,15 +154,16 @@ fn step_of_outline(section: &Section) -> f64 {
 #[derive(Debug, Clone, Copy)]
 struct Turning {
     yarn: usize,
-    /// The turn in radians in the interval with most turn, if all its rings lay as densely as where
-    /// they lie furthest apart.
+    /// The turn, radians, in the interval with most turn. All its rings count as if they were as
+    /// far apart as those furthest apart.
     interval: f64,
     /// The largest allowed turn from ring to ring, radians.
     step_max: f64,
 }
 
 impl Turning {
-    /// The twisted yarn that needs most rings; the first of equal ones.
+    /// The twisted yarn that needs most rings per interval. If several need as many, it is the
+    /// first.
     fn most(yarns: &Yarns, step_max: impl Fn(&Section) -> f64 + Sync) -> Option<Self> {
         let layout = yarns.layout();
         let turning = |(number, yarn): (usize, &Yarn)| {
@@ -178,7 +181,7 @@ impl Turning {
 
     /// The fewest steps between two control points.
     fn steps(&self) -> u64 {
-        // Rounding may add a little to a whole share. That is no step.
+        // Rounding may add a little to a whole number, which must not count as another step.
         ((self.share() - 1e-6).ceil() as u64).max(1)
     }
 }
@@ -192,14 +195,15 @@ fn turn_of_interval(yarn: &Yarn, points: &[ControlPoint], tension: f32) -> f64 {
     renew_virtual_ends(&mut padded, yarn.closed);
     let s = f64::from(tangent_factor::<f32>(tension));
     let fastest = padded.windows(4).map(|window| fastest(window, s)).fold(0.0, f64::max);
-    // A closed yarn takes back up to half a turn along its way, so that its ends meet.
+    // In a closed yarn, up to half a turn is taken back along the whole yarn, so that its ends
+    // meet.
     let closing = if yarn.closed { std::f64::consts::PI / points.len() as f64 } else { 0.0 };
     f64::from(yarn.twist.abs()) * fastest + closing
 }
 
-/// An upper bound on the spline's speed between the middle two of four points, mm per interval. It
-/// exceeds the need of evenly spaced rings by little: a cubic's velocity lies in the hull of its
-/// three Bézier points, here of those of either half.
+/// An upper bound on the spline's speed between the middle two of four points, mm per interval. The
+/// bound is only a little too large. The velocity lies in the hull of its three Bézier points, and
+/// each half of the interval is bounded by its own three points.
 fn fastest(window: &[ControlPoint], s: f64) -> f64 {
     let at = |point: usize| window[point].position().as_dvec3();
     let (span, first, last) = (at(2) - at(1), (at(2) - at(0)) * s, (at(3) - at(1)) * s);

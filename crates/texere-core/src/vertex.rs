@@ -4,14 +4,14 @@ use bytemuck::{Pod, Zeroable};
 
 /// A vertex of a tube.
 ///
-/// **Shape**: six `f32`, 24 bytes. **Units**: mm; the normal is a unit vector that points out of
+/// **Shape**: six `f32`, 24 bytes. **Units**: mm. The normal is a unit vector that points out of
 /// the yarn.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Vertex {
-    /// Position, mm.
+    /// The position, mm.
     pub position: [f32; 3],
-    /// Outward unit normal.
+    /// The outward unit normal.
     pub normal: [f32; 3],
 }
 

@@ -15,7 +15,7 @@ use crate::{
 
 pub use self::error::YarnError;
 
-/// The yarns of a fabric, checked. They are the input of every pipeline.
+/// The yarns of a fabric, after all checks. They are the input of every pipeline.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Material, Origin, Section, Yarn, Yarns};
@@ -73,11 +73,11 @@ impl Yarns {
         Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, ups: None, sources: None })
     }
 
-    /// Adds the source of each control point (a crossing, a stitch, a line of a file): one `u32`
-    /// per control point.
+    /// Adds the source of each control point: one `u32` per control point, which stands for a
+    /// crossing, a stitch or a line of a file.
     ///
-    /// **Errors**: [`YarnError::SourceCount`] if their number differs from that of the control
-    /// points.
+    /// **Errors**: [`YarnError::SourceCount`] if the number of sources differs from that of the
+    /// control points.
     pub fn with_sources(mut self, sources: Vec<u32>) -> Result<Self, YarnError> {
         if sources.len() != self.points.len() {
             return Err(YarnError::SourceCount { sources: sources.len(), points: self.points.len() });
@@ -110,10 +110,11 @@ impl Yarns {
         Ok(self)
     }
 
-    /// Gives each control point an up direction: the direction of the yarn's height there, instead
-    /// of z. A cloth bent out of its plane has ups along its surface's normals, as
-    /// [`Yarns::mapped`] makes them. Only the part at right angles to the yarn counts. Between two
-    /// points the ups are blended ([`up_between`](crate::definitions::up_between)).
+    /// Gives each control point an up direction, which is the direction of the yarn's height at
+    /// that point, instead of z. In a cloth that is bent out of its plane, ups point along the
+    /// normals of its surface. [`Yarns::mapped`] makes such ups. Only the part at right angles to
+    /// the yarn counts. Between two points the ups are blended
+    /// ([`up_between`](crate::definitions::up_between)).
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -126,8 +127,8 @@ impl Yarns {
     /// # Ok::<(), texere_core::YarnError>(())
     /// ```
     ///
-    /// **Errors**: [`YarnError::UpCount`] if their number differs from that of the control points,
-    /// [`YarnError::Up`] for a vector without a direction.
+    /// **Errors**: [`YarnError::UpCount`] if the number of ups differs from that of the control
+    /// points, and [`YarnError::Up`] for a vector without a direction.
     pub fn with_ups(mut self, ups: Vec<[f32; 3]>) -> Result<Self, YarnError> {
         if ups.len() != self.points.len() {
             return Err(YarnError::UpCount { ups: ups.len(), points: self.points.len() });
@@ -135,13 +136,13 @@ impl Yarns {
         let unit = |(point, up): (usize, &[f32; 3])| {
             let up = Vec3::from_array(*up);
             // A vector of length 1, up to rounding, stays as it is. Ups that were read from yarns
-            // are therefore the same to the bit when they are given again.
+            // therefore keep their bits when they are given again.
             let unit = |up: Vec3| {
                 let is_unit = (up.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
                 if is_unit { Some(up) } else { up.try_normalize() }
             };
-            // Normalised twice: the square of a very short vector has few digits, so its length is
-            // only about 1 after the first time.
+            // Each vector is normalised twice. The square of a very short vector has few digits, so
+            // that its length is only about 1 after the first time.
             unit(up).and_then(unit).ok_or_else(|| {
                 let yarn = self.layout.offsets().partition_point(|&start| start <= point as u64) - 1;
                 YarnError::Up { yarn, point: point - self.layout.offsets()[yarn] as usize, up: up.to_array() }
@@ -175,7 +176,7 @@ impl Yarns {
         &self.layout
     }
 
-    /// The tension of the splines: see [`Layout::tension`].
+    /// The [tension](Layout::tension) of the splines.
     #[must_use]
     pub fn tension(&self) -> f32 {
         self.layout.tension()
@@ -193,13 +194,13 @@ impl Yarns {
         &self.points
     }
 
-    /// The source of each control point, if the structure gave them.
+    /// The source of each control point, if there are sources.
     #[must_use]
     pub fn sources(&self) -> Option<&[u32]> {
         self.sources.as_deref()
     }
 
-    /// The range of a yarn's control points among all, or `None` past the last yarn.
+    /// The range of a yarn's control points among all control points, or `None` past the last yarn.
     #[must_use]
     pub fn range(&self, yarn: usize) -> Option<Range<usize>> {
         let (first, end) = (self.layout.offsets().get(yarn)?, self.layout.offsets().get(yarn + 1)?);
@@ -212,7 +213,7 @@ impl Yarns {
         self.points.get(self.range(yarn)?)
     }
 
-    /// Moves one yarn: replaces its control points by the same number of others.
+    /// Moves one yarn by replacing its control points by as many other ones.
     ///
     /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or an invalid
     /// point. The yarns are then unchanged.
@@ -279,10 +280,10 @@ pub fn check_material(material: usize, &Material { tex, hairiness, .. }: &Materi
     Ok(())
 }
 
-/// Checks the control points of a yarn. Its number, `yarn`, only appears in errors.
+/// Checks the control points of a yarn. The yarn's number, `yarn`, only appears in errors.
 ///
 /// **Errors**: [`YarnError::NotFinite`], [`YarnError::TooFar`] and [`YarnError::Size`] for the
-/// first point that is not sound.
+/// first invalid point.
 ///
 /// ```
 /// use texere_core::{ControlPoint, check_points};
@@ -290,8 +291,8 @@ pub fn check_material(material: usize, &Material { tex, hairiness, .. }: &Materi
 /// assert!(check_points(0, &[ControlPoint::new(f32::NAN, 2.0, 3.0, 0.1)]).is_err());
 /// ```
 pub fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
-    // Checks all points at once, without a branch. An invalid one is looked for only if there is
-    // one.
+    // All points are checked together, without a branch. The first invalid point is searched for
+    // only if there is one.
     let within = |value: f32, low: f32, high: f32| (value >= low) & (value <= high);
     let sound = points.iter().fold(true, |sound, point| {
         let placed = [point.x, point.y, point.z].map(|at| within(at, -COORDINATE_LIMIT, COORDINATE_LIMIT));
@@ -346,7 +347,7 @@ impl YarnsBuilder {
         self.sections.len() as u32 - 1
     }
 
-    /// Adds a yarn.
+    /// Adds a yarn with its control points.
     pub fn yarn(&mut self, yarn: Yarn, points: &[ControlPoint]) -> &mut Self {
         if self.offsets.is_empty() {
             self.offsets.push(0);
@@ -363,8 +364,8 @@ impl YarnsBuilder {
         self
     }
 
-    /// Checks everything and makes the yarns. Without sections there is the circle, without
-    /// materials undyed yarn.
+    /// Checks everything and makes the yarns. If no section was added, there is the circle. If no
+    /// material was added, there is undyed yarn.
     ///
     /// **Errors**: the errors of [`Layout::new`], [`Layout::with_tension`] and [`Yarns::new`].
     pub fn build(mut self) -> Result<Yarns, YarnError> {

@@ -1,5 +1,5 @@
-//! Tables of crossings. They are sent to a device byte for byte, and what passes have seen comes
-//! back in them.
+//! Tables of settling by crossings. They are sent to a device byte for byte, and the measures of
+//! passes come back in the same way.
 
 use std::ops::ControlFlow;
 
@@ -7,30 +7,30 @@ use bytemuck::{Pod, Zeroable};
 use texere_core::BackendError;
 use texere_core::crossings::{CrossingsPass, CrossingsPlan, CrossingsSeen, Row, Set};
 
-/// The most passes that a device makes between two waits of the host.
+/// The most passes that a device makes before the host waits for them.
 pub const CROSSINGS_PASSES: u32 = 16;
 
-/// A thread. Lengths are in units of the plan.
+/// A thread. Lengths are in the plan's unit.
 ///
 /// **Shape**: five `f32` and three `i32`, 32 bytes. A table has all ends, then all picks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ThreadRow {
-    /// The way to the next thread.
+    /// The distance to the next thread.
     pub gap: f32,
-    /// Its radius.
+    /// The thread's radius.
     pub radius: f32,
-    /// Its stiffness against bending.
+    /// The thread's stiffness against bending.
     pub stiffness: f32,
-    /// How far it may shift.
+    /// The largest shift of the thread to either side.
     pub freedom: f32,
-    /// How far it may go up and down.
+    /// The largest height of the thread, up or down.
     pub height: f32,
-    /// Its level.
+    /// The thread's level.
     pub level: i32,
-    /// Distance to the nearest thread of its level before it, threads; 0 for none.
+    /// Distance to the nearest thread of the same level before this one, in threads, 0 for none.
     pub before: i32,
-    /// Distance to the nearest thread of its level after it, threads; 0 for none.
+    /// Distance to the nearest thread of the same level after this one, in threads, 0 for none.
     pub after: i32,
 }
 
@@ -38,29 +38,29 @@ const _: () = assert!(size_of::<ThreadRow>() == 32 && std::mem::offset_of!(Threa
 
 /// The parameters of a pass.
 ///
-/// **Shape**: twelve 4-byte values, 48 bytes, a multiple of 16 as a uniform buffer wants.
+/// **Shape**: twelve 4-byte values, 48 bytes. Uniform buffers need a multiple of 16.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct CrossingsParams {
-    /// Crossings.
+    /// Number of crossings.
     pub crossings: u32,
-    /// Ends.
+    /// Number of ends.
     pub ends: u32,
-    /// Picks.
+    /// Number of picks.
     pub picks: u32,
     /// Bits: [`CrossingsParams::ENDS`], [`CrossingsParams::PICKS`], [`CrossingsParams::LAYERED`].
     pub flags: u32,
-    /// How taut the warp is.
+    /// The tension of the warp, 1 for relaxed cloth.
     pub tension_warp: f32,
-    /// How taut the weft is.
+    /// The tension of the weft, 1 for relaxed cloth.
     pub tension_weft: f32,
-    /// How strongly the cloth is pressed.
+    /// The strength of the press, 1 for relaxed cloth.
     pub press: f32,
     /// The weight of terms that keep threads apart.
     pub penalty: f32,
-    /// The share of its own area that a thread claims.
+    /// The share of its area that a thread tends to.
     pub area: f32,
-    /// The number of the pass since the last wait, from 0.
+    /// The number of the pass since the host last waited, counted from 0.
     pub pass_number: u32,
     /// Unused, 0.
     pub padding: [u32; 2],
@@ -69,7 +69,7 @@ pub struct CrossingsParams {
 const _: () =
     assert!(size_of::<CrossingsParams>() == 48 && std::mem::offset_of!(CrossingsParams, pass_number) == 36);
 
-/// What a workgroup, or all of them, has seen in a pass.
+/// The measures of a pass, of one workgroup or of all together.
 ///
 /// **Shape**: two `f32`, 8 bytes.
 #[repr(C)]
@@ -77,14 +77,14 @@ const _: () =
 pub struct CrossingsSeenRow {
     /// The longest step of any unknown.
     pub step: f32,
-    /// The least distance of two threads, as a share of what they need.
+    /// The least distance of two threads, as a share of the distance that they need.
     pub clearance: f32,
 }
 
 const _: () = assert!(size_of::<CrossingsSeenRow>() == 8);
 
 impl ThreadRow {
-    /// All threads of `plan`.
+    /// The rows of all threads of `plan`.
     #[must_use]
     pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
         let row = |&Row { gap, radius, stiffness, freedom, height, level, beside: [before, after] }: &Row| {
@@ -95,11 +95,11 @@ impl ThreadRow {
 }
 
 impl CrossingsParams {
-    /// Bit of [`CrossingsParams::flags`]: after the last end the first one comes again.
+    /// Bit of [`CrossingsParams::flags`]: the first end follows the last.
     pub const ENDS: u32 = 1;
-    /// Bit of [`CrossingsParams::flags`]: after the last pick the first one comes again.
+    /// Bit of [`CrossingsParams::flags`]: the first pick follows the last.
     pub const PICKS: u32 = 2;
-    /// Bit of [`CrossingsParams::flags`]: a level of both sets is a layer of the cloth.
+    /// Bit of [`CrossingsParams::flags`]: each level of both sets is a layer of the cloth.
     pub const LAYERED: u32 = 4;
 
     /// The parameters of `plan`, without those of a pass.
@@ -133,7 +133,7 @@ impl CrossingsParams {
         }
     }
 
-    /// These parameters for `pass`, number `number` since the last wait.
+    /// These parameters for `pass`, which has number `number` since the host last waited.
     #[must_use]
     pub const fn with_pass(self, pass: &CrossingsPass, number: u32) -> Self {
         Self { penalty: pass.penalty, area: pass.area, pass_number: number, ..self }
@@ -141,18 +141,19 @@ impl CrossingsParams {
 }
 
 impl CrossingsSeenRow {
-    /// What a pass has seen.
+    /// The measures as the core has them.
     #[must_use]
     pub const fn seen(self) -> CrossingsSeen {
         CrossingsSeen { step: self.step, clearance: self.clearance }
     }
 }
 
-/// Runs passes on a device, [`CROSSINGS_PASSES`] between two waits, and hands what each has seen to
-/// `watch` until that breaks off. It is
-/// [`CrossingsSettler::passes`](texere_core::crossings::CrossingsSettler::passes) of a GPU.
+/// Makes passes on a device, at most [`CROSSINGS_PASSES`] in one call of `run`, and calls `watch`
+/// with the measures of each until `watch` breaks off. GPU backends implement
+/// [`CrossingsSettler::passes`](texere_core::crossings::CrossingsSettler::passes) with this
+/// function.
 ///
-/// **Errors**: those of `run`.
+/// **Errors**: the errors of `run`.
 pub fn crossings_batches(
     passes: &[CrossingsPass],
     mut run: impl FnMut(&[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError>,
@@ -168,7 +169,8 @@ pub fn crossings_batches(
     Ok(ControlFlow::Continue(()))
 }
 
-/// Where the warp lies on the face: a bit for each crossing of `plan`, from the lowest bit on.
+/// A bit for each crossing of `plan`, from the lowest bit on, which is 1 if the warp lies on the
+/// face.
 #[must_use]
 pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
     let mut ups = vec![0; plan.crossings().div_ceil(32)];
@@ -180,9 +182,10 @@ pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
     ups
 }
 
-/// Lower bound on the bytes of device memory that a pass of `plan` moves. A crossing is read as
-/// others find it, read and written as it is, and written as others will find it; a bit says which
-/// thread lies on top. What neighbours read again is not counted.
+/// Lower bound on the bytes of device memory that a pass of `plan` moves. For each crossing, the
+/// state that other crossings read is read, its own state is read and written, and the state for
+/// the next pass is written. A bit says which thread lies on top. What neighbours read again is not
+/// counted.
 #[must_use]
 pub fn crossings_pass_bytes(plan: &CrossingsPlan) -> u64 {
     let crossings = plan.crossings() as u64;

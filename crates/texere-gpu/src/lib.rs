@@ -1,5 +1,5 @@
-//! What the GPU backends of texere share beyond the core: tables, uploads, constants and schedules.
-//! This crate uses no GPU interface.
+//! What the GPU backends of texere share in addition to the core: tables, uploads, constants and
+//! schedules. This crate uses no GPU interface.
 //!
 //! | what a GPU backend needs | here |
 //! |---|---|

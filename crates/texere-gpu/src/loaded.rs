@@ -1,13 +1,13 @@
-//! Which chunk's tables an engine holds.
+//! The chunk whose tables an engine holds in a slot.
 
 use texere_core::BackendError;
 use texere_core::backend::{Chunk, Plan, TablesId};
 
 /// The chunk whose tables lie in a slot of an engine.
 ///
-/// Kernels check no bounds. They trust the tables of a chunk, which its plan has counted. An engine
-/// therefore checks, before it runs them, that the chunk is of its own plan and is the one that it
-/// has loaded.
+/// Kernels check no bounds, but rely on the tables of a chunk, whose counts come from its plan.
+/// Before an engine runs kernels, it therefore checks that the chunk is of the engine's own plan
+/// and is the one that was loaded.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -30,10 +30,11 @@ pub struct LoadedChunk {
 }
 
 impl LoadedChunk {
-    /// Notes that `chunk` is loaded, in place of what was; `send` sends its tables. If it fails,
-    /// nothing is loaded.
+    /// Calls `send` to send the tables of `chunk`, and notes that `chunk` is loaded instead of any
+    /// other. If `send` fails, no chunk is loaded.
     ///
-    /// **Errors**: [`BackendError::NotLoaded`] for a chunk of another plan; the errors of `send`.
+    /// **Errors**: [`BackendError::NotLoaded`] for a chunk of another plan, and the errors of
+    /// `send`.
     pub fn load<T>(
         &mut self,
         plan: &Plan,
@@ -49,9 +50,9 @@ impl LoadedChunk {
         Ok(sent)
     }
 
-    /// Checks that the tables of `chunk`, one of `plan`'s, are loaded.
+    /// Checks that `chunk` is of `plan` and that its tables are loaded.
     ///
-    /// **Errors**: [`BackendError::NotLoaded`] where they are not.
+    /// **Errors**: [`BackendError::NotLoaded`] if not.
     pub fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         if plan.owns(chunk) && self.tables.as_ref() == Some(chunk.tables()) {
             Ok(())

@@ -1,4 +1,4 @@
-//! How much memory a plan's work takes.
+//! The memory that a plan's work needs.
 
 use texere_core::backend::{Block, Plan};
 use texere_core::definitions::Turn;
@@ -7,10 +7,11 @@ use texere_core::{Limits, PlanError, SectionPoint, Vertex};
 use crate::tables::{CapRow, YarnRow, cap_pattern, lean_count};
 use crate::upload::Ends;
 
-/// The buffers that a session of the schedule per-ring keeps on a GPU while it meshes all chunks of
-/// `plan`: what each holds, and its bytes. The buffers of the two chunks in flight come last.
-/// `limits` are the device's own, which chunks are cut to. Where a caller cuts chunks smaller,
-/// tables are still as large as a scan needs them, for that goes by the device's limits.
+/// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the meshes of
+/// all chunks of `plan`. Each comes as what it holds, and its bytes. The buffers of the two chunks
+/// in flight come last. `limits` are the device's own, which chunks are cut to. If a caller cuts
+/// smaller chunks, tables are still as large as a scan needs them, because a scan cuts chunks to
+/// the device's limits.
 ///
 /// Not counted are: the rounding up of each buffer to what kernels read at a time; parameters and
 /// time stamps, some hundred bytes; the 16 MiB that wgpu maps to upload through, which some drivers
@@ -32,7 +33,7 @@ use crate::upload::Ends;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Errors**: those of [`Plan::chunks`].
+/// **Errors**: the errors of [`Plan::chunks`].
 pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str, u64)>, PlanError> {
     let bytes = |count: usize, each: usize| (count * each) as u64;
     let (settings, yarns) = (plan.settings(), plan.layout().yarns().len());
@@ -46,13 +47,14 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
         ("the cap pattern", bytes(caps, size_of::<u32>())),
         ("rolls", turns * size_of::<Turn>() as u64),
     ];
-    // Chunks take the two slots in turn, and a slot's memory grows to the largest chunk that it
-    // had. A scan goes through the chunks first, for their tables alone. Where it has more than two
-    // chunks, that shifts which chunk takes which slot.
+    // Chunks are loaded into the two slots by turns, and a slot's memory grows to that of the
+    // largest chunk in it. A scan goes through the chunks first, for their tables alone. If a scan
+    // has more than two chunks, it changes which chunk is loaded into which slot.
     let scanned = if plan.needs_scan() { plan.whole().chunks(limits)?.count() } else { 0 };
     let shift = if scanned > 2 { scanned } else { 0 };
     let mut places = [[0; 4]; 2];
-    // One by one: all tables at once would take as much memory as the device.
+    // Chunks are made one by one, because the tables of all chunks together may need as much memory
+    // as a device has.
     for (number, chunk) in plan.chunks(limits)?.enumerate() {
         let tables =
             [bytes(chunk.blocks().len(), size_of::<Block>()), bytes(chunk.caps().len(), size_of::<CapRow>())];
@@ -73,9 +75,9 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
     Ok(buffers)
 }
 
-/// Bytes of host memory that [`Pipeline::mesh`](texere_core::Pipeline::mesh) takes at its peak with
-/// a GPU, which keeps control points and rolls itself. They hold the mesh, the block table, and the
-/// ends of all yarns. [`Plan::host_bytes`] is the same for a CPU.
+/// The peak bytes of host memory that [`Pipeline::mesh`](texere_core::Pipeline::mesh) needs with a
+/// GPU: those of the mesh, the block table, and the ends of all yarns. Control points and rolls are
+/// kept on the GPU. [`Plan::host_bytes`] gives the bytes for a CPU.
 #[must_use]
 pub fn host_bytes_beside_gpu(plan: &Plan) -> u64 {
     let blocks = plan.block_count() * size_of::<Block>() as u64;

@@ -1,4 +1,4 @@
-//! The constants of kernels and shaders, from the core's own.
+//! The constants of kernels and shaders, taken from the core.
 
 use std::f32::consts::TAU;
 use std::fmt::Write;
@@ -16,13 +16,13 @@ use crate::settling::{SettlingParams, UNSEEN};
 /// A language of device code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Language {
-    /// OpenCL C, of texere-kernels.
+    /// OpenCL C, the language of texere-kernels.
     OpenClC,
-    /// WGSL, of texere-shaders.
+    /// WGSL, the language of texere-shaders.
     Wgsl,
 }
 
-/// What a [`Constant`] is.
+/// The value of a [`Constant`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
     /// An `f32`.
@@ -31,12 +31,12 @@ pub enum Value {
     Integer(u32),
 }
 
-/// A constant that kernels and shaders know by the same name.
+/// A constant that has the same name in kernels and shaders.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constant {
-    /// Its name in both languages.
+    /// The constant's name in both languages.
     pub name: &'static str,
-    /// What it is.
+    /// The constant's value.
     pub value: Value,
 }
 
@@ -48,8 +48,9 @@ const fn integer(name: &'static str, value: u32) -> Constant {
     Constant { name, value: Value::Integer(value) }
 }
 
-/// The constants of meshes. Each is the core's of the same name. The numbers behind `SINE`,
-/// `COSINE` and `ARCTANGENT` are powers.
+/// The constants of meshes. Each has the value of a constant of the core. The number at the end of
+/// a name is the power for `SINE`, `COSINE` and `ARCTANGENT`, and counts elements for `ARC_NODE`
+/// and `ARC_WEIGHT`.
 pub const CONSTANTS: [Constant; 38] = [
     integer("BLOCK_RINGS", BLOCK_RINGS),
     float("TURN_STEPS", Turn::STEPS),
@@ -91,8 +92,9 @@ pub const CONSTANTS: [Constant; 38] = [
     float("NORMAL_STEPS", PackedVertex::NORMAL_STEPS),
 ];
 
-/// The constants of settling, which also stand before all sources. `UNSEEN` and the two flags
-/// belong to [`SettlingParams`]; all others are the core's.
+/// The constants of settling by contacts, which are also written before all sources. `UNSEEN` and
+/// the flags `LENGTHS_FREE` and `PLATES` belong to the tables of settling. All others are constants
+/// of the core.
 pub const SETTLING_CONSTANTS: [Constant; 41] = [
     float("MARGIN", settling::MARGIN),
     float("NEAR", settling::NEAR),
@@ -137,8 +139,9 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
     integer("PLATES", SettlingParams::PLATES),
 ];
 
-/// The constants of crossings, which also stand before all sources. The three flags belong to
-/// [`CrossingsParams`]; all others are the core's.
+/// The constants of settling by crossings, which are also written before all sources. The flags
+/// `REPEATS_ENDS`, `REPEATS_PICKS` and `LAYERED` belong to [`CrossingsParams`]. All others are
+/// constants of the core.
 pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     float("CROSSINGS_ASPECT", crossings::ASPECT),
     float("CROSSINGS_SHAPE", crossings::SHAPE),
@@ -169,12 +172,12 @@ pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     integer("LAYERED", CrossingsParams::LAYERED),
 ];
 
-/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`],
+/// The text that is written before the sources of a program: the definitions of all [`CONSTANTS`],
 /// [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are the
-/// shortest that give the same bits again.
+/// shortest that are read as the same bits.
 ///
-/// With `flattened` the program does all yarns. Without it the program does round yarns alone, as
-/// wide as high at each control point: it ignores half heights, and is faster.
+/// With `flattened` the program is right for all yarns. Without it, the program ignores half
+/// heights and is faster. It is then right only for yarns that are round at each control point.
 ///
 /// ```
 /// use texere_gpu::{Language, prelude};
@@ -209,8 +212,8 @@ pub fn prelude(language: Language, flattened: bool) -> String {
 mod tests {
     use super::*;
 
-    /// The core's values, each written once more here. A number that stands in place of a name
-    /// above is found by that.
+    /// The core's values, each named once more. If a number replaces a name in the tables above,
+    /// the test finds the difference.
     const OF_THE_CORE: [(&str, &[f32]); 84] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
@@ -298,7 +301,7 @@ mod tests {
         ("PASSAGE_TURN", &[crossings::TURN]),
     ];
 
-    /// The texts are read again as their compilers do, and must have the core's bits.
+    /// The texts are parsed as their compilers parse them. The values must have the core's bits.
     #[test]
     fn a_constant_of_the_core_is_the_same_in_both_languages() {
         for (language, define, assign) in

@@ -1,9 +1,9 @@
-//! Schedules: a device's name under each, and what each leaves out.
+//! Schedules: the name of a device under each schedule, and what each schedule can't do.
 
 use texere_core::backend::{Plan, Schedule};
 use texere_core::{BackendError, Capabilities, Frame};
 
-/// The name of device `index` of `interface` under `schedule`, or of the caller's own device where
+/// The name of device `index` of `interface` under `schedule`, or of the caller's own device if
 /// there is no index.
 ///
 /// ```
@@ -19,8 +19,9 @@ pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) ->
     format!("{interface}{index}{of_schedule}")
 }
 
-/// What a GPU can do under `schedule`. All schedules settle alike; the paper's mapping makes meshes
-/// and nothing else. `draw`: whether pictures are drawn through its interface.
+/// The capabilities of a GPU under `schedule`. Settling does not depend on the schedule. Apart from
+/// settling, [`Schedule::PerYarn`] only makes meshes. `draw` says whether pictures are drawn
+/// through the GPU's interface.
 ///
 /// ```
 /// use texere_core::backend::Schedule;
@@ -34,15 +35,15 @@ pub const fn capabilities(schedule: Schedule, draw: bool) -> Capabilities {
     Capabilities { settle: true, settle_crossings: true, edit: ours, attributes: ours, pack: ours, draw }
 }
 
-/// The error for [`Schedule::Serial`], which no GPU has. `name` is the device's.
+/// The error for [`Schedule::Serial`], which no GPU has. `name` is the device's name.
 #[must_use]
 pub fn serial_unsupported(name: &str) -> BackendError {
     BackendError::Unsupported { schedule: name.into(), what: "the serial schedule".into() }
 }
 
-/// Checks that a GPU has `schedule`, and that the schedule does all that `plan` asks for.
-/// [`Schedule::PerYarn`] does upright, untwisted, open yarns without caps. `name` is the device's,
-/// for the error.
+/// Checks that a GPU has `schedule`, and that the schedule can make the meshes of `plan`.
+/// [`Schedule::PerYarn`] makes upright, untwisted, open yarns without caps. `name` is the device's
+/// name, for the error.
 ///
 /// ```
 /// use texere_core::backend::{Plan, Schedule};
@@ -58,7 +59,7 @@ pub fn serial_unsupported(name: &str) -> BackendError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Errors**: [`BackendError::Unsupported`] with the first thing that it leaves out.
+/// **Errors**: [`BackendError::Unsupported`] with the first thing that the schedule can't do.
 pub fn check_schedule(schedule: Schedule, plan: &Plan, name: &str) -> Result<(), BackendError> {
     let left_out = match schedule {
         Schedule::Serial => return Err(serial_unsupported(name)),
@@ -95,7 +96,7 @@ mod tests {
 
     use super::*;
 
-    /// What `schedule` leaves out of a plan with a plain yarn and `yarn`.
+    /// What `schedule` can't do of a plan with a plain yarn and `yarn`.
     fn asked(schedule: Schedule, yarn: Yarn, settings: Settings) -> Option<String> {
         let mut yarns = Yarns::builder();
         for yarn in [Yarn::default(), yarn] {

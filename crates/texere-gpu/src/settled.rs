@@ -1,30 +1,30 @@
-//! Tables with which a device turns settled places into control points, without a way over the
-//! host.
+//! Tables with which a device turns settled places into control points, so that they need not go
+//! through the host.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::backend::Plan;
 use texere_core::settling::SettlingPlan;
 
-/// Where a yarn's places lie, and where its padded control points belong.
+/// The numbers of a yarn's places and of its padded control points.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct SettledRow {
-    /// Its first control point's place.
+    /// Number of the place of the yarn's first control point.
     pub first_place: u32,
-    /// Its control points.
+    /// Number of the yarn's control points.
     pub points: u32,
-    /// Its first control point among all padded ones.
+    /// Number of the yarn's first control point among all padded control points.
     pub first_point: u32,
-    /// 1 where it is closed, else 0.
+    /// 1 if the yarn is closed, otherwise 0.
     pub closed: u32,
-    /// Both halves of its virtual start, bits of two half floats: yarns don't change their
-    /// thickness while they settle.
+    /// Half width and half height of the yarn's virtual start, as bits of two half floats. They are
+    /// known beforehand, because yarns don't change their thickness while they settle.
     pub start_halves: u32,
-    /// Both halves of its virtual end, likewise.
+    /// Half width and half height of the yarn's virtual end, as bits of two half floats.
     pub end_halves: u32,
-    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    /// Unused, 0. It makes the row a multiple of 16 bytes.
     pub padding: [u32; 2],
 }
 
@@ -32,15 +32,15 @@ const _: () = assert!(size_of::<SettledRow>() == 32 && std::mem::offset_of!(Sett
 
 /// The parameters of a launch over all places.
 ///
-/// **Shape**: eight 4-byte values, 32 bytes, a multiple of 16 as a uniform buffer wants.
+/// **Shape**: eight 4-byte values, 32 bytes. Uniform buffers need a multiple of 16.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct SettledParams {
-    /// Where places are counted from, mm.
+    /// The origin of places, mm.
     pub origin: [f32; 3],
-    /// A unit of places, mm.
+    /// The unit of places, mm.
     pub unit: f32,
-    /// Places, with those beyond yarns' ends.
+    /// Number of places, including those beyond yarns' ends.
     pub places: u32,
     /// Unused, 0.
     pub padding: u32,
@@ -50,7 +50,7 @@ pub struct SettledParams {
 
 const _: () = assert!(size_of::<SettledParams>() == 32 && std::mem::offset_of!(SettledParams, places) == 16);
 
-/// The box that a workgroup has found round its control points.
+/// The box round the control points of one workgroup.
 ///
 /// **Shape**: eight `i32`, 32 bytes.
 #[repr(C)]
@@ -60,7 +60,7 @@ pub struct BoundsRow {
     pub low: [i32; 3],
     /// Unused.
     pub padding: i32,
-    /// The greatest.
+    /// The greatest x, y and z, units.
     pub high: [i32; 3],
     /// Unused.
     pub more_padding: i32,
@@ -83,8 +83,8 @@ impl BoundsRow {
 }
 
 impl SettledRow {
-    /// The rows of all yarns. `settling` says where their places lie, `plan` where their control
-    /// points belong; both have the same yarns.
+    /// The rows of all yarns. `settling` gives the numbers of their places, and `plan` those of
+    /// their control points. Both must have the same yarns.
     #[must_use]
     pub fn all(settling: &SettlingPlan, plan: &Plan) -> Vec<Self> {
         let rows = settling.strands().iter().enumerate().map(|(yarn, strand)| {
@@ -107,7 +107,7 @@ impl SettledRow {
 }
 
 impl SettledParams {
-    /// What `settling` says.
+    /// The parameters of `settling`.
     #[must_use]
     pub fn new(settling: &SettlingPlan) -> Self {
         let scale = settling.scale();

@@ -1,76 +1,77 @@
-//! Tables of a settling. They are sent to a device byte for byte, and what it has found comes back
-//! in them.
+//! Tables of settling by contacts. They are sent to a device byte for byte, and its results come
+//! back in the same way.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::Ends;
 use texere_core::settling::{Length, Pass, SettlingPlan, SettlingSeen, SettlingYarn, tag};
 
-/// Stands for infinity, which a device may not have: no yarn is as far away.
+/// The number that replaces infinity, which a device may not have. No distance of yarns is as
+/// large.
 pub(crate) const UNSEEN: f32 = 1e30;
 
-/// The most workgroups that look for the extent of all chords.
+/// The most workgroups that work out the extent of all chords.
 pub const EXTENT_GROUPS: u32 = 256;
 
-/// The cells that chords are sorted into may always be this many, however few chords there are.
+/// The number of cells that chords may always be sorted into, however few chords there are.
 const CELLS: u64 = 64;
 
-/// What never changes of a place that settles.
+/// The constant data of a place that settles.
 ///
-/// **Shape**: four 4-byte values, 16 bytes. A table has one row more than places: its `first_chord`
-/// ends the last interval.
+/// **Shape**: four 4-byte values, 16 bytes. A table has one row more than there are places. The
+/// `first_chord` of that row is the end of the last interval's chords.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct PlaceRow {
     /// Bits of [`tag`].
     pub tags: u32,
-    /// Its yarn.
+    /// Number of the place's yarn.
     pub yarn: u32,
-    /// The first chord of its interval.
+    /// Number of the first chord of the place's interval.
     pub first_chord: u32,
-    /// The length that its interval shall have at the start, mm.
+    /// The length that the place's interval is to have at the start, mm.
     pub start_length: f32,
 }
 
 const _: () = assert!(size_of::<PlaceRow>() == 16 && std::mem::offset_of!(PlaceRow, start_length) == 12);
 
-/// Where a yarn's places lie, and whether it goes on past its last point.
+/// The numbers of a yarn's places, and how the yarn goes on after its last point.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct StrandRow {
-    /// Its first control point's place.
+    /// Number of the place of the yarn's first control point.
     pub first: u32,
-    /// Its control points.
+    /// Number of the yarn's control points.
     pub points: u32,
-    /// 0 where it is open, 1 where it closes or goes on in the next repeat.
+    /// 0 if the yarn is open, 1 if it is closed or goes on in the next repeat.
     pub goes_on: u32,
-    /// Repeats along x from its last point to where it goes on.
+    /// Number of repeats along x by which the yarn's next round is moved.
     pub shift_x: i32,
-    /// Repeats along y from its last point to where it goes on.
+    /// Number of repeats along y by which the yarn's next round is moved.
     pub shift_y: i32,
-    /// Its length, in units of [`Spans::along`](texere_core::settling::Spans::along).
+    /// The yarn's length, in units of [`Spans::along`](texere_core::settling::Spans::along).
     pub length: u32,
-    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    /// Unused, 0. It makes the row a multiple of 16 bytes.
     pub padding: [u32; 2],
 }
 
 const _: () = assert!(size_of::<StrandRow>() == 32 && std::mem::offset_of!(StrandRow, length) == 20);
 
-/// What never changes of a chord.
+/// The constant data of a chord.
 ///
 /// **Shape**: four 4-byte values, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ChordRow {
-    /// The place of its interval.
+    /// Number of the place of the chord's interval.
     pub place: u32,
-    /// How far along its yarn it begins, in units of
+    /// The start of the chord along its yarn, in units of
     /// [`Spans::along`](texere_core::settling::Spans::along).
     pub from: u32,
-    /// How far along its yarn it ends, likewise.
+    /// The end of the chord along its yarn, in the same units as `from`.
     pub to: u32,
-    /// The largest half width or half height of its interval, mm.
+    /// The largest half width or half height of the chord's interval, mm.
     pub thickest: f32,
 }
 
@@ -78,76 +79,77 @@ const _: () = assert!(size_of::<ChordRow>() == 16 && std::mem::offset_of!(ChordR
 
 /// The parameters of all launches of a list or a pass.
 ///
-/// **Shape**: 24 4-byte values, 96 bytes, a multiple of 16 as a uniform buffer wants.
+/// **Shape**: 24 4-byte values, 96 bytes. Uniform buffers need a multiple of 16.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct SettlingParams {
-    /// Places, with those beyond yarns' ends.
+    /// Number of places, including those beyond yarns' ends.
     pub places: u32,
-    /// Chords.
+    /// Number of chords.
     pub chords: u32,
-    /// Yarns.
+    /// Number of yarns.
     pub yarns: u32,
     /// Bits: [`SettlingParams::FREE`], [`SettlingParams::PLATES`].
     pub flags: u32,
-    /// A unit of places, mm.
+    /// The unit of places, mm.
     pub unit: f32,
-    /// Units per mm.
+    /// Number of units of places per mm.
     pub per_mm: f32,
-    /// `s = (1 - tension) / 2` of the spline.
+    /// The factor `s = (1 - tension) / 2` of the spline's tangents.
     pub s: f32,
     /// The share of their full thickness that yarns have.
     pub growth: f32,
-    /// How much of what eases the way to rest is left, a share.
+    /// The strength, 0 to 1, of what acts only on the way to rest: soft bends, tension, plates.
     pub ease: f32,
-    /// The share of the last step that points go on with.
+    /// The share of each point's last step that is added to its next.
     pub momentum: f32,
     /// Half of the gap between the plates, mm.
     pub half_gap: f32,
-    /// The share by which free lengths are drawn in; [`SettlingParams::ease`] is in it.
+    /// The share by which free lengths are shortened in a pass. It is already multiplied by
+    /// [`SettlingParams::ease`].
     pub tension: f32,
-    /// The repeat along x, units; 0 where there is none.
+    /// The repeat along x, units, 0 if there is none.
     pub period_x: i32,
-    /// The repeat along y, likewise.
+    /// The repeat along y, units, 0 if there is none.
     pub period_y: i32,
-    /// Repeats per mm along x; 0 where there are none.
+    /// Number of repeats per mm along x, 0 if nothing repeats.
     pub frequency_x: f32,
-    /// Repeats in a mm along y, likewise.
+    /// Number of repeats per mm along y, 0 if nothing repeats.
     pub frequency_y: f32,
-    /// The mean diameter, mm.
+    /// The mean diameter of yarns, mm.
     pub diameter: f32,
     /// The unit of lengths along yarns, mm.
     pub along: f32,
-    /// Where cells begin along x, units.
+    /// The start of the first cell along x, units.
     pub low_x: i32,
-    /// Where cells begin along y, units.
+    /// The start of the first cell along y, units.
     pub low_y: i32,
-    /// How wide a cell is, units. The last cell takes what is left over.
+    /// The size of a cell along x, units. The last cell also covers the rest.
     pub size_x: u32,
-    /// How high a cell is, likewise.
+    /// The size of a cell along y, units. The last cell also covers the rest.
     pub size_y: u32,
-    /// Cells along x.
+    /// Number of cells along x.
     pub count_x: u32,
-    /// Cells along y.
+    /// Number of cells along y.
     pub count_y: u32,
 }
 
 const _: () =
     assert!(size_of::<SettlingParams>() == 96 && std::mem::offset_of!(SettlingParams, count_y) == 92);
 
-/// What a workgroup has found of the extent of chords.
+/// The extent of the chords of one workgroup.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ExtentRow {
-    /// The least middle of a chord along x, units.
+    /// The least x of a chord's middle, units.
     pub low_x: i32,
-    /// The least middle of a chord along y, units.
+    /// The least y of a chord's middle, units.
     pub low_y: i32,
-    /// The largest middle of a chord along x, units.
+    /// The largest x of a chord's middle, units.
     pub high_x: i32,
-    /// The largest middle of a chord along y, units.
+    /// The largest y of a chord's middle, units.
     pub high_y: i32,
     /// The longest chord's squared length, mm².
     pub longest: f32,
@@ -157,27 +159,28 @@ pub struct ExtentRow {
 
 const _: () = assert!(size_of::<ExtentRow>() == 32 && std::mem::offset_of!(ExtentRow, longest) == 16);
 
-/// What a workgroup, or all of them, has seen in a pass.
+/// The measures of a pass, of one workgroup or of all together.
 ///
 /// **Shape**: four `f32`, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct SeenRow {
-    /// The least distance of two yarns, over the sum of their reaches; 1e30 where no pass has met
-    /// two.
+    /// The least distance of two yarns, divided by the sum of their reaches. It is 1e30 if no two
+    /// yarns are near one another.
     pub clearance: f32,
-    /// The least radius of curvature, in diameters of the yarn, likewise.
+    /// The least radius of curvature, in diameters of the yarn. It is 1e30 if no yarn bends.
     pub radius: f32,
-    /// The most by which an interval's length is off, a share.
+    /// The largest difference of an interval's length from the length asked for, as a share of the
+    /// latter.
     pub length: f32,
-    /// The longest step that a point has taken, mm.
+    /// The longest step of a point, mm.
     pub step: f32,
 }
 
 const _: () = assert!(size_of::<SeenRow>() == 16);
 
 impl PlaceRow {
-    /// The rows of all places of `plan`, and one more, which ends the last place's interval.
+    /// The rows of all places of `plan`, and one more for the end of the last place's chords.
     #[must_use]
     pub fn all(plan: &SettlingPlan) -> Vec<Self> {
         let own = plan.tags().iter().zip(plan.yarns()).zip(plan.chords()).zip(plan.lengths());
@@ -189,7 +192,7 @@ impl PlaceRow {
 }
 
 impl StrandRow {
-    /// All yarns of `plan`.
+    /// The rows of all yarns of `plan`.
     #[must_use]
     pub fn all(plan: &SettlingPlan) -> Vec<Self> {
         let row = |strand: &SettlingYarn| {
@@ -209,7 +212,7 @@ impl StrandRow {
 }
 
 impl ChordRow {
-    /// All chords of `plan`, in the order of their numbers.
+    /// The rows of all chords of `plan`, in the order of their numbers.
     #[must_use]
     pub fn all(plan: &SettlingPlan) -> Vec<Self> {
         let mut rows = Vec::with_capacity(plan.counts().chords as usize);
@@ -270,7 +273,7 @@ impl SettlingParams {
         }
     }
 
-    /// These parameters for `pass`, or for listing neighbours at its growth.
+    /// These parameters for `pass`, or for listing neighbours at the growth of `pass`.
     #[must_use]
     pub fn with_pass(self, plan: &SettlingPlan, pass: &Pass) -> Self {
         let tension = if let Length::Free { tension } = plan.length() { tension * pass.ease } else { 0.0 };
@@ -278,9 +281,10 @@ impl SettlingParams {
         Self { growth, ease, momentum, tension, ..self }
     }
 
-    /// These parameters with the cells that chords are sorted into at `growth`. `rows` say how
-    /// far chords reach. Cells are so large that a chord's neighbours lie in its own cell or one
-    /// beside it, and there are no more cells than chords.
+    /// These parameters with the cells that chords are sorted into at `growth`. `rows` give the
+    /// extent of all chords. Cells are so large that a chord's neighbours lie in its own cell or in
+    /// one beside it. There are no more cells than chords, apart from a few that are always
+    /// allowed.
     #[must_use]
     pub fn with_cells(self, plan: &SettlingPlan, growth: f32, rows: &[ExtentRow]) -> Self {
         let fold = |of: fn(&ExtentRow) -> i32, better: fn(i32, i32) -> i32| {
@@ -315,7 +319,7 @@ impl SettlingParams {
         }
     }
 
-    /// The number of cells.
+    /// The number of cells in all.
     #[must_use]
     pub const fn cells(&self) -> u32 {
         self.count_x * self.count_y
@@ -323,7 +327,7 @@ impl SettlingParams {
 }
 
 impl SeenRow {
-    /// What a pass has seen.
+    /// The measures as the core has them.
     #[must_use]
     pub fn seen(self) -> SettlingSeen {
         let sight = |value: f32| if value < UNSEEN { value } else { f32::INFINITY };
@@ -336,23 +340,24 @@ impl SeenRow {
     }
 }
 
-/// Whether any yarn of `plan` is flattened anywhere. Faster programs settle plans whose yarns are
-/// all round.
+/// Whether any yarn of `plan` is flattened anywhere. Plans whose yarns are all round are settled by
+/// a faster program.
 #[must_use]
 pub fn settles_flattened(plan: &SettlingPlan) -> bool {
     plan.places().iter().any(|place| place.halves.width() != place.halves.height())
 }
 
-/// Bytes of device memory that a pass of `plan` in the weighted form moves, where all chords
-/// together have `neighbours`. Every table counts once, what is written and read again counts
-/// twice, and each neighbour counts with its number and its chord.
+/// Bytes of device memory that a pass of `plan` in the weighted form moves. `neighbours` is the
+/// number of neighbours of all chords. Every table counts once, and what is written and read again
+/// counts twice. Each neighbour counts with its number and its chord.
 #[must_use]
 pub fn settling_pass_bytes(plan: &SettlingPlan, neighbours: u64) -> u64 {
-    // Bytes of a place: where it is and where it goes, its row, its length, its last step, and what
-    // pulls at its interval (four slots of eight numbers, its length's way and arc, the least
-    // distance and clearance), with what is read again.
+    // Bytes of a place: its present and its next position, its row, its length, its last step, and
+    // the pulls of its interval (four slots of eight numbers, the vector of its excess length, its
+    // arc, the least distance and the clearance). What is read again is included.
     const PLACE: u64 = 3 * 16 + 16 + 2 * 16 + 4 + 2 * 16 + 2 * 4 * (4 * 8 + 6);
-    // Bytes of a chord: its row, where it lies, written and read, and where its neighbours begin.
+    // Bytes of a chord: its row, its start and span, written and read, and the start of its list of
+    // neighbours.
     const CHORD: u64 = 16 + 2 * 32 + 4;
     const NEIGHBOUR: u64 = 4 + 32;
     let counts = plan.counts();

@@ -1,5 +1,5 @@
-//! Tables that kernels read beside control points and blocks. They are sent to a device byte for
-//! byte.
+//! Tables that kernels read in addition to control points and blocks. They are sent to a device
+//! byte for byte.
 
 use std::ops::Range;
 
@@ -9,50 +9,50 @@ use texere_core::backend::{BLOCK_RINGS, Block, Chunk, Plan};
 use texere_core::definitions::Turn;
 use texere_core::{Cap, End, RINGS_MAX, Topology};
 
-/// A yarn as kernels see it.
+/// A yarn's row in the table that kernels read.
 ///
 /// **Shape**: six 4-byte values, 24 bytes, 24-byte stride.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct YarnRow {
-    /// Its rings.
+    /// Number of the yarn's rings.
     pub rings: u32,
-    /// Its first block among all of the plan.
+    /// Number of the yarn's first block among all blocks of the plan.
     pub first_block: u32,
-    /// Its section.
+    /// Number of the yarn's section.
     pub section: u32,
-    /// 1 where it is closed, else 0.
+    /// 1 if the yarn is closed, otherwise 0.
     pub closed: u32,
-    /// Its twist, turns per mm.
+    /// The yarn's twist, turns per mm.
     pub twist: f32,
-    /// 0 upright, 1 rotation minimising.
+    /// The yarn's frame: 0 for upright, 1 for rotation minimising.
     pub frame: u32,
 }
 
 const _: () = assert!(size_of::<YarnRow>() == 24 && std::mem::offset_of!(YarnRow, twist) == 16);
 
-/// A cap as kernels see it.
+/// A cap's row in the table that kernels read.
 ///
-/// **Shape**: eight `u32`, 32 bytes. All but `yarn` count from the start of the chunk.
+/// **Shape**: eight `u32`, 32 bytes. Vertices and indices are counted from the start of the chunk.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct CapRow {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
-    /// 0 at the yarn's start, 1 at its finish.
+    /// 0 for the cap at the yarn's start, 1 for that at its finish.
     pub end: u32,
-    /// Padded control point `P[j-1]` of the interval that the end belongs to, from the start of the
-    /// chunk's window.
+    /// Number of the padded control point `P[j-1]` of the interval at the yarn's end, counted from
+    /// the start of the chunk's window.
     pub first_point: u32,
-    /// The first vertex of the ring that the cap closes.
+    /// Number of the first vertex of the ring that the cap closes.
     pub ring_vertex: u32,
-    /// The cap's own first vertex.
+    /// Number of the cap's own first vertex.
     pub first_vertex: u32,
-    /// The cap's own first index, where the topology has any.
+    /// Number of the cap's own first index, if the topology is indexed.
     pub first_index: u32,
-    /// Where the section's cap triangles start in [`cap_pattern`].
+    /// The start in [`cap_pattern`] of the triangles of this cap.
     pub first_corner: u32,
-    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    /// Unused, 0. It makes the row a multiple of 16 bytes.
     pub padding: u32,
 }
 
@@ -60,47 +60,48 @@ const _: () = assert!(size_of::<CapRow>() == 32 && std::mem::offset_of!(CapRow, 
 
 /// The parameters of a launch.
 ///
-/// **Shape**: twelve 4-byte values, 48 bytes, a multiple of 16 as a uniform buffer wants.
+/// **Shape**: twelve 4-byte values, 48 bytes. Uniform buffers need a multiple of 16.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Params {
-    /// Rows of the block table.
+    /// Number of rows of the block table.
     pub blocks: u32,
-    /// Rows of the cap table.
+    /// Number of rows of the cap table.
     pub caps: u32,
-    /// The first yarn of a launch over yarns. In such a launch [`Params::blocks`] is the number of
-    /// yarns.
+    /// Number of the first yarn of a launch over yarns. In a launch over yarns, [`Params::blocks`]
+    /// is the number of yarns.
     pub first_yarn: u32,
-    /// Yarns of the plan.
+    /// Number of yarns of the plan.
     pub yarns: u32,
-    /// Sides of the tube.
+    /// Number of sides of the tube.
     pub sides: u32,
-    /// Points inserted between two control points.
+    /// Number of points inserted between two control points.
     pub subdivisions: u32,
-    /// Index of the first ring's lean, behind the rolls of blocks; 0 where no yarn leans.
+    /// Index of the first ring's lean. Leans lie behind the rolls of blocks. It is 0 if no yarn
+    /// leans.
     pub leans: u32,
-    /// 1 where indices are written, else 0.
+    /// 1 if indices are written, otherwise 0.
     pub indexed: u32,
-    /// 1 where rolls have been scanned, else 0: every roll is zero then.
+    /// 1 if rolls have been scanned, otherwise 0. Without a scan every roll is zero.
     pub rolled: u32,
-    /// `s = (1 - tension) / 2`.
+    /// The factor `s = (1 - tension) / 2` of the spline's tangents.
     pub s: f32,
-    /// `1 / (K + 1)`.
+    /// `1 / (K + 1)`, where K is the number of subdivisions.
     pub step: f32,
-    /// Quanta of packed positions, per mm.
+    /// Number of quanta of packed positions per mm.
     pub quanta_per_mm: f32,
 }
 
 const _: () = assert!(size_of::<Params>() == 48 && std::mem::offset_of!(Params, quanta_per_mm) == 44);
 
 impl YarnRow {
-    /// All yarns of `plan`.
+    /// The rows of all yarns of `plan`.
     #[must_use]
     pub fn all(plan: &Plan) -> Vec<Self> {
         Self::of(plan, 0..plan.layout().yarns().len())
     }
 
-    /// Some yarns of `plan`.
+    /// The rows of the range `yarns` of the yarns of `plan`.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -118,7 +119,7 @@ impl YarnRow {
 }
 
 impl CapRow {
-    /// All caps of `chunk`, one of `plan`'s.
+    /// The rows of all caps of `chunk`, which is a chunk of `plan`.
     #[must_use]
     pub fn all(plan: &Plan, chunk: &Chunk) -> Vec<Self> {
         let settings = plan.settings();
@@ -143,13 +144,14 @@ impl CapRow {
 }
 
 impl Params {
-    /// The parameters of a launch over some yarns of `plan`; `chunk` is any of its chunks.
+    /// The parameters of a launch over some yarns of `plan`. `chunk` is any chunk of `plan`.
     #[must_use]
     pub fn of_yarns(plan: &Plan, chunk: &Chunk, yarns: &Range<usize>) -> Self {
         Self { blocks: yarns.len() as u32, first_yarn: yarns.start as u32, ..Self::new(plan, chunk) }
     }
 
-    /// The parameters of all launches on `chunk`, one of `plan`'s, with its own block table.
+    /// The parameters of all launches on `chunk`, a chunk of `plan`, with the chunk's own block
+    /// table.
     #[must_use]
     pub fn new(plan: &Plan, chunk: &Chunk) -> Self {
         let settings = plan.settings();
@@ -171,9 +173,9 @@ impl Params {
 }
 
 /// The part of the lean table that belongs to `yarns`: the index of its first value, and its
-/// values, the lean of each ring. There are [`BLOCK_RINGS`] for each block of these yarns, zero
-/// where a yarn does not lean. Where no yarn of `plan` leans there are none. Kernels read the lean
-/// table behind the rolls of blocks.
+/// values. The values are the lean of each ring. There are [`BLOCK_RINGS`] of them for each block
+/// of these yarns, and they are zero for a yarn that does not lean. If no yarn of `plan` leans,
+/// there are no values. Kernels read the lean table behind the rolls of blocks.
 ///
 /// **Panics** past the last yarn.
 #[must_use]
@@ -198,9 +200,9 @@ pub fn lean_count(plan: &Plan) -> u64 {
     if plan.layout().leans() { plan.block_count() * u64::from(BLOCK_RINGS) } else { 0 }
 }
 
-/// The block table of `chunk`, one of `plan`'s, for a schedule in which a lane makes a part. A part
-/// is one row, or several where it has more than `most_rings` rings. A row is any number of
-/// consecutive rings of a yarn, from any ring on.
+/// The block table of `chunk`, a chunk of `plan`, for a schedule in which a lane makes a whole
+/// part. A part is one row, or several if it has more than `most_rings` rings. A row is any number
+/// of consecutive rings of a yarn, from any ring on.
 #[must_use]
 pub fn part_rows(plan: &Plan, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
     joined_rows(plan, chunk.blocks(), most_rings)
@@ -230,9 +232,9 @@ fn joined_rows(plan: &Plan, blocks: &[Block], most_rings: u32) -> Vec<Block> {
     rows
 }
 
-/// The indices of caps, numbered from the cap's first vertex. For each section of `plan` come those
-/// of its start cap, `3 (sides - 2)` values, then as many for its finish cap. Empty where there are
-/// no caps.
+/// The indices of caps, counted from the cap's first vertex. For each section of `plan` there are
+/// the indices of its start cap, `3 (sides - 2)` values, then as many of its finish cap. Empty if
+/// the plan has no caps.
 #[must_use]
 pub fn cap_pattern(plan: &Plan) -> Vec<u32> {
     let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };
@@ -242,7 +244,7 @@ pub fn cap_pattern(plan: &Plan) -> Vec<u32> {
         .collect()
 }
 
-/// Rings and quads of all of `blocks`.
+/// The numbers of rings and quads of all `blocks` together.
 fn totals(blocks: &[Block]) -> [u32; 2] {
     blocks.iter().fold([0, 0], |[rings, quads], block| [rings + block.rings, quads + block.quads])
 }
@@ -293,8 +295,8 @@ mod tests {
         });
     }
 
-    /// The plan's own blocks are rows of 64 rings: these come out again, also from rows of fewer,
-    /// and no row is longer than asked for.
+    /// The plan's own blocks are rows of 64 rings. Rows of 64 rings must equal them, also if they
+    /// are joined from shorter rows. No row may be longer than asked for.
     #[test]
     fn rows_of_any_length_say_what_the_blocks_say() {
         chunks(|plan, chunk| {

@@ -1,5 +1,5 @@
 //! Uploads of control points to padded memory elsewhere, such as a GPU's. Nothing is copied on the
-//! host: what is to be written is lent run by run.
+//! host. Instead, what is to be written is lent run by run.
 
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -8,15 +8,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use texere_core::backend::{Plan, renew_virtual_ends, zeroed};
 use texere_core::{BackendError, ControlPoint};
 
-/// A yarn's first three and last two points, which virtual ends come from. In a short yarn some
-/// coincide.
+/// A yarn's first three and last two points, from which virtual ends are computed. In a short yarn
+/// some of these are the same point.
 pub(crate) type Ends = [ControlPoint; 5];
 
-/// The ends of all yarns as last uploaded. With them virtual ends are right even after an upload of
-/// one end alone.
+/// The ends of all yarns as last uploaded. With them, virtual ends are right even after an upload
+/// of only part of a yarn.
 ///
-/// Together with the padded points themselves, which start as zeros, this does what
-/// [`PaddedPoints`](texere_core::backend::PaddedPoints) does.
+/// Together with padded points on a device, which are zeros at first, this replaces
+/// [`PaddedPoints`](texere_core::backend::PaddedPoints).
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -36,23 +36,23 @@ pub(crate) type Ends = [ControlPoint; 5];
 #[derive(Debug, Clone)]
 pub struct YarnEnds {
     ends: Vec<Ends>,
-    /// Whether they belong to the points that the device holds now.
+    /// Whether the ends belong to the points that the device holds now.
     known: bool,
     flattened: bool,
 }
 
 impl YarnEnds {
-    /// Takes memory for the ends of all yarns of `plan`, all zero.
+    /// Reserves memory for the ends of all yarns of `plan`, all zero.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn new(plan: &Plan) -> Result<Self, BackendError> {
         Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)?, known: true, flattened: false })
     }
 
-    /// What an upload of `points` has to write. `first` is the number of the first of them in the
-    /// fabric. Points past the fabric's last are left out.
+    /// The upload of `points`, the first of which is number `first` of the fabric. Points past the
+    /// fabric's last are left out.
     ///
-    /// **Panics** for a plan with more yarns.
+    /// **Panics** for a plan with more yarns than [`YarnEnds::new`] was given.
     #[must_use]
     pub fn upload<'a>(&self, plan: &'a Plan, first: u64, points: &'a [ControlPoint]) -> PaddedUpload<'a> {
         let yarns = plan.layout().yarns_of(first..first.saturating_add(points.len() as u64));
@@ -70,16 +70,16 @@ impl YarnEnds {
         upload
     }
 
-    /// Whether any upload kept so far had a flattened control point, wider or less wide than high.
-    /// It stays true when that point is round again.
+    /// Whether any upload kept so far had a flattened control point, whose half width differs from
+    /// its half height. It stays true even if that point is uploaded as a round one later.
     #[must_use]
     pub fn flattened(&self) -> bool {
         self.flattened
     }
 
-    /// Remembers the ends of an upload that has been written.
+    /// Stores the ends of an upload that has been written.
     ///
-    /// **Panics** for an upload to a plan with more yarns.
+    /// **Panics** for an upload to a plan with more yarns than [`YarnEnds::new`] was given.
     pub fn keep(&mut self, upload: &PaddedUpload<'_>) {
         for yarn in upload.yarns.clone() {
             self.ends[yarn] = upload.renewed(yarn, self.ends[yarn]);
@@ -88,8 +88,8 @@ impl YarnEnds {
         self.flattened = upload.flattened.load(Ordering::Relaxed);
     }
 
-    /// Forgets all ends: the device now holds control points that the host has never seen.
-    /// `flattened`: whether one of them is not round.
+    /// Forgets all ends, because the device now holds control points that the host does not have.
+    /// `flattened` says whether any of them is not round.
     pub fn forget(&mut self, flattened: bool) {
         self.known = false;
         self.ends.fill(Ends::default());
@@ -97,22 +97,23 @@ impl YarnEnds {
     }
 
     /// Whether the device's control points have to be read before `count` points are uploaded from
-    /// number `first` on. They have to be where virtual ends may depend on points that were
+    /// number `first` on. They have to be read if virtual ends may depend on points that were
     /// forgotten.
     #[must_use]
     pub fn are_missing(&self, plan: &Plan, first: u64, count: usize) -> bool {
         !self.known && (first > 0 || (count as u64) < plan.layout().point_count())
     }
 
-    /// Takes all ends from the device's control points, which are padded as
+    /// Stores all ends from the device's control points, which are padded as
     /// [`Plan::padded_offsets`] of `plan` says.
     ///
-    /// **Panics** for fewer points, and for a plan with more yarns.
+    /// **Panics** for fewer points than those of `plan`, and if `plan` has fewer yarns than
+    /// [`YarnEnds::new`] was given.
     pub fn renew(&mut self, plan: &Plan, padded: &[ControlPoint]) {
         for (yarn, ends) in self.ends.iter_mut().enumerate() {
             let own = &padded[plan.padded_offsets()[yarn] as usize + 1..];
             let count = (plan.layout().offsets()[yarn + 1] - plan.layout().offsets()[yarn]) as usize;
-            // In a yarn of two points the second stands for the third, as in an upload.
+            // In a yarn of two points the second is also stored as the third, as in an upload.
             for (end, at) in ends.iter_mut().zip([0, 1, 2.min(count - 1), count - 2, count - 1]) {
                 *end = own[at];
             }
@@ -122,24 +123,25 @@ impl YarnEnds {
 }
 
 /// An upload of control points to padded memory, laid out as [`Plan::padded_offsets`] says. Several
-/// threads may write pieces of it at once.
+/// threads may write pieces of an upload at once.
 #[derive(Debug)]
 pub struct PaddedUpload<'a> {
     plan: &'a Plan,
     first: u64,
     points: &'a [ControlPoint],
     yarns: Range<usize>,
-    /// The ends of the first yarn and of the last one, which may be sent in part.
+    /// The ends of the first and of the last yarn, of which only a part may be sent.
     cut: [Ends; 2],
-    /// Whether a point that was lent, or sent before, is not round. It is found while the points
+    /// Whether any point that was lent, or sent before, is not round. Points are tested while they
     /// are in a core's cache anyway.
     flattened: AtomicBool,
 }
 
 impl PaddedUpload<'_> {
-    /// The three ranges of padded points that are to be written, in order: the first yarn's virtual
-    /// start, where it depends on points that were sent apart from it; the points sent, with the
-    /// virtual ends between them; the last yarn's virtual end, likewise. Any may be empty.
+    /// The three ranges of padded points that are to be written, in order. The first is the first
+    /// yarn's virtual start, if it changes but does not lie beside the points sent. The second is
+    /// the points sent, with the virtual ends between and beside them. The third is the last yarn's
+    /// virtual end, if it changes but does not lie beside the points sent. Any range may be empty.
     #[must_use]
     pub fn ranges(&self) -> [Range<u64>; 3] {
         let Some(last) = self.yarns.clone().last() else { return [0..0, 0..0, 0..0] };
@@ -147,8 +149,8 @@ impl PaddedUpload<'_> {
         let ([_, last_inner, back], [to, _]) = (self.places(last), self.overlap(last));
         let (start, end) = (inner.start + from.start as u64, last_inner.start + to.end as u64);
         let ([of_front, _], [_, of_back]) = (self.origins(self.yarns.start), self.origins(last));
-        // With the first of a yarn's points goes what lies before it, with the last what lies
-        // behind.
+        // A yarn's virtual start is sent together with its first point, and its virtual end
+        // together with its last.
         let (from_first, to_last) = (start == front.end, end == back.start);
         let start = if from_first { front.start } else { start };
         let end = if to_last { back.end } else { end };
@@ -160,9 +162,9 @@ impl PaddedUpload<'_> {
         ]
     }
 
-    /// Lends the padded points of `range` run by run: the caller's own points where they lie, and
-    /// virtual ends. `range` lies within one of [`PaddedUpload::ranges`]; of any other range only
-    /// the points that this upload knows are lent.
+    /// Lends the padded points of `range` run by run: slices of the caller's own points, and
+    /// virtual ends. `range` should lie within one of [`PaddedUpload::ranges`]. In any other range,
+    /// only the points that this upload has are lent.
     pub fn runs(&self, range: Range<u64>, mut take: impl FnMut(&[ControlPoint])) {
         let offsets = self.plan.padded_offsets();
         let before = offsets.partition_point(|&start| start <= range.start).saturating_sub(1);
@@ -200,14 +202,14 @@ impl PaddedUpload<'_> {
         points
     }
 
-    /// Where a yarn's virtual start, its points and its virtual end lie.
+    /// The ranges of padded points of a yarn's virtual start, its points and its virtual end.
     fn places(&self, yarn: usize) -> [Range<u64>; 3] {
         let Range { start, end } = self.plan.padded_range(yarn);
         let points = start + 1..start + 1 + self.count(yarn) as u64;
         [start..points.start, points.clone(), points.end..end]
     }
 
-    /// Which of a yarn's points its virtual start and its virtual end come from.
+    /// The ranges of a yarn's points from which its virtual start and its virtual end are computed.
     fn origins(&self, yarn: usize) -> [Range<usize>; 2] {
         let count = self.count(yarn);
         if self.plan.yarn(yarn).closed { [count - 1..count, 0..3] } else { [0..2, count - 2..count] }
@@ -222,7 +224,7 @@ impl PaddedUpload<'_> {
         self.plan.layout().points_of(yarn, &(self.first..self.first + self.points.len() as u64))
     }
 
-    /// The ends of a yarn after this upload; `ends` are those before it.
+    /// The ends of a yarn after this upload. `ends` are those before it.
     fn renewed(&self, yarn: usize, mut ends: Ends) -> Ends {
         let ([own, sent], count) = (self.overlap(yarn), self.count(yarn));
         for (end, at) in ends.iter_mut().zip([0, 1, 2, count - 2, count - 1]) {
@@ -233,7 +235,7 @@ impl PaddedUpload<'_> {
         ends
     }
 
-    /// A padded yarn of five points with the virtual ends of `yarn`.
+    /// A short padded yarn of five points that has the same virtual ends as `yarn`.
     fn short(&self, yarn: usize) -> [ControlPoint; 9] {
         let ends = match yarn {
             _ if yarn == self.yarns.start => self.cut[0],
@@ -249,11 +251,11 @@ impl PaddedUpload<'_> {
     }
 }
 
-/// What is written to room that holds no points yet.
+/// The zeros that are written to room without points.
 static ROOM: LazyLock<[ControlPoint; 64]> = LazyLock::new(|| [ControlPoint::default(); 64]);
 
-/// Whether all are round. There is no branch for each point, so that the test takes no time beside
-/// writing them.
+/// Whether all `points` are round. There is no branch for each point, so that the test takes little
+/// time compared with writing the points.
 fn all_round(points: &[ControlPoint]) -> bool {
     points.iter().fold(true, |round, point| round & point.is_round())
 }

@@ -1,4 +1,5 @@
-//! Where two intervals of round yarns come nearest to one another, refined on the spline.
+//! The places where two intervals of round yarns come nearest to one another, refined on the
+//! spline.
 
 use glam::{DMat2, DVec2, Vec2Swizzles};
 
@@ -13,22 +14,23 @@ const AT_KNOT: f64 = 1e-6;
 /// intervals.
 pub(super) const MARGIN: f64 = 0.05;
 
-/// Steps of refinement.
+/// The most steps of one refinement.
 pub(super) const STEPS: usize = 40;
 
 /// The longest step, in intervals.
 pub(super) const STRIDE: f64 = 0.25;
 
-/// A step this short ends refinement, in intervals. What is left changes a ratio by its square.
+/// The length of a step that ends refinement, in intervals. The place is then off by about as much,
+/// which changes the ratio only by the square of that length.
 pub(super) const SHORT: f64 = 1e-5;
 
-/// A step this short leads nowhere, in intervals.
+/// The length of a step that counts as none, in intervals.
 const CLOSE: f64 = 1e-7;
 
-/// The least curvature of an approach that is taken for the only one nearby. For two straight lines
-/// it is 1 minus the cosine of the angle between them.
+/// The least curvature of an approach that counts as the only one nearby. For two straight lines it
+/// is 1 minus the cosine of the angle between them.
 ///
-/// At 0.06 `it_agrees_with_brute_force` is red in one of 30,000 tangles: the search missed an
+/// At 0.06 `it_agrees_with_brute_force` fails in one of 30,000 tangles: the search missed an
 /// approach whose ratio was 0.0024 lower, in a valley of curvature below 0.1.
 const VALLEY: f64 = 0.2;
 
@@ -37,12 +39,13 @@ const VALLEY: f64 = 0.2;
 pub(super) struct Side<'a> {
     pub(super) cubic: &'a Cubic,
     pub(super) support: &'a Support,
-    /// Whether its beginning and its end are cut ends of an open yarn.
+    /// Whether the interval's beginning and end are cut ends of an open yarn.
     pub(super) cut: [bool; 2],
 }
 
 impl Side<'_> {
-    /// `t`, if it belongs to this interval. A knot within a yarn belongs to the later interval.
+    /// `t`, or the knot next to `t`, if that place belongs to this interval. A knot within a yarn
+    /// belongs to the later interval.
     pub(super) fn own(&self, t: f64) -> Option<f64> {
         if t < AT_KNOT {
             (self.cut[0] || t > -AT_KNOT).then_some(0.0)
@@ -67,15 +70,17 @@ impl Side<'_> {
     }
 }
 
-/// Where two round yarns come nearest to one another.
+/// An approach of two round yarns: the place where they come nearest to one another, and their
+/// distance there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Approach {
-    /// The distance over the sum of the radii. Where the place belongs to other intervals, the
-    /// nearest place of both intervals counts.
+    /// The distance over the sum of the radii. If the place belongs to other intervals, the nearest
+    /// place within both intervals counts.
     pub(super) ratio: f64,
-    /// Parameters of the place; none where it belongs to other intervals.
+    /// Parameters of the place, or none if the place belongs to other intervals.
     pub(super) own: Option<DVec2>,
-    /// Whether it lies in a valley, along which the distance hardly rises and may fall further on.
+    /// Whether the place lies in a valley, along which the distance hardly rises and may fall
+    /// further on.
     pub(super) valley: bool,
 }
 
@@ -116,21 +121,21 @@ fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64>
     (rises == (knot > 0.0)).then_some(knot)
 }
 
-/// |Δ|² - λ² (r₁ + r₂)², halved, near a place of two yarns: how it rises and how it bends.
+/// First and second derivatives of (|Δ|² - λ² (r₁ + r₂)²) / 2 at a place of two yarns.
 ///
-/// λ is the ratio there, so the value itself is 0.
+/// λ is the ratio at that place, so the function itself is 0 there.
 struct Slopes {
     gradient: DVec2,
-    /// The second derivative by both parameters.
+    /// The mixed second derivative.
     across: f64,
-    /// The second derivatives by each parameter, with what is added to make them convex.
+    /// The second derivatives by each parameter, plus what makes the function convex.
     bent: DVec2,
     /// The squared speeds of both curves.
     flat: [f64; 2],
     /// The least curvature. For two straight lines it is 1 minus the cosine of the angle between
     /// them.
     curved: f64,
-    /// Whether nothing had to be added.
+    /// Whether the function is convex without an addition.
     convex: bool,
 }
 
@@ -150,8 +155,9 @@ impl Slopes {
             (flat, bent)
         };
         let ((flat_a, bent_a), (flat_b, bent_b)) = (own(a, 1.0), own(b, -1.0));
-        // Where the distance is not convex, the diagonal gets enough added to make it convex, in
-        // proportion to the squared speeds. A little more keeps parallel lines where they are.
+        // If the distance is not convex, enough is added to the diagonal to make it convex, in
+        // proportion to the squared speeds. A little more keeps places on parallel lines from
+        // moving.
         let scale = DVec2::new(flat_a, flat_b) + f64::MIN_POSITIVE;
         let (own, along) = (DVec2::new(bent_a, bent_b) / scale, across / (scale.x * scale.y).sqrt());
         let curved = (own.x + own.y - (own.x - own.y).hypot(2.0 * along)) / 2.0;
@@ -167,11 +173,11 @@ impl Slopes {
         }
     }
 
-    /// Newton's step downhill, [`STRIDE`] at most; `held` says which parameters can't go on in a
+    /// Newton's step downhill, [`STRIDE`] at most. `held` says which parameters can't go on in a
     /// direction.
     fn step(&self, held: impl Fn(DVec2) -> [bool; 2]) -> DVec2 {
         let Self { gradient, across, bent, .. } = *self;
-        // A parameter that is held where it would go on stays; the other one goes on alone.
+        // A parameter that is held stays, and only the other one steps.
         let alone = |fixed: [bool; 2]| {
             let step = DVec2::new(-gradient.x / bent.x, -gradient.y / bent.y);
             DVec2::select(fixed.into(), DVec2::ZERO, step)
@@ -187,7 +193,7 @@ impl Slopes {
             }
             fixed => alone(fixed),
         };
-        // Where a yarn's velocity is 0 its parameter can't step; only the other one does.
+        // If a yarn's velocity is 0, its parameter can't step, and only the other one does.
         let step =
             if step.is_finite() { step } else { alone(self.flat.map(|flat| flat < f64::MIN_POSITIVE)) };
         let step = if step.is_finite() { step } else { DVec2::ZERO };
@@ -195,11 +201,11 @@ impl Slopes {
     }
 }
 
-/// Newton's method on (distance / sum of radii)²: the parameters, the ratio, and its least
-/// curvature there.
+/// Newton's method on (distance / sum of radii)². Returns the parameters, the ratio, and the least
+/// curvature before the last step.
 ///
-/// It goes by way of |Δ|² - λ² (r₁ + r₂)², whose least value at the least λ is 0 (Dinkelbach, "On
-/// nonlinear fractional programming", Management Science 13, 1967).
+/// The method minimises |Δ|² - λ² (r₁ + r₂)², whose least value is 0 if λ is the least ratio
+/// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
 fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
     let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
     let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
@@ -231,7 +237,7 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
             }
             step /= 2.0;
         };
-        // If nothing was added, the error after a step is about the step squared.
+        // If the function is convex by itself, the error after a step is about the step squared.
         if moved < if slopes.convex { SHORT } else { CLOSE } {
             break;
         }

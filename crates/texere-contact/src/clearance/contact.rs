@@ -9,29 +9,31 @@ pub const CLEARANCE_NEAR: f64 = 1.1;
 
 /// The least ratio at which surfaces do not pierce one another.
 ///
-/// Splines through points at which round threads just touch come to 0.987 between them (poplin,
-/// docs/SETTLING.md), and woven cloth at rest is brought to 0.986: at 0.99 both would be faults.
+/// Splines through points at which round threads just touch come as near as 0.987 between the
+/// points (poplin, docs/SETTLING.md). Woven cloth at rest is brought to 0.986. With a limit of 0.99
+/// both would be faults.
 pub const CLEAR: f64 = 0.985;
 
-/// The accuracy of a ratio: yarns at 0.999 of touching count as touching.
+/// The accuracy of a ratio. Yarns at a ratio of 0.999 count as touching.
 ///
-/// Yarns with plies, corners or twisted flat sections may have an unseen touch that is nearer by up
-/// to 0.003, and by more where such a yarn bends as sharply as it is thick and meets itself. Once
-/// one of their ratios is below 0.25, no smaller one is looked for. A section that reaches four
-/// times as far as its control points lie apart counts by its hull, untwisted.
+/// Yarns with plies, corners or twisted flat sections may have a contact that is not found, nearer
+/// than the one found by up to 0.003. The difference may be larger where such a yarn bends as
+/// sharply as it is thick and meets itself. Once a ratio of two intervals is below 0.25, no smaller
+/// one is looked for. A section that reaches 64 times as far as its control interval is long counts
+/// by its hull, untwisted.
 ///
 /// Flattened yarns that bend sharply may approach twice on one pair of intervals. The nearer
-/// approach may then stay unseen.
+/// approach may then not be found.
 pub const CLEARANCE_ACCURACY: f64 = 1e-3;
 
 /// The most contacts that are listed one by one.
 pub const CONTACTS_LISTED: usize = 100;
 
-/// The most intervals that one interval is compared with in a cell of the search: those that meet
-/// one plane through it.
+/// The most intervals that one interval is compared with in a cell of the search. Only intervals
+/// that meet one plane through it are compared.
 ///
-/// Yarns that are clear of one another reach this number where a radius has some 250 control
-/// points, or where a thousand straight yarns of two points lie side by side.
+/// Yarns that are clear of one another reach this number only if a radius has some 250 control
+/// points, or if a thousand straight yarns of two points lie side by side.
 pub const CLEARANCE_BESIDE: usize = 1024;
 
 /// The most pairs of control intervals that are compared for each control point. An interval lies
@@ -47,9 +49,9 @@ pub const CLEARANCE_BIN: f64 = 0.01;
 pub struct Contact {
     /// The two places, the lower yarn first.
     pub places: [YarnPlace; 2],
-    /// The factor by which both sections could grow until their surfaces touch: 1 where they just
-    /// touch, less where they pierce. For round yarns it is the distance of the centrelines over
-    /// the sum of the radii. A section counts with all that lies between its centre and its
+    /// The factor by which both sections could grow until their surfaces touch. It is 1 if they
+    /// just touch, and less if they pierce. For round yarns it is the distance of the centrelines
+    /// over the sum of the radii. A section counts with all that lies between its centre and its
     /// outline.
     pub ratio: f64,
 }

@@ -24,7 +24,7 @@ pub struct Crowd {
 }
 
 impl Crowd {
-    /// The crowd that `parts` make; `place` makes a place of a part. None without parts.
+    /// The crowd that `parts` make, or none without parts. `place` makes a place of a part.
     pub(super) fn of<'p, 'a: 'p>(
         parts: &'p [Part<'a>],
         place: impl FnOnce(&'p Part<'a>) -> YarnPlace,
@@ -36,8 +36,8 @@ impl Crowd {
             let line = &part.line;
             let cubic = line.cubic(part.point);
             room = room.joined(line.bounds(part.point, 1.0));
-            // A lower bound of the interval's volume: it is no shorter than its chord, and nowhere
-            // thinner than this.
+            // A lower bound of the interval's volume: the interval is no shorter than its chord,
+            // and nowhere thinner than these half sizes.
             let [width, height] = std::array::from_fn(|side| {
                 let bounds = cubic.half_bounds()[side];
                 bounds.into_iter().fold(f64::INFINITY, f64::min).max(cubic.floors()[side])
@@ -64,7 +64,7 @@ impl Crowd {
         })
     }
 
-    /// Upper bound of the least ratio there; infinite where it is not known.
+    /// Upper bound of the least ratio in the crowd, infinite if none is known.
     pub(super) fn ratio_max(&self) -> f64 {
         if self.fill > 1.0 { self.fill.sqrt().recip() } else { f64::INFINITY }
     }

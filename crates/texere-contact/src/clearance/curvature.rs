@@ -1,8 +1,7 @@
 //! The tightest bend of an interval, by branch and bound.
 //!
-//! The idea is simple: an interval's half bends no tighter than a bound on its coefficients says,
-//! so a half whose bound is wider than the tightest bend so far is left out, and any other is
-//! halved again.
+//! The coefficients of a part give a lower bound of its radius of curvature. A part whose bound is
+//! not below the least radius so far is left out. Any other part is halved.
 
 use glam::{DVec2, DVec3};
 
@@ -12,16 +11,16 @@ use super::support::Support;
 /// The share by which the true tightest bend may be tighter than the one found.
 const ACCURACY: f64 = 1e-3;
 
-/// Times that an interval is halved. A velocity that turns round within so short a part turns
-/// straight back.
+/// The most times that an interval is halved. If the velocity reverses within so short a part, the
+/// yarn counts as turning straight back there.
 const HALVINGS: u32 = 20;
 
-/// Times that an interval is halved until a section that is no circle counts as reaching equally
-/// far everywhere in a part.
+/// The number of halvings after which a section that is not a circle counts as reaching equally far
+/// everywhere in a part.
 const HALVINGS_FLAT: u32 = 3;
 
-/// A part of an interval as Bernstein coefficients. Each halving brings them four times as close to
-/// what they bound.
+/// A part of an interval as Bernstein coefficients. Each halving brings the coefficients four times
+/// as close to the curve that they bound.
 #[derive(Debug, Clone, Copy)]
 struct Part {
     from: f64,
@@ -38,7 +37,7 @@ impl Part {
         Self { from: 0.0, length: 1.0, halvings: 0, velocity, halves }
     }
 
-    /// De Casteljau's algorithm.
+    /// Both halves of the part, by de Casteljau's algorithm.
     fn halves(&self) -> [Self; 2] {
         let [u, v, w] = self.velocity;
         let (uv, vw) = ((u + v) / 2.0, (v + w) / 2.0);
@@ -75,8 +74,8 @@ impl Part {
         [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
 
-    /// Velocity × acceleration, of degree two. The lengths of its coefficients are the coefficients
-    /// of an upper bound of its length.
+    /// The cross product of velocity and acceleration, of degree two. The lengths of its
+    /// coefficients are the coefficients of an upper bound of its length.
     fn turn(&self) -> [DVec3; 3] {
         let [u, v, w] = self.velocity;
         [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn / self.length)
@@ -86,9 +85,10 @@ impl Part {
     /// |v × a|.
     ///
     /// Two sufficient conditions are tried. First, the slowest place is fast enough for the
-    /// sharpest turn. Second, and closer: |v|³ is a convex function of |v|² and lies above its
-    /// tangent at the middle's `speed_squared`. What is left to show is that a polynomial of degree
-    /// four is not negative, which holds where none of its coefficients is.
+    /// sharpest turn. Second, |v|³ is a convex function of |v|² and lies above its tangent at the
+    /// middle's `speed_squared`. It then suffices that a polynomial of degree four is not negative,
+    /// which holds if none of its coefficients is. The second condition holds more often than the
+    /// first.
     fn bends_less(&self, least: f64, speed_squared: f64) -> bool {
         let (squares, turn) = (self.speed_squared(), self.turn());
         let slowest = squares.into_iter().fold(f64::INFINITY, f64::min);
@@ -111,7 +111,7 @@ impl Part {
         2.0 * (fastest * hardest).sqrt() / self.length
     }
 
-    /// Where the part begins, its middle, and where it ends.
+    /// The places at the beginning, in the middle and at the end of the part.
     fn places(&self) -> [Place; 3] {
         let [u, v, w] = self.velocity;
         let place = |share: f64, velocity, change: DVec3, half: fn([f64; 4]) -> f64| Place {
@@ -145,7 +145,7 @@ struct Search<'a> {
     floors: DVec2,
     /// Whether the interval runs along one line.
     straight: bool,
-    /// The least ratio so far, and where it is.
+    /// The least ratio so far, and its parameter.
     best: (f64, Option<f64>),
 }
 
@@ -154,7 +154,7 @@ impl Search<'_> {
         let [start, middle, end] = part.places();
         let reach = self.reach(&middle);
         if self.straight {
-            // It may still turn straight back.
+            // The interval may still turn straight back.
             if part.speed_squared().iter().all(|square| *square > 0.0) {
                 return;
             }
@@ -199,8 +199,8 @@ impl Search<'_> {
         }
     }
 
-    /// How far the section reaches into the bend, mm. It is 0 or less where a polygon beside its
-    /// axis lies on the outer side alone, which folds in no bend.
+    /// How far the section reaches into the bend, mm. It is 0 or less if a polygon that does not
+    /// hold its axis lies on the outer side alone. Then the section folds in no bend.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {
@@ -210,7 +210,7 @@ impl Search<'_> {
         let inwards = velocity.cross(place.acceleration).cross(velocity).normalize_or_zero();
         let [side, up] = self.cubic.frame(place.t, velocity.normalize_or_zero());
         if self.turning {
-            // It turns within the circle round it, and then it is flattened.
+            // The section turns within the circle round it, and is flattened afterwards.
             let across = DVec2::new(inwards.dot(side), inwards.dot(up)) * sizes;
             return across.length() * self.support.extent();
         }
@@ -219,10 +219,10 @@ impl Search<'_> {
 }
 
 /// The least radius of curvature of an interval over how far the section reaches into the bend, and
-/// its place. None unless it is clearly less than `within`. It is exact to [`ACCURACY`], and 0
-/// where the yarn turns straight back.
+/// the parameter of that bend. None unless the ratio is clearly less than `within`. The ratio is
+/// exact to [`ACCURACY`], and 0 if the yarn turns straight back.
 ///
-/// Sections stand upright. With `turning` they count with the furthest reach of any position.
+/// Sections stand upright. With `turning` each counts with the furthest reach of any roll.
 pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;

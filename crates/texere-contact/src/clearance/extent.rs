@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::interval::Cubic;
 use super::support::Support;
 
-/// Parameters of the sections that stand for the whole interval: its beginning, middle and end.
+/// Parameters of the sections that represent the whole interval: its beginning, middle and end.
 const STATIONS: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// The share of a second difference by which a value may be larger between stations. A parabola
@@ -50,8 +50,9 @@ impl Extent {
     }
 
     /// Whether a plane shows that the surfaces are clear of one another with sections `near` times
-    /// as large. Two planes are tried: at right angles to the line between the middles, and at
-    /// right angles to that line as a flat thread's surface bends it.
+    /// as large. Two planes are tried. The first is at right angles to the line between the
+    /// middles, stretched as the normal of a flat thread's surface is. The second is at right
+    /// angles to the line itself.
     pub(super) fn is_clear_of(&self, other: &Self, near: f64) -> bool {
         let apart = other.middle - self.middle;
         let [wide, high] = [0, 1].map(|half| self.halves[half] + other.halves[half]);

@@ -1,4 +1,4 @@
-//! Contacts as they are found: all are counted, the worst are kept.
+//! Contacts as they are found. All are counted, and the worst are kept.
 
 use std::cmp::Ordering;
 
@@ -10,7 +10,7 @@ const BINS: usize = 110;
 
 /// The contacts of one task.
 pub(super) struct Found {
-    /// The least ratio, listed or not.
+    /// The least ratio of all contacts, listed or not.
     pub(super) least: f64,
     pub(super) below_one: u64,
     pub(super) piercing: u64,
@@ -21,7 +21,7 @@ pub(super) struct Found {
     pub(super) pairs: u64,
     /// Contacts above this ratio are counted, but not kept.
     bar: f64,
-    /// How many of the worst are kept.
+    /// The number of worst contacts that are kept.
     most: usize,
 }
 

@@ -1,4 +1,4 @@
-//! One control interval of a yarn: the cubic in double precision, and chords along it.
+//! One control interval of a yarn: its cubic in double precision, and chords along the cubic.
 
 use std::f64::consts::TAU;
 
@@ -11,9 +11,9 @@ use super::support::upright;
 /// The most chords of an interval.
 const CHORDS_MAX: usize = 12;
 
-/// How far an interval may lie from its chords, in radii of its yarn. It is so little that every
-/// approach of two yarns is also one of their chords, and that refinement starts where it
-/// converges.
+/// How far an interval may lie from its chords, in radii of its yarn. The distance is small enough
+/// that every approach of two yarns is also an approach of their chords, and that refinement from
+/// there converges.
 pub(super) const SAGITTA: f64 = 0.1;
 
 /// The spline between two control points, as polynomials of t in \[0, 1\].
@@ -23,13 +23,13 @@ pub(super) struct Cubic {
     /// Half width and half height.
     halves: [[f64; 4]; 2],
     floors: [f64; 2],
-    /// The up directions of both ends, and the tangents there. None where the yarn stays in the
-    /// plane of its cloth.
+    /// The up directions of both ends, and the tangents there. None if the yarn has no up
+    /// directions.
     ups: Option<[[DVec3; 2]; 2]>,
 }
 
-/// The cubic at one parameter: position with its first and second derivative, half width and half
-/// height with theirs.
+/// The cubic at one parameter: position, half width and half height, each with its first and second
+/// derivative.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At {
     pub(super) position: DVec3,
@@ -76,8 +76,8 @@ impl Cubic {
         Self { ups: Some([ups.map(Vec3::as_dvec3), tangents]), ..self }
     }
 
-    /// Side and up of the frame along which the yarn is flattened at `t`, where it has this
-    /// `tangent`.
+    /// Side and up of the frame along which the yarn is flattened at `t`. `tangent` is the tangent
+    /// at `t`.
     pub(super) fn frame(&self, t: f64, tangent: DVec3) -> [DVec3; 2] {
         let up = self.ups.map(|[ups, tangents]| up_between(ups, tangents, tangent, t.clamp(0.0, 1.0)));
         match up.filter(|up| *up != DVec3::ZERO) {
@@ -86,7 +86,7 @@ impl Cubic {
         }
     }
 
-    /// Turn of that frame against the upright one, turns.
+    /// Turn of the frame at `t` against the upright one, turns.
     pub(super) fn lean(&self, t: f64, tangent: DVec3) -> f64 {
         if self.ups.is_none() {
             return 0.0;
@@ -133,7 +133,8 @@ impl Cubic {
         [c0, c0 + c1 / 3.0, end - (c1 + 2.0 * c2 + 3.0 * c3) / 3.0, end]
     }
 
-    /// Three vectors in whose triangle the velocity stays: its Bernstein coefficients.
+    /// The Bernstein coefficients of the velocity, which stays within the triangle of these three
+    /// vectors.
     pub(super) fn velocities(&self) -> [DVec3; 3] {
         let [_, c1, c2, c3] = self.position;
         [c1, c1 + c2, c1 + 2.0 * c2 + 3.0 * c3]
@@ -232,10 +233,11 @@ pub(super) struct Chords {
 }
 
 impl Chords {
-    /// Calls `start` for each approach of the two polygons: a pair of chords nearer than `within`
-    /// and nearer than all pairs beside it. `start` gets the parameters at which the chords come
-    /// nearest, and those of the chords' middles. With `edges`, pairs at an end of an interval also
-    /// count that are nearer than the pairs beside them there: they may lead in to an approach.
+    /// Calls `start` for each approach of the two polygons. An approach is a pair of chords nearer
+    /// than `within` and nearer than all pairs beside it. `start` gets the parameters at which the
+    /// chords come nearest, and the parameters of the chords' middles. With `edges`, a pair at an
+    /// end of an interval also counts if it is nearer than the pairs beside it along that end,
+    /// because an approach may lie further in.
     pub(super) fn approaches(
         &self,
         other: &Self,
@@ -243,7 +245,7 @@ impl Chords {
         edges: bool,
         mut start: impl FnMut([DVec2; 2]),
     ) {
-        /// A row of pairs, with one place more on each side.
+        /// Entries of a row of pairs: one for each chord, and one more on each side.
         const ROW: usize = CHORDS_MAX + 2;
         let (rows, columns) = (self.count, other.count);
         let mut near = [f64::INFINITY; ROW * ROW];
@@ -251,7 +253,8 @@ impl Chords {
             let one = self.chord(row);
             for column in 0..columns {
                 let two = other.chord(column);
-                // Twice the distance of the middles, and twice what both could reach from there.
+                // Twice the distance of the middles, and twice how far both chords could reach from
+                // there.
                 let apart = (one[0] + one[1] - two[0] - two[1]).length_squared();
                 let reach = 2.0 * within + self.lengths[row] + other.lengths[column];
                 if apart <= reach * reach {
@@ -309,8 +312,8 @@ pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f
     let (c, b) = (along.dot(apart), along.dot(other));
     let mut s = share(b * f - c * e, a * e - b * b);
     let mut t = share(b * s + f, e);
-    // The other end's best place may lie off it; then the first one's best place for that end
-    // counts.
+    // The best place on the other segment may lie beyond its end. Then the best place on the first
+    // segment is the one for that end.
     s = share(b * t - c, a);
     t = share(b * s + f, e);
     ((p + along * s).distance_squared(q + other * t), s, t)

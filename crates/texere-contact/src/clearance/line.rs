@@ -1,4 +1,4 @@
-//! Yarns, interval by interval.
+//! The control intervals of yarns.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
@@ -13,10 +13,10 @@ use super::interval::Cubic;
 use super::support::Support;
 use crate::grid::Bounds;
 
-/// The most intervals ahead over which a yarn may be seen to lead straight on.
+/// The most intervals ahead for which a yarn is tested to lead straight on.
 const LEAD: usize = 3;
 
-/// Control points between two whose way along the yarns is stored.
+/// Number of control points from one entry of the stored ways to the next.
 const STRIDE: usize = 64;
 
 const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);
@@ -27,7 +27,7 @@ const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NE
 pub(super) struct Line<'a> {
     pub(super) yarn: usize,
     pub(super) support: &'a Support,
-    /// Number of the first control point.
+    /// Number of the yarn's first control point in the fabric.
     first: usize,
     points: &'a [ControlPoint],
     /// Up directions of the control points, if the yarn has any.
@@ -38,9 +38,9 @@ pub(super) struct Line<'a> {
     ways: &'a [f64],
 }
 
-/// Way along the chords from the fabric's first control point to every 64th one, mm. Yarns follow
-/// one another as if they were one. The way between two points of a yarn is a difference of two
-/// entries and a few chords.
+/// Way along the chords from the fabric's first control point to every 64th one, mm. The ways of
+/// consecutive yarns are added as if they were one yarn. The way between two points of a yarn is a
+/// difference of two entries and a few chords.
 pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
     let stride = |start: usize| -> f64 {
         let chords = points[start..points.len().min(start + STRIDE + 1)].windows(2);
@@ -63,7 +63,8 @@ pub(super) struct Span<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// Yarn `yarn`, whose section reaches as far as `support` says; `ways` are the fabric's.
+    /// Yarn number `yarn`, whose section reaches as far as `support` says. `s` is the factor of the
+    /// spline's tangents, and `ways` are those of the fabric, from [`ways`].
     pub(super) fn new(yarns: &'a Yarns, yarn: usize, support: &'a Support, s: f64, ways: &'a [f64]) -> Self {
         let own = yarns.range(yarn).unwrap_or_default();
         Self {
@@ -78,13 +79,13 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// All its intervals.
+    /// Numbers of all intervals of the yarn.
     pub(super) fn intervals(&self) -> Range<usize> {
         let count = self.points.len();
         self.first..self.first + if self.closed { count } else { count.saturating_sub(1) }
     }
 
-    /// All its intervals in order, `most` at a time at most.
+    /// All intervals of the yarn in order, in spans of `most` at most.
     pub(super) fn spans(self, most: usize) -> impl Iterator<Item = Span<'a>> {
         let all = self.intervals();
         let starts = all.clone().step_by(most);
@@ -107,7 +108,7 @@ impl<'a> Line<'a> {
         neighbours(self.points, self.closed, point - self.first)
     }
 
-    /// The four control points of the interval after it, if the yarn goes on.
+    /// The four control points of the interval after interval `point`, if the yarn goes on.
     pub(super) fn window_after(&self, point: usize) -> Option<[ControlPoint; 4]> {
         let ends = !self.closed && point + 1 == self.intervals().end;
         (!ends).then(|| neighbours(self.points, self.closed, point + 1 - self.first))
@@ -122,11 +123,12 @@ impl<'a> Line<'a> {
 
     /// A box that holds everything within `margin` times the section's reach of an interval.
     ///
-    /// It serves to find neighbours: in single precision, and a little too large.
+    /// The box serves to find neighbours. It is in single precision, and a little too large.
     #[inline]
     pub(super) fn bounds(&self, point: usize, margin: f64) -> Bounds {
         let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first);
-        // One by one: a map over the array stays a call, in the innermost of loops.
+        // The points are converted one by one, because a map over the array is not inlined in this
+        // innermost loop.
         let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.half_width());
         let heights = [before, start, end, after].map(|point| point.half_height());
         let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
@@ -144,12 +146,12 @@ impl<'a> Line<'a> {
         Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
     }
 
-    /// Whether the yarn leads on so straight from one interval to a later one that the two meet in
-    /// common knots alone.
+    /// Whether the yarn leads on so straight from one interval to a later one that the two touch at
+    /// a common knot at most.
     ///
-    /// Its tangents lie within 45 degrees of one direction. Then none of its parts leads back, and
-    /// any two places that are π/2 times their reach apart along it are more than
-    /// [`CLEARANCE_NEAR`] times that apart, whatever the section.
+    /// The test is whether the tangents lie within 45 degrees of one direction. Then no part of the
+    /// yarn leads back, and any two places that are π/2 times their reach apart along the yarn are
+    /// more than [`CLEARANCE_NEAR`] times their reach apart in space, whatever the section.
     pub(super) fn leads_on(&self, from: usize, to: usize) -> bool {
         if to - from > LEAD {
             return false;
@@ -163,8 +165,8 @@ impl<'a> Line<'a> {
         cubics.flat_map(Cubic::velocities).all(onward)
     }
 
-    /// Whether two places of the yarn, at `s` of interval `from` and at `t` of a later interval
-    /// `to`, are less than `window` apart along it, by its chords.
+    /// Whether two places of the yarn are less than `window` apart along its chords: `s` of
+    /// interval `from`, and `t` of a later interval `to`.
     pub(super) fn within(&self, window: f64, (from, s): (usize, f64), (to, t): (usize, f64)) -> bool {
         let forward = |(from, s): (usize, f64), (to, t): (usize, f64)| {
             let (cubic, count, to_own) = (self.cubic(from), self.points.len(), to - self.first);
@@ -193,14 +195,14 @@ impl<'a> Line<'a> {
     }
 
     /// The way over whole strides from the yarn's point `at` towards its point `ahead`, and the
-    /// point at which they end. None where no whole stride begins there.
+    /// point at which the strides end. None if no whole stride begins at `at`.
     fn strides(&self, at: usize, ahead: usize) -> Option<(f64, usize)> {
         let (from, to) = (self.first + at, (self.first + ahead) / STRIDE);
         let starts = from % STRIDE == 0 && from / STRIDE < to;
         starts.then(|| (self.ways[to] - self.ways[from / STRIDE], to * STRIDE - self.first))
     }
 
-    /// The place at `t` of an interval, `sources` being the fabric's.
+    /// The place at `t` of an interval. `sources` are the sources of the fabric's control points.
     pub(super) fn place(&self, point: usize, t: f64, sources: Option<&[u32]>) -> YarnPlace {
         let interval = point - self.first;
         let nearer = if t < 0.5 { interval } else { (interval + 1) % self.points.len() };

@@ -1,4 +1,4 @@
-//! What the search knows of one interval that meets others in a cell.
+//! What the search has worked out for one interval of a cell.
 
 use std::cell::OnceCell;
 
@@ -9,8 +9,8 @@ use super::passing::Passing;
 use super::rolls::{IntervalRolls, Rolls};
 use super::support::Support;
 
-/// What an interval's comparisons with others need, each part worked out when it is first asked
-/// for.
+/// What the comparisons of an interval with others need. Each part is worked out when it is first
+/// needed.
 #[derive(Default)]
 pub(super) struct Met {
     curve: OnceCell<Curve>,
@@ -36,13 +36,13 @@ impl Met {
 pub(super) struct Curve {
     pub(super) cubic: Cubic,
     pub(super) passing: Passing,
-    /// How far its surface may lie from the centreline, mm.
+    /// How far the yarn's surface may lie from its centreline, mm.
     pub(super) reach: f64,
     /// Whether sections are circles, so that the distance of the centrelines counts.
     pub(super) round: bool,
     /// Whether all sections are circles of one size.
     pub(super) even: bool,
-    /// From [`Rolls::of_interval`].
+    /// The rolls of the interval, from [`Rolls::of_interval`].
     pub(super) rolls: IntervalRolls,
 }
 

@@ -44,15 +44,15 @@ const _: () = assert!(FULL / 2 <= CLEARANCE_BESIDE);
 /// The most control points whose clearance is measured.
 const POINTS_LIMIT: usize = 1 << 29;
 
-/// Cells, and intervals, that one task takes.
+/// Number of cells in one task of the search, and of intervals in one task of the bends.
 const TASK: usize = 1024;
 
 /// How near yarns come to one another and to themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// The least [ratio](Contact::ratio) of all contacts; infinite where nothing comes within
-    /// [`CLEARANCE_NEAR`]. A [crowd](Clearance::crowd) bounds it from above by the room that its
-    /// yarns have, which may be less than the ratio of any contact.
+    /// The least [ratio](Contact::ratio) of all contacts, infinite if nothing comes within
+    /// [`CLEARANCE_NEAR`]. A [crowd](Clearance::crowd) bounds this ratio from above by the room
+    /// that the yarns there have. That bound may be less than the ratio of any contact.
     pub min: f64,
     /// Number of contacts within [`CLEARANCE_NEAR`]. Two yarns side by side may make a contact in
     /// each pair of control intervals.
@@ -64,15 +64,15 @@ pub struct Clearance {
     pub piercing: u64,
     /// The worst contacts, [`CONTACTS_LISTED`] at most, worst first.
     pub worst: Vec<Contact>,
-    /// Numbers of contacts by ratio: in \[0, 0.01), \[0.01, 0.02) and so on to [`CLEARANCE_NEAR`],
-    /// in steps of [`CLEARANCE_BIN`].
+    /// Numbers of contacts by ratio, in steps of [`CLEARANCE_BIN`]: in \[0, 0.01), \[0.01, 0.02)
+    /// and so on to [`CLEARANCE_NEAR`].
     pub histogram: Vec<u64>,
     /// The least radius of curvature, over how far the section reaches into the bend. A round
-    /// section reaches by its radius, a section that turns by the furthest it may reach in any
-    /// position. Below 1 the tube folds into itself; infinite where all yarns are straight. It is
-    /// exact to a thousandth.
+    /// section reaches as far as its radius, and a section that turns as far as it may reach with
+    /// any roll. Below 1 the tube folds into itself. The value is infinite if all yarns are
+    /// straight, and exact to a thousandth.
     pub curvature_min: f64,
-    /// The place of that bend.
+    /// The place of the tightest bend.
     pub curvature_at: Option<YarnPlace>,
     /// The worst of the places that are too crowded to be measured. The numbers above leave out
     /// contacts there.
@@ -89,17 +89,16 @@ pub struct Clearance {
 /// furrow touches where the surfaces do, not where their hulls would. Each pair of yarn parts
 /// within [`CLEARANCE_NEAR`] counts with its nearest approach.
 ///
-/// Two places of one yarn count from an arc length of π/2 times the sum of their radii on, measured
-/// by the chords between control points. Nearer places can only meet in a bend tighter than the
-/// yarn is thick, which shows in the curvature (Schur's theorem: no curve with that curvature
-/// brings its ends closer than the circle does). A loop within one control interval shows there
+/// Two places of one yarn count if they are at least π/2 times the sum of their radii apart along
+/// the chords between control points. Nearer places can only meet in a bend tighter than the yarn
+/// is thick, which shows in the curvature (Schur's theorem: no curve with that curvature brings its
+/// ends closer than the circle does). A loop within one control interval shows in the curvature
 /// too, and is no contact.
 ///
-/// Yarns that are several times as thick as they lie apart are not compared in pairs: they are
-/// reported at once as [`Clearance::crowd`]. Time therefore grows with the control points alone.
-/// Flat sections take about seven times as long as round ones, sections with plies or twist ten to
-/// thirty times. Memory is about 9 bytes a control point beside the yarns, and 4 more where a
-/// yarn's roll matters.
+/// Yarns that are several times as thick as they lie apart are not compared in pairs, but reported
+/// as [`Clearance::crowd`]. Time therefore grows with the control points alone. Flat sections take
+/// about seven times as long as round ones, sections with plies or twist ten to thirty times.
+/// Memory is about 9 bytes a control point beside the yarns, and 4 more if a yarn's roll matters.
 ///
 /// **Errors**: [`ContactError::ClearancePoints`] for more control points than are measured,
 /// [`ContactError::Settings`] for points between control points that no mesh is made with,
@@ -121,10 +120,10 @@ pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, Contac
     clearance_with_progress(yarns, settings, |_| ControlFlow::Continue(()))
 }
 
-/// [`clearance()`] that calls `progress` with the share of the work done, from 0 to 1, from any
-/// thread. `Break` ends the measurement.
+/// Measures as [`clearance()`] does, and calls `progress` with the share of the work done, from 0
+/// to 1, from any thread. `Break` ends the measurement.
 ///
-/// **Errors**: the errors of [`clearance`]; [`ContactError::Cancelled`] where `progress` asked to
+/// **Errors**: the errors of [`clearance`], and [`ContactError::Cancelled`] if `progress` asks to
 /// stop.
 ///
 /// ```
@@ -152,10 +151,10 @@ pub fn clearance_with_progress(
     measured(yarns, settings, [CLEARANCE_NEAR, f64::INFINITY], &|_| true, &mut progress)
 }
 
-/// [`clearance()`] of the intervals for which `fresh` holds, among themselves and with all others;
-/// `fresh` gets the number of an interval's first control point. `[near, ratio]` are limits: no
-/// contact beyond `near` is looked for, and all contacts up to `ratio` are listed, worst first,
-/// instead of the worst [`CONTACTS_LISTED`].
+/// Measures the [`clearance()`] of the intervals for which `fresh` holds, among themselves and from
+/// all other intervals. `fresh` gets the number of an interval's first control point.
+/// `[near, ratio]` are limits. No contact beyond `near` is looked for. All contacts up to `ratio`
+/// are listed, worst first, instead of the worst [`CONTACTS_LISTED`].
 pub fn clearance_up_to(
     yarns: &Yarns,
     settings: &Settings,
@@ -185,8 +184,9 @@ pub fn bends_up_to(
     Ok(spans.par_iter().flat_map_iter(|span| probe.bends(span, &rolls, ratio, &fresh)).collect())
 }
 
-/// The clearance of the intervals of `yarns` for which `fresh` holds, of contacts within `near`. It
-/// keeps all contacts up to a finite ratio, and the worst where the ratio is infinite.
+/// The clearance of the intervals of `yarns` for which `fresh` holds, of contacts within `near`.
+/// The worst contacts are listed if `ratio` is infinite, and all contacts up to `ratio` if it is
+/// finite.
 fn measured(
     yarns: &Yarns,
     settings: &Settings,

@@ -1,20 +1,20 @@
 //! Whether two intervals of round yarns come nearer to one another anywhere than the nearest
 //! approach found so far.
 //!
-//! Both are halved until bounds decide it.
+//! Both intervals are halved until bounds on their pieces decide.
 
 use glam::{DVec2, DVec4, Vec4Swizzles};
 
 use super::interval::{Cubic, closest, off_chord};
 
-/// The most halvings of an interval. Pieces this short are judged by one point each.
+/// The most halvings of an interval. Only one place is compared of a piece that is this short.
 const HALVINGS: u32 = 12;
 
 /// A piece of an interval: centreline and radius as one Bézier polygon in four dimensions.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     corners: [DVec4; 4],
-    /// Where the piece begins in the interval, and its length, as parameters.
+    /// The parameter of the interval at which the piece begins.
     start: f64,
     length: f64,
     halvings: u32,
@@ -27,7 +27,7 @@ impl Piece {
         Self { corners, start: 0.0, length: 1.0, halvings: 0 }
     }
 
-    /// Both halves, by de Casteljau's corners.
+    /// Both halves of the piece, by de Casteljau's algorithm.
     fn halves(&self) -> [Self; 2] {
         let middle = |a: DVec4, b: DVec4| (a + b) * 0.5;
         let [a, b, c, d] = self.corners;
@@ -46,8 +46,8 @@ impl Piece {
         off_chord(self.corners.map(DVec4::xyz))
     }
 
-    /// Lower bound of the distance to another piece: how far the polygons lie apart along the
-    /// direction between a place of each chord, mm.
+    /// Lower bound of the distance to another piece, mm: how far the polygons lie apart along the
+    /// direction from place `s` of this piece's chord to place `t` of the other's.
     fn levels(&self, other: &Self, s: f64, t: f64) -> f64 {
         let at = |piece: &Self, t: f64| piece.corners[0].xyz().lerp(piece.corners[3].xyz(), t);
         let towards = (at(other, t) - at(self, s)).normalize_or_zero();
@@ -61,7 +61,7 @@ impl Piece {
         others - own
     }
 
-    /// Lower and upper bound of its radius, before it is held at its floor.
+    /// Lower and upper bound of the piece's radius, before the radius is held at its floor.
     fn radii(&self) -> [f64; 2] {
         let [a, b, c, d] = self.corners.map(|corner| corner.w);
         [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
@@ -73,7 +73,7 @@ impl Piece {
 ///
 /// Two pieces are at least as far apart as their chords, minus each piece's distance from its
 /// chord. Pieces that may come nearer than `below` are halved. The search finds the nearer of two
-/// approaches in one valley, where the chords of the main search see only one.
+/// approaches in one valley, while the chords of the main search have only one approach there.
 pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
     let [floor, other_floor] = [one, other].map(|cubic| cubic.floors()[0]);
     if below <= 0.0 {
@@ -95,7 +95,7 @@ pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
         if there.position.distance(beside.position) < below * (there.radius()[0] + beside.radius()[0]) {
             return Some(place);
         }
-        // The piece that lies further from its chord is halved.
+        // The piece with the wider bounds is halved.
         let (vague_a, vague_b) = (bend_a + below * (thick_a - thin_a), bend_b + below * (thick_b - thin_b));
         match (a.halvings < HALVINGS, b.halvings < HALVINGS) {
             (true, more) if vague_a >= vague_b || !more => left.extend(a.halves().map(|half| (half, b))),

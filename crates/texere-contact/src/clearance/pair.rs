@@ -1,7 +1,8 @@
-//! Where two intervals come near to one another.
+//! The places where two intervals come near to one another.
 //!
-//! Cheap tests part most pairs: neighbours along a yarn, chords too far away, a plane between the
-//! surfaces. What is left is searched from where the chords of both curves come near.
+//! Quick tests rule out most pairs: neighbours along a yarn, intervals whose chords are too far
+//! apart, surfaces with a plane between them. In all other pairs the search starts from the places
+//! where the chords of both curves come near.
 //!
 //! ```text
 //! if the yarn only leads on, or the chords are too far away: nothing
@@ -34,10 +35,10 @@ use crate::watch::Watch;
 /// alone, untwisted.
 const DISC: f64 = 64.0;
 
-/// Two places, in intervals along both curves, that are at least this near are one.
+/// The greatest difference of two places that count as one, in intervals along either curve.
 const ONE_PLACE: f64 = 0.01;
 
-/// Two intervals, the first one's number being the lower.
+/// Two intervals, the one with the lower number first.
 pub(super) struct Pair<'a> {
     parts: [&'a Part<'a>; 2],
     met: [&'a Met; 2],
@@ -47,7 +48,7 @@ pub(super) struct Pair<'a> {
     near: f64,
     /// How far both surfaces may lie from their centrelines, together, mm.
     reach: f64,
-    /// Whether both are of one yarn.
+    /// Whether both intervals are of one yarn.
     same: bool,
 }
 
@@ -76,7 +77,7 @@ impl<'a> Pair<'a> {
 
     /// Adds the contacts of both intervals to `found`.
     ///
-    /// **Errors**: [`ContactError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::Cancelled`] if the caller of `watch` asks to stop.
     pub(super) fn contacts(
         &self,
         sources: Option<&[u32]>,
@@ -96,12 +97,12 @@ impl<'a> Pair<'a> {
                 ratio,
             });
         };
-        // The intervals of yarns so much thicker than their control points lie apart are discs.
-        // Their tubes are all there is to them.
+        // Intervals of yarns that are so much thicker than their control points lie apart are
+        // discs. Only their hulls count.
         let discs = self.curves.into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && self.surfaces().iter().any(|surface| !surface.is_simple()) {
             self.touching(add);
-            // Each such pair takes as long as thousands of others.
+            // This pair takes as long as thousands of other pairs.
             return watch.advance(0);
         }
         let round = self.curves[0].round && self.curves[1].round;
@@ -111,8 +112,8 @@ impl<'a> Pair<'a> {
         Ok(())
     }
 
-    /// Whether a yarn only leads on from one interval to the other, so that any approach there is
-    /// another pair's.
+    /// Whether a yarn only leads on from one interval to the other, so that any approach there
+    /// belongs to another pair.
     fn leads_on(&self) -> bool {
         let ([a, b], [one, other]) = (self.curves, self.parts);
         if a.even && b.even {
@@ -123,8 +124,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Whether the straight lines between both ends of each are too far from one another for a
-    /// contact, however the curves bend.
+    /// Whether the straight lines between the ends of each interval are too far from one another
+    /// for a contact, with the most that the curves may bend.
     fn is_far(&self) -> bool {
         let [a, b] = self.curves;
         let straight = [a, b].map(|curve| [curve.cubic.position(0.0), curve.cubic.position(1.0)]);
@@ -138,8 +139,8 @@ impl<'a> Pair<'a> {
         extent(0).is_clear_of(extent(1), self.near)
     }
 
-    /// Whether two places are far enough from one another along a yarn to meet otherwise than in a
-    /// fold.
+    /// Whether two places count as a contact. Places of one yarn do only if they are far enough
+    /// from one another along the yarn. Nearer places meet in a fold.
     fn is_apart(&self, place: DVec2) -> bool {
         let ([a, b], [one, other]) = (self.curves, self.parts);
         let reach = [(a, place.x), (b, place.y)].map(|(curve, t)| curve.cubic.at(t).sizes().max_element());
@@ -151,8 +152,8 @@ impl<'a> Pair<'a> {
         [0, 1].map(|k| Surface { side: self.sides[k], rolls: &self.curves[k].rolls })
     }
 
-    /// Calls `start` with parameters from which each approach of the chords may be refined, best
-    /// first; with `edges` also those of approaches at an interval's ends.
+    /// Calls `start` for each approach of the chords, with parameters from which the approach may
+    /// be refined, best first. With `edges`, approaches at an interval's ends also count.
     fn chords(&self, edges: bool, start: impl FnMut([DVec2; 2])) {
         let [first, second] = [0, 1].map(|k| self.met[k].chords(self.curves[k]));
         // Chords may be further from one another than the curves are.
@@ -160,8 +161,8 @@ impl<'a> Pair<'a> {
         first.approaches(second, within, edges, start);
     }
 
-    /// The nearest place of surfaces that have lobes or turn. They may come near in many places,
-    /// whatever the centrelines do.
+    /// Adds the nearest place of surfaces that have lobes or turn. They may come near in many
+    /// places, whatever the centrelines do.
     fn touching(&self, add: impl FnOnce(DVec2, f64)) {
         let mut all = Vec::new();
         self.chords(false, |starts| all.push(starts[0]));
@@ -175,7 +176,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// The nearest places of all other surfaces: `round` ones, `discs`, or upright ones.
+    /// Adds the nearest places of all other surfaces: `round` ones, `discs`, or upright ones.
     fn approaches(&self, round: bool, discs: bool, mut add: impl FnMut(DVec2, f64)) {
         let ([a, b], sides, surfaces) = (self.curves, self.sides, self.surfaces());
         let mut seen: Vec<DVec2> = Vec::new();
@@ -194,9 +195,10 @@ impl<'a> Pair<'a> {
                 add(place, ratio);
             }
         };
-        // On one yarn, the knot that two intervals share hides an approach further along.
+        // On one yarn, the knot that two intervals share is nearest of all and hides an approach
+        // further along.
         self.chords(self.same && round, |starts| {
-            // The first start may lead out of the interval to an approach beside this one's own.
+            // The first start may lead out of the interval to another approach.
             let reached = starts.into_iter().find_map(|start| match round {
                 true => refined(start),
                 false if discs => {
@@ -211,7 +213,7 @@ impl<'a> Pair<'a> {
                 keep(approach);
             }
         });
-        // The chords may see two approaches in one valley as one.
+        // The chords may have only one approach for two in one valley.
         while !discs && valley.get() {
             let known = least.get();
             let nearer = nearer(&a.cubic, &b.cubic, known.min(self.near) - CLEARANCE_ACCURACY);

@@ -1,4 +1,4 @@
-//! Control intervals as the cells of the search hold them.
+//! The control intervals that a cell of the search holds.
 
 use glam::UVec3;
 
@@ -10,6 +10,6 @@ pub(super) struct Part<'a> {
     pub(super) point: usize,
     pub(super) line: Line<'a>,
     pub(super) bounds: Bounds,
-    /// The first cell that its box reaches into.
+    /// The first cell that the box reaches into.
     pub(super) cell: UVec3,
 }

@@ -8,10 +8,10 @@ use super::interval::Cubic;
 /// the sum of both radii and the speed there.
 ///
 /// The later interval owns a contact at a knot where the distance is level. The earlier interval
-/// may be left out where the slope is no more than this, the later one where it is at least twice
-/// as much; between the two [`refine`](super::approach::refine) decides. Refinement ends so near to
-/// the place on the other yarn that its error is a hundredth of this. At 1e-12 rounding counts
-/// crossings on a knot twice (`a_crossing_on_a_control_point_is_one_contact`).
+/// may be left out if the slope is no more than this, the later one if the slope is more than twice
+/// this. In between, [`refine`](super::approach::refine) decides. Refinement leaves an error of the
+/// slope of a hundredth of this. At 1e-12 rounding counts crossings on a knot twice
+/// (`a_crossing_on_a_control_point_is_one_contact`).
 pub(super) const LEVEL: f64 = 1e-8;
 
 /// An interval as Bernstein coefficients, relative to its beginning so that no digits are lost far
@@ -19,10 +19,10 @@ pub(super) const LEVEL: f64 = 1e-8;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passing {
     start: DVec3,
-    /// The four corners of its Bézier polygon.
+    /// The four corners of the interval's Bézier polygon.
     corners: [DVec3; 4],
     velocities: [DVec3; 3],
-    /// (A - start) · A', of degree five.
+    /// The coefficients of (A - start) · A', of degree five, with A the place on this interval.
     own: [f64; 6],
 }
 
@@ -49,8 +49,8 @@ impl Passing {
     }
 
     /// Half the slope, along this interval, of the squared distance to corner number `corner` of
-    /// `other`'s Bézier polygon: the coefficients of (A - B) · A', of degree five in its own
-    /// parameter.
+    /// `other`'s Bézier polygon. With A the place on this interval and B the corner, these are the
+    /// coefficients of (A - B) · A', of degree five in this interval's parameter.
     #[inline]
     fn slopes(&self, other: &Self, corner: usize) -> [f64; 6] {
         let place = other.start - self.start + other.corners[corner];
@@ -68,9 +68,9 @@ impl Passing {
         ]
     }
 
-    /// Whether the interval comes nearest to `other` at one of its knots, whatever the place on
-    /// `other`, and that knot is another interval's to report. `cut` says which of its ends are an
-    /// open yarn's; `radii` is the sum of both radii, mm.
+    /// Whether this interval comes nearest to every place of `other` at one of its own knots, and
+    /// the contact at that knot belongs to another interval. `cut` says which ends of this interval
+    /// are ends of an open yarn. `radii` is the sum of both radii, mm.
     pub(super) fn leaves_to_neighbours(&self, other: &Self, cut: [bool; 2], radii: f64) -> bool {
         let level = |velocity: DVec3| LEVEL * radii * velocity.length();
         let (rises, falls) = (2.0 * level(self.velocities[0]), level(self.velocities[2]));
@@ -78,8 +78,8 @@ impl Passing {
             || (!cut[1] && self.all_slopes(other, |slope| slope <= falls))
     }
 
-    /// Whether `holds` is true of all slopes, at any place on `other`. They lie between their
-    /// coefficients in `other`'s parameter, too.
+    /// Whether `holds` is true of all slopes, at any place on `other`. All slopes lie between the
+    /// least and the greatest of their coefficients, which are tested for each corner of `other`.
     #[inline]
     fn all_slopes(&self, other: &Self, holds: impl Fn(f64) -> bool) -> bool {
         (0..4)

@@ -17,25 +17,30 @@ pub(super) struct Rolls {
     sampling: Sampling,
     /// Frame and twist (turns per mm) of each yarn whose roll matters.
     twists: Vec<Option<(Frame, f32)>>,
-    /// The roll at the beginning of each interval; empty where no roll matters.
+    /// The roll at the beginning of each interval. Empty if no roll matters.
     starts: Vec<Turn>,
-    /// The share of a closed yarn's whole turn that each ring gives back, turns.
+    /// For each yarn, the turn that is taken back from ring to ring, turns. It is a closed yarn's
+    /// total turn divided by its steps, and 0 for an open yarn.
     given_back: Vec<f64>,
 }
 
 /// The rolls of one interval.
 #[derive(Debug, Default)]
 pub(super) struct IntervalRolls {
-    /// Rolls at its rings and at its end, turns, without jumps; empty where they don't matter.
+    /// Rolls at the interval's rings and at its end, turns, without jumps. Empty if rolls don't
+    /// matter.
     at_rings: Vec<f64>,
-    /// For a rotation-minimising frame: twist (turns per mm), and the turn that each ring gives
-    /// back (turns).
+    /// For a rotation-minimising frame: the twist (turns per mm), and the turn that is taken back
+    /// from ring to ring (turns).
     minimizing: Option<(f32, f64)>,
 }
 
 impl Rolls {
-    /// **Errors**: [`ContactError::Settings`] for a yarn of more rings than a plan takes;
-    /// [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says so.
+    /// The rolls of all `yarns` in a mesh with `sampling` and `frame`.
+    ///
+    /// **Errors**: [`ContactError::Settings`] for a yarn of more rings than a plan allows,
+    /// [`ContactError::OutOfMemory`], and [`ContactError::Cancelled`] if the caller of `watch` asks
+    /// to stop.
     pub(super) fn new(
         yarns: &Yarns,
         sampling: Sampling,
@@ -73,8 +78,8 @@ impl Rolls {
         self.twists[yarn].is_some()
     }
 
-    /// Writes the roll at each control point of a yarn, and returns what each ring gives back,
-    /// turns.
+    /// Writes the roll at each control point of a yarn, and returns the turn that is taken back
+    /// from ring to ring, turns.
     fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, ContactError> {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);
         let Some(twist) = self.twists[yarn] else { return Ok(0.0) };
@@ -84,7 +89,7 @@ impl Rolls {
         }
         let intervals = if closed { points.len() } else { points.len().saturating_sub(1) };
         let window = |interval: usize| neighbours(points, closed, interval);
-        // A carried section starts in the position of its outline.
+        // In a rotation-minimising frame, the section starts with the lean of the first ring.
         let first = self.starts_at(yarns, yarn, window(0));
         let mut roll = first;
         for (interval, start) in starts.iter_mut().enumerate().take(intervals) {
@@ -104,7 +109,8 @@ impl Rolls {
         Ok(f64::from(whole.turns()) / f64::from(steps))
     }
 
-    /// The roll of a yarn's first ring; `window` are the four control points of its interval.
+    /// The roll of a yarn's first ring. `window` holds the four control points of the first
+    /// interval.
     fn starts_at(&self, yarns: &Yarns, yarn: usize, window: [ControlPoint; 4]) -> Turn {
         let carried = matches!(self.twists[yarn], Some((Frame::RotationMinimizing, _)));
         let (Some(ups), true) = (yarns.layout().ups(yarn), carried) else { return Turn::ZERO };
@@ -113,8 +119,9 @@ impl Rolls {
         Turn::from_turns(cubic.lean(0.0, velocity.normalize_or_zero()) as f32)
     }
 
-    /// The turn of each ring of an interval against the ring before, and of the first ring of the
-    /// next interval, whose control points are `next`. Without `next` the yarn ends there.
+    /// The turns from ring to ring within an interval, and on to the first ring of the next
+    /// interval. `window` and `next` hold the control points of both intervals. Without `next` the
+    /// yarn ends after the interval.
     fn steps(
         &self,
         window: [ControlPoint; 4],
@@ -124,7 +131,8 @@ impl Rolls {
         let segment = Segment::new(&window, self.sampling.s());
         let count = self.sampling.subdivisions() + 1;
         let at = |ring: u32| match next {
-            // Where the yarn stands still it may leave in another direction than it came.
+            // If the velocity is 0 at the knot, the yarn may leave in another direction than it
+            // came from.
             Some(next) if ring == count => Segment::new(&next, self.sampling.s()).sample(0.0),
             None if ring == count => segment.sample(1.0),
             _ => segment.sample(ring as f32 * self.sampling.step()),
@@ -141,8 +149,9 @@ impl Rolls {
             .collect()
     }
 
-    /// Rolls of the interval that begins at control point `point` of the fabric. `window` are its
-    /// four control points, `next` those of the interval after it, if the yarn goes on.
+    /// Rolls of the interval that begins at control point `point` of the fabric. `window` holds the
+    /// interval's four control points, and `next` those of the interval after it, if the yarn goes
+    /// on.
     pub(super) fn of_interval(
         &self,
         yarn: usize,
@@ -170,8 +179,9 @@ impl IntervalRolls {
         self.at_rings.is_empty()
     }
 
-    /// Whether the frame is rotation-minimising. Rolls then count from the upright frame; otherwise
-    /// they count from the frame along which the yarn is flattened, which may lean.
+    /// Whether the frame is rotation-minimising. Rolls are then measured from the upright frame.
+    /// Otherwise they are measured from the frame along which the yarn is flattened, which may
+    /// lean.
     pub(super) fn is_carried(&self) -> bool {
         self.minimizing.is_some()
     }
@@ -183,13 +193,15 @@ impl IntervalRolls {
         (last - first).abs()
     }
 
-    /// The roll at `t` of the interval, turns. Beyond the interval it goes on at the same rate.
+    /// The roll at `t` of the interval, turns. Beyond the interval the roll goes on at the same
+    /// rate.
     pub(super) fn at(&self, cubic: &Cubic, t: f64) -> f64 {
         let Some(steps) = self.at_rings.len().checked_sub(1).filter(|steps| *steps > 0) else { return 0.0 };
         let place = t * steps as f64;
         let before = (place.max(0.0) as usize).min(steps - 1);
         let (from, share) = (self.at_rings[before], place - before as f64);
-        // An upright frame may flip between two rings; the section that is carried along does not.
+        // An upright frame may flip between two rings. A section in a rotation-minimising frame
+        // does not.
         let carried = self.minimizing.and_then(|(twist, given_back)| {
             let [start, velocity, _] = cubic.path(before as f64 / steps as f64);
             let [end, end_velocity, _] = cubic.path(t);

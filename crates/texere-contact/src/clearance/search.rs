@@ -1,4 +1,4 @@
-//! The search: which intervals meet in a cell.
+//! The search for contacts among the intervals of each cell.
 
 use std::ops::Range;
 
@@ -21,11 +21,11 @@ use crate::ContactError;
 use crate::grid::{Bounds, Grid};
 use crate::watch::Watch;
 
-/// The most intervals of a cell that are compared in all pairs. Threads that are clear of one
-/// another come to some 60, with one control point a crossing or several.
+/// The most intervals of a cell that are compared in all pairs. A cell holds some 60 intervals of
+/// threads that are clear of one another, with one control point a crossing or several.
 pub(super) const FULL: usize = 256;
 
-/// Pairs between two reports of progress.
+/// Number of pairs between two reports of progress.
 const REPORT_EVERY: u64 = 1 << 14;
 
 /// Upper bound of the pairs that are compared in a cell of this many intervals.
@@ -74,11 +74,11 @@ impl<'a> Probe<'a> {
         (0..self.yarns.layout().yarns().len()).flat_map(|yarn| self.line(yarn).spans(most)).collect()
     }
 
-    /// Adds to `found` all contacts of intervals that meet in `cells`, where `fresh` holds for at
-    /// least one of the two.
+    /// Adds to `found` all contacts of two intervals that meet in `cells`, if `fresh` holds for at
+    /// least one of them.
     ///
-    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says
-    /// so.
+    /// **Errors**: [`ContactError::OutOfMemory`], and [`ContactError::Cancelled`] if the caller of
+    /// `watch` asks to stop.
     pub(super) fn search(
         &self,
         grid: &Grid,
@@ -107,8 +107,8 @@ impl<'a> Probe<'a> {
                 let bounds = line.bounds(point, self.near);
                 parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
             }
-            // Two intervals may meet in several cells. They count in the first cell that both reach
-            // into.
+            // Two intervals may meet in several cells. They are compared in the first cell that
+            // both reach into.
             let counts = |one: &Part<'_>, other: &Part<'_>| {
                 (fresh(one.point) || fresh(other.point))
                     && one.bounds.meets(&other.bounds)
@@ -138,10 +138,10 @@ impl<'a> Probe<'a> {
         Ok(found)
     }
 
-    /// Adds all contacts of many intervals, or that they are a crowd.
+    /// Adds all contacts of a cell with many intervals, or the crowd that the intervals are.
     ///
-    /// A plane sweeps over them, and each interval is compared with those that the plane meets when
-    /// it reaches it.
+    /// A plane sweeps over the intervals. When it reaches an interval, that interval is compared
+    /// with all others that the plane meets.
     fn sweep(
         &self,
         parts: &mut [Part<'_>],
@@ -155,7 +155,8 @@ impl<'a> Probe<'a> {
             found.add_crowd(crowd);
             return Ok(());
         }
-        // The sweep goes along the axis on which boxes are shortest against the whole.
+        // The sweep goes along the axis on which boxes are shortest relative to the box round all
+        // of them.
         let (whole, sides) = parts.iter().fold((Bounds::NOTHING, Vec3A::ZERO), |(whole, sides), part| {
             (whole.joined(part.bounds), sides + (part.bounds.high - part.bounds.low))
         });
@@ -187,7 +188,7 @@ impl<'a> Probe<'a> {
         watch.advance(unreported)
     }
 
-    /// The tightest bend of the intervals of `span`.
+    /// The ratio and the place of the tightest bend of the intervals of `span`.
     pub(super) fn tightest(&self, span: &Span<'_>, rolls: &Rolls) -> (f64, Option<YarnPlace>) {
         let line = &span.line;
         let turning = rolls.matter(line.yarn);
@@ -200,8 +201,8 @@ impl<'a> Probe<'a> {
         best
     }
 
-    /// The tightest bend of each interval of `span` for which `fresh` holds, where it is tighter
-    /// than `ratio`.
+    /// The ratio and the place of the tightest bend of each interval of `span` for which `fresh`
+    /// holds, if that bend is tighter than `ratio`.
     pub(super) fn bends(
         &self,
         span: &Span<'a>,

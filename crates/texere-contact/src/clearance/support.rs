@@ -5,24 +5,24 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use texere_core::Section;
 
-/// Directions in which a section that is no circle is measured. Between two of them its reach is
-/// off by 2e-5.
+/// Number of directions in which a section that is not a circle is measured. Between two of them
+/// the reach is off by 2e-5.
 const DIRECTIONS: usize = 512;
 
-/// Angles at which a section's outline is measured. Between two of them it is off by 1e-5, at a
-/// lens's two corners by 1e-3.
+/// Number of angles at which a section's outline is measured. Between two of them the outline is
+/// off by 1e-5, and by 1e-3 at a lens's two corners.
 const ANGLES: usize = 2048;
 
 /// A section's support function: the furthest point of its outline in any direction, in radii of
-/// the yarn. Where the outline is not convex its hull counts.
+/// the yarn. If the outline is not convex, its hull counts.
 #[derive(Debug, Clone)]
 pub(super) enum Support {
     Circle,
     Table {
         furthest: Vec<DVec2>,
-        /// Points of the outline; of a polygon its corners.
+        /// Points of the outline, or the corners of a polygon.
         outline: Vec<DVec2>,
-        /// Distance of the outline from the centre, angle by angle; none of a polygon, whose
+        /// Distance of the outline from the centre, angle by angle. Empty for a polygon, whose
         /// corners may be narrower than the steps.
         radii: Vec<f64>,
         smooth: bool,
@@ -86,7 +86,7 @@ impl Support {
         }
     }
 
-    /// How many corners a polygon has.
+    /// Number of corners of a polygon, 0 for other sections.
     pub(super) fn corners(&self) -> usize {
         match self {
             Self::Table { radii, outline, .. } if radii.is_empty() => outline.len(),
@@ -106,8 +106,8 @@ impl Support {
         }
     }
 
-    /// The factor by which the section grows until its outline meets `point`. Where the point's ray
-    /// meets the outline more than once, the outermost place counts.
+    /// The factor by which the section grows until its outline meets `point`. If the ray from the
+    /// centre through `point` meets the outline more than once, the outermost place counts.
     pub(super) fn growth_at(&self, point: DVec2) -> f64 {
         match self {
             Self::Circle => point.length(),
@@ -171,13 +171,12 @@ impl Support {
     }
 }
 
-/// Distance of an outline from the centre at each of [`ANGLES`] angles: the outermost place of each
-/// ray.
+/// Distance from the centre to the outermost place of an outline at each of [`ANGLES`] angles.
 fn radii(outline: &[DVec2]) -> Vec<f64> {
     let mut radii = vec![0.0_f64; ANGLES];
     for k in 0..outline.len() {
         let (start, end) = (outline[k], outline[(k + 1) % outline.len()]);
-        // The rays that the edge spans, whichever way round it goes.
+        // The rays that the edge spans, whether it goes clockwise or not.
         let turn = start.angle_to(end);
         let (from, span) = (if turn < 0.0 { end } else { start }.to_angle(), turn.abs());
         let first = (from / TAU * ANGLES as f64).ceil() as i64;
@@ -193,17 +192,17 @@ fn radii(outline: &[DVec2]) -> Vec<f64> {
     radii
 }
 
-/// The multiple of `ray` at which an edge meets it.
+/// The multiple of `ray` at which an edge meets the ray, or none if it does not.
 fn along_ray(ray: DVec2, start: DVec2, end: DVec2) -> Option<f64> {
     let (before, after) = (ray.perp_dot(start), ray.perp_dot(end));
     let crosses = (before <= 0.0) != (after <= 0.0);
     crosses.then(|| start.perp_dot(end - start) / ray.perp_dot(end - start)).filter(|along| *along > 0.0)
 }
 
-/// The frame in which a section stands upright: side = z × t, and up.
+/// Side and up of the frame in which a section stands upright: side = z × t, up = t × side.
 pub(super) fn upright(tangent: DVec3) -> [DVec3; 2] {
     let side = DVec3::Z.cross(tangent);
-    // Where the tangent is within 1e-6 of z, the side is +y.
+    // If the tangent is within 1e-6 of z, the side is +y.
     let side = if side.length_squared() > 1e-12 { side.normalize() } else { DVec3::Y };
     [side, tangent.cross(side)]
 }

@@ -7,13 +7,14 @@ use glam::{DVec2, DVec3};
 use super::approach::Side;
 use super::rolls::IntervalRolls;
 
-/// Steps of Newton's method to the place of an interval that is level with a point.
+/// The most steps of Newton's method to the place of an interval that is level with a point.
 const STEPS: usize = 8;
 
-/// How far these steps may lead out of the interval, in intervals.
+/// How far the [`STEPS`] may lead out of the interval, in intervals.
 const STRAY: f64 = 0.25;
 
-/// A step this short ends the search, in intervals: the next step would be as long as its square.
+/// The length of a step that ends the search, in intervals. The next step would be about as long as
+/// the square of that length.
 const SHORT: f64 = 1e-4;
 
 /// An interval with everything that its surface depends on.
@@ -43,13 +44,13 @@ impl Stand {
         self.frame[0] * point.x + self.frame[1] * point.y
     }
 
-    /// `direction` in the coordinates of the section, once it is turned by its roll. Flattening
-    /// stretches directions inversely to points.
+    /// `direction` in the coordinates of the section, once it is turned by its roll. Directions are
+    /// scaled inversely to points.
     fn across(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.frame[0]), direction.dot(self.frame[1])) * self.sizes
     }
 
-    /// `direction` in the coordinates of the section.
+    /// `direction` in the coordinates of the section before the section is turned by its roll.
     pub(super) fn seen(&self, direction: DVec3) -> DVec2 {
         DVec2::new(self.roll.x, -self.roll.y).rotate(self.across(direction))
     }
@@ -61,7 +62,7 @@ impl Surface<'_> {
         self.side.support.is_smooth() && self.rolls.is_empty()
     }
 
-    /// The section's position at `t`. None where the yarn stands still.
+    /// The section's position at `t`. None if the velocity is 0 there.
     pub(super) fn stand(&self, t: f64) -> Option<Stand> {
         let [centre, velocity, _] = self.side.cubic.path(t);
         let tangent = velocity.try_normalize()?;
@@ -87,7 +88,7 @@ impl Surface<'_> {
             let [position, velocity, acceleration] = self.side.cubic.path(t);
             let apart = point - position;
             let (along, flat) = (apart.dot(velocity), velocity.length_squared());
-            // Beyond the centre of a bend the straight line's step is taken.
+            // Near the centre of a bend and beyond, the step is that of a straight line.
             let bent = flat - apart.dot(acceleration);
             let step = along / if bent > 0.1 * flat { bent } else { flat + f64::MIN_POSITIVE };
             let next = (t + step).clamp(-STRAY, 1.0 + STRAY);
@@ -101,8 +102,8 @@ impl Surface<'_> {
     }
 
     /// The factor by which the section grows until the surface meets `point`, and the parameter
-    /// near `t` where it does. None where that place belongs to another interval, or where the
-    /// point is so far from the centreline that the factor exceeds `most`.
+    /// near `t` of that place. None if the place belongs to another interval, or if the point is so
+    /// far from the centreline that the factor exceeds `most`.
     pub(super) fn growth_at(&self, point: DVec3, t: f64, most: f64) -> Option<(f64, f64)> {
         let t = self.level_with(point, t);
         let reach = most * self.side.support.extent() * self.side.cubic.sizes(t).max_element();
@@ -112,7 +113,7 @@ impl Surface<'_> {
         let stand = self.stand(t)?;
         let apart = point - stand.centre;
         let across = DVec2::new(apart.dot(stand.frame[0]), apart.dot(stand.frame[1])) / stand.sizes;
-        // Turned back by the roll.
+        // The vector is turned back by the roll.
         let unrolled = DVec2::new(stand.roll.x, -stand.roll.y).rotate(across);
         Some((self.side.support.growth_at(unrolled), t))
     }

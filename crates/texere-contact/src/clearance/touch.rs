@@ -1,10 +1,10 @@
-//! Where the surfaces of two intervals touch as both sections grow, for any section, flattening and
-//! roll.
+//! The place where the surfaces of two intervals touch first as both sections grow, for any
+//! section, flattening and roll.
 //!
-//! The idea is simple: grow both yarns until they touch. The *growth* is the factor on both
-//! sections, 1 for the yarns as they are. A point of the thinner surface touches the thicker one at
-//! some growth, and the least growth over all points is the contact's ratio. Most points need more
-//! growth than the best one so far, and one test at that growth rejects them.
+//! Both yarns grow until they touch. The *growth* is the factor on both sections. It is 1 for the
+//! yarns as they are. A point of the thinner surface touches the thicker one at some growth, and
+//! the least growth over all points is the contact's ratio. Most points need more growth than the
+//! least so far. One test at the least growth so far rejects such a point.
 //!
 //! ```text
 //! best = the least growth found from the approaches of the centrelines
@@ -17,8 +17,8 @@
 //!             best = min(best, growth after a descent along the yarn and round it)
 //! ```
 //!
-//! Sections that neither turn nor have lobes need one descent only, from where their tubes touch
-//! ([`touch_near`]).
+//! Sections that neither turn nor have lobes need one descent only, from the place where their
+//! tubes touch ([`touch_near`]).
 
 use std::f64::consts::TAU;
 
@@ -29,10 +29,10 @@ use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
 use super::tubes::{self, Nearest};
 
-/// Points tried of an outline without lobes and corners.
+/// Number of points that are tried of an outline without lobes and corners.
 const POINTS: usize = 48;
 
-/// Points tried of any other outline.
+/// Number of points that are tried of an outline with lobes or corners.
 const POINTS_LOBED: usize = 96;
 
 /// The step along the yarn between sections that are tried, as a share of the sum of both yarns'
@@ -50,19 +50,20 @@ const RELIEF: f64 = 1e-3;
 /// The most sections of an interval that are tried.
 const SECTIONS_MAX: usize = 4096;
 
-/// The share by which the growth at a place may exceed the least growth so far for a descent to
-/// start there: as much as a lobe rises between two places.
+/// A descent starts at a place if the growth there exceeds the least growth so far by no more than
+/// this share. A lobe rises by as much between two places.
 const SLACK: f64 = 0.015;
 
-/// Once descents have this many starts and ends, [`SLACK`] no longer counts: only a place of lesser
-/// growth than the least so far starts another.
+/// The number of starts and ends of descents from which on [`SLACK`] no longer counts. Then a
+/// descent starts only at a place whose growth is less than the least so far.
 const PLACES: usize = 16;
 
-/// The growth below which no lesser one is looked for: the surfaces pierce one another deeply.
+/// The growth below which no lesser growth is looked for. The surfaces then pierce one another
+/// deeply.
 const DEEP: f64 = 0.25;
 
-/// How many times as far as the surface a point may lie from the other yarn's tangent and still be
-/// inside, where the yarn bends.
+/// A point inside a bent yarn may lie up to this many times as far from the yarn's tangent as the
+/// surface does.
 const BENT: f64 = 1.3;
 
 /// The largest error, in intervals, of the tangent's estimate of the place level with a point.
@@ -72,27 +73,27 @@ const SLANT: f64 = 0.2;
 /// with a point near it.
 const STRAIGHT: f64 = 0.7;
 
-/// The distance up to which two places of the other yarn are one, in intervals.
+/// The distance up to which two places of the thicker yarn count as one, in intervals.
 const SAME: f64 = 1e-3;
 
-/// The last steps of a descent, as a share of the steps between places that are tried.
+/// The length of a descent's last steps, as a share of its first steps.
 const FINEST: f64 = 1.0 / 32.0;
 
-/// The largest error of the tubes' ratio where their steps have not converged.
+/// The largest error of the ratio of tubes whose steps have not converged.
 const OFF: f64 = 0.1;
 
-/// The largest error of the tubes' ratio where their steps have converged.
+/// The largest error of the ratio of tubes whose steps have converged.
 const OFF_ENDED: f64 = 0.01;
 
 /// The accuracy of a growth.
 const EXACT: f64 = 2e-5;
 
-/// Where surfaces touch: parameters of both, and the growth.
+/// A touch of two surfaces: the parameters of both, and the growth.
 type Touch = (DVec2, f64);
 
-/// The least growth at which the surfaces touch, and where. `starts` are parameters of approaches
-/// of the centrelines; `counts` says whether two parameters may touch. None where the place belongs
-/// to another interval, or at more than [`CLEARANCE_NEAR`].
+/// The least growth at which the surfaces touch, and the place. `starts` are parameters of
+/// approaches of the centrelines. `counts` says whether a touch at two parameters counts. None if
+/// the place belongs to another interval, or if the growth exceeds [`CLEARANCE_NEAR`].
 pub(super) fn touch(
     surfaces: [&Surface<'_>; 2],
     starts: &[DVec2],
@@ -110,8 +111,9 @@ pub(super) fn touch(
     }
 }
 
-/// The least growth of surfaces that neither turn nor have lobes, close to where their tubes touch.
-/// None where the tubes show that it is beyond `most`.
+/// The least growth at which two surfaces touch that neither turn nor have lobes, close to the
+/// place where their tubes touch. None if the tubes show that the growth exceeds `most`, or if the
+/// place belongs to another interval.
 pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest) -> Option<Touch> {
     if tubes.ratio > most + if tubes.ended { OFF_ENDED } else { OFF } {
         return None;
@@ -129,15 +131,16 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest)
     within(surfaces, &beside, near(surfaces, &beside).unwrap_or((beside.place, beside.ratio)))
 }
 
-/// The result of a descent from where tubes touch, if the tubes' touch belongs to these intervals.
-/// The descent itself may lead on into a neighbour, whose own tubes may touch elsewhere or nowhere.
+/// The result of a descent from the place where tubes touch, if that place belongs to these
+/// intervals. The descent itself may lead into a neighbouring interval, whose own tubes may touch
+/// elsewhere or nowhere.
 fn within(surfaces: [&Surface<'_>; 2], tubes: &Nearest, (place, growth): Touch) -> Option<Touch> {
     own(surfaces, (tubes.place, growth))?;
     Some((place.clamp(DVec2::ZERO, DVec2::ONE), growth))
 }
 
-/// Where the surfaces touch, by a descent from where their tubes do. None where that point is clear
-/// of the true surface.
+/// The place where the surfaces touch, by a descent from the place where their tubes touch. None if
+/// the point in which the tubes touch is clear of the true surface.
 fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     let Nearest { place, ratio, normal, .. } = *tubes;
     let [one, other] = surfaces;
@@ -149,8 +152,8 @@ fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
     }
 }
 
-/// Whether the second surface is the thinner one. Points of the thinner one are tried, because the
-/// points tried on a thicker surface would lie too far apart for it.
+/// Whether the second surface is the thinner one. Points of the thinner surface are tried, because
+/// points on the thicker one would lie too far apart.
 fn exchanged([one, other]: [&Surface<'_>; 2]) -> bool {
     other.side.cubic.half_bound() < one.side.cubic.half_bound()
 }
@@ -160,14 +163,14 @@ fn own([one, other]: [&Surface<'_>; 2], (place, growth): Touch) -> Option<Touch>
     Some((DVec2::new(one.side.own(place.x)?, other.side.own(place.y)?), growth))
 }
 
-/// The thinner surface, whose points are tried, and the other one.
+/// The search for a touch of two surfaces. The first is the thinner one, whose points are tried.
 struct Search<'a, F> {
     surfaces: [&'a Surface<'a>; 2],
     counts: F,
 }
 
-/// A point of the thinner surface (its parameter along the yarn and its share of the way round the
-/// outline), and the other surface's parameter and the growth at which they touch.
+/// A point of the thinner surface that touches the other one: its parameter `t` along the yarn, its
+/// share `round` of the way round the outline, the `other` surface's parameter, and the growth.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     t: f64,
@@ -180,7 +183,8 @@ struct Found {
 #[derive(Debug, Default)]
 struct Tried {
     best: Option<Found>,
-    /// Parameters along the thinner yarn and shares of the way round its outline.
+    /// Starts and ends of descents, as parameters along the thinner yarn and shares of the way
+    /// round its outline.
     places: Vec<DVec2>,
 }
 
@@ -192,12 +196,13 @@ impl Tried {
         }
     }
 
-    /// The least growth so far, or the most that is looked for.
+    /// The least growth so far, or the greatest that is looked for.
     fn level(&self) -> f64 {
         self.best.map_or(CLEARANCE_NEAR, |found| found.growth)
     }
 
-    /// How much the growth at a place may exceed the least one for a descent to start there.
+    /// How much the growth at a place may exceed the least growth so far for a descent to start
+    /// there.
     fn slack(&self) -> f64 {
         if self.places.len() < PLACES { SLACK * self.level() } else { 0.0 }
     }
@@ -234,13 +239,14 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let [thin, thick] = self.surfaces;
         let (low, high) = (thin.side.held(f64::NEG_INFINITY), thin.side.held(f64::INFINITY));
         let mut rounds = shares(POINTS_LOBED);
-        // Corners may be narrower than the steps between these places.
+        // Corners may be narrower than the steps between the equally spaced places.
         rounds.extend(shares(thin.side.support.corners()));
         let sections = self.sections();
         let steps = DVec2::new((high - low) / sections as f64, 1.0 / POINTS_LOBED as f64);
         let outline: Vec<(f64, DVec2)> =
             rounds.iter().map(|&round| (round, thin.side.support.point(round))).collect();
-        // The approaches come first, so that the rest is soon done with.
+        // The approaches come first. They give a small growth early, which rejects most other
+        // points.
         let first = |start: &DVec2| {
             let towards = thick.side.cubic.position(start.y) - thin.side.cubic.position(start.x);
             let round = self.facing(start.x, towards, &rounds)?;
@@ -282,7 +288,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let Some(other) = thick.stand(beside) else { return };
         let towards = other.centre - stand.centre;
         let level = tried.level() + tried.slack();
-        // Nothing can touch at this distance.
+        // The two surfaces are out of reach at this growth.
         let (direction, apart) = (towards.normalize_or_zero(), towards.length());
         if apart > BENT * level * (thin.reach(stand, direction) + thick.reach(&other, direction)) {
             return;
@@ -298,7 +304,8 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
                 continue;
             }
-            // Points beyond that belong to the other yarn's neighbouring intervals.
+            // Points beyond the interval by more than `SLANT` belong to neighbouring intervals of
+            // the thicker yarn.
             let level_with = beside + along / speed;
             let at = DVec2::new(t, round);
             if level_with < low - SLANT || level_with > high + SLANT || tried.is_near(at, 2.0 * steps) {
@@ -321,7 +328,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         rounds.iter().copied().max_by(|a, b| reach(a).total_cmp(&reach(b)))
     }
 
-    /// Number of steps in which the thinner interval is tried.
+    /// Number of steps between the sections of the thinner interval that are tried.
     fn sections(&self) -> usize {
         let [thin, thick] = self.surfaces.map(|surface| &surface.side);
         let least = |side: &Side<'_>| side.cubic.floors().into_iter().fold(f64::INFINITY, f64::min);
@@ -338,17 +345,17 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }
 
-    /// How much more the other surface must grow to meet a point of a section grown by `growth`,
-    /// and the parameter where it does. None where the point lies out of the other surface's reach
-    /// at `growth`, where the place belongs to another interval, or where the other yarn has no
+    /// The growth with which the other surface meets a point of a section grown by `growth`, less
+    /// `growth`, and the parameter of that place. None if the point is out of the other surface's
+    /// reach at `growth`, if the place belongs to another interval, or if the other yarn has no
     /// direction there.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
         let (needed, other) = self.surfaces[1].growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))
     }
 
-    /// Where the surfaces touch on the ray through the outline's point `round` of the section at
-    /// `t`: at `level` at most, near place `beside` of the other yarn.
+    /// The touch of both surfaces on the ray through the outline's point `round` of the section at
+    /// `t`, near place `beside` of the other yarn. None if the growth would exceed `level`.
     fn solve(&self, t: f64, round: f64, level: f64, beside: f64) -> Option<Found> {
         self.solve_at(&self.surfaces[0].stand(t)?, DVec2::new(t, round), level, beside)
     }
@@ -361,7 +368,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             self.excess(stand, way, high, beside).filter(|(excess, _)| *excess <= 0.0)?;
         let (mut low, mut under) = (0.0, f64::INFINITY);
         while high - low > EXACT && over < 0.0 {
-            // The secant, or the middle where there is no secant yet or it leads nowhere.
+            // The next growth is that of the secant, or the middle if there is no finite secant.
             let secant = low + (high - low) * under / (under - over);
             let middle = f64::midpoint(low, high);
             let inner = (high - low) * 0.02;

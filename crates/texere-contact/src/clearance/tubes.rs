@@ -1,7 +1,8 @@
-//! Where two intervals come nearest to one another, each taken for the straight tube along its
-//! tangent.
+//! The places where two intervals come nearest to one another, with each replaced by the straight
+//! tube along its tangent.
 //!
-//! That is near the truth for sections that neither turn nor have lobes, and found in a few steps.
+//! The result is close to that of the true surfaces if the sections neither turn nor have lobes,
+//! and a few steps suffice.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,50 +12,52 @@ use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
 use super::contact::CLEARANCE_NEAR;
 use super::interval::At;
 
-/// The sine of the angle below which two tangents count as parallel. The neighbours of so flat a
-/// crossing find it.
+/// The sine of the angle below which two tangents count as parallel.
 const PARALLEL: f64 = 0.02;
 
-/// The ratio of tubes above which their surfaces are taken to be apart, too.
+/// The ratio of tubes above which their surfaces count as apart, too.
 const FAR: f64 = CLEARANCE_NEAR + 0.1;
 
 /// The cosine of the angle up to which two yarns count as running side by side.
 const BESIDE: f64 = 0.9;
 
 /// Steps of the golden-section search for the direction that separates two parallel yarns best,
-/// over half a turn. They leave 5e-3 rad, and a ratio off by the square of that.
+/// over half a turn. They leave an error of 5e-3 rad in the direction, and of about its square in
+/// the ratio.
 const AROUND: usize = 13;
 
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Where two tubes touch: parameters, the factor by which both sections could grow until then, and
-/// the direction from the first to the other at right angles to both surfaces.
+/// The touch of two tubes: the parameters of its place, the factor by which both sections could
+/// grow until they touch, and the direction from the first tube to the other at right angles to
+/// both surfaces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
     pub(super) place: DVec2,
     pub(super) ratio: f64,
     pub(super) normal: DVec3,
-    /// Whether the steps to there have converged. Between two yarns that run nearly side by side
-    /// the touching point may leap to and fro.
+    /// Whether the steps to the place have converged. Between two yarns that run nearly side by
+    /// side the touching point may jump back and forth.
     pub(super) ended: bool,
 }
 
-/// A touch of both yarns' tangent tubes at two places: the factor at which they touch, and how far
-/// along each the touching point lies from its place, in intervals.
+/// The touch of the tubes along the tangents at two places of two yarns: the factor at which they
+/// touch, and how far along each yarn the touching point lies from the yarn's place, in intervals.
 struct Touch {
     ratio: f64,
     offset: DVec2,
-    /// From the first tube to the other.
+    /// The direction from the first tube to the other.
     normal: DVec3,
 }
 
-/// Slides both places from `start` to where the tubes touch. None where that leads to other
-/// intervals, or where nothing touches.
+/// Moves both places from `start` to where the tubes touch. None if the places leave their
+/// intervals, or if nothing touches.
 ///
-/// Straight tubes touch where their common normal is N = t₁ × t₂; scaled by λ = N·Δ / (h₁(N) +
-/// h₂(-N)), h the sections' support functions, their surfaces meet in one point. On bent tubes that
-/// point must lie in the sections of the very two places: the places go towards it until it does.
+/// Straight tubes touch where their common normal is N = t₁ × t₂. Scaled by λ = N·Δ / (h₁(N) +
+/// h₂(-N)), with h the sections' support functions, their surfaces meet in one point. On bent tubes
+/// that point must lie in the sections at both places. The places move towards the point until it
+/// does.
 pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let mut place = DVec2::new(one.held(start.x), other.held(start.y));
     let meeting = Meeting::new(one, other, place)?;
@@ -66,7 +69,7 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
         if one.is_gone(place.x, last.offset.x) || other.is_gone(place.y, last.offset.y) {
             return None;
         }
-        // Outside a tight bend a whole step would overshoot.
+        // On the outer side of a tight bend a full step would overshoot.
         let step = (0.6 * last.offset).clamp(DVec2::splat(-STRIDE), DVec2::splat(STRIDE));
         let next = DVec2::new(one.held(place.x + step.x), other.held(place.y + step.y));
         let moved = (next - place).abs().max_element();
@@ -77,14 +80,14 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
             break;
         }
     }
-    // At a yarn's cut end the touching point may lie beyond it: then nothing touches there.
+    // At a yarn's cut end the touching point may lie beyond the end. Then nothing touches there.
     let beyond = |t: f64, offset: f64| (t <= 0.0 && offset < -MARGIN) || (t >= 1.0 && offset > MARGIN);
     let outside = beyond(place.x, last.offset.x) || beyond(place.y, last.offset.y);
     (!outside).then_some(Nearest { place, ratio: last.ratio, normal: last.normal, ended })
 }
 
-/// Where two tubes that run nearly side by side are nearest to one another: where their centrelines
-/// are nearest.
+/// The place where two tubes that run nearly side by side are nearest to one another: the place
+/// where their centrelines are nearest.
 pub(super) fn nearest_beside(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let place = refine(one, other, start).own?;
     let Touch { ratio, normal, .. } = Meeting::new(one, other, place)?.beside();
@@ -116,8 +119,8 @@ impl<'a> Meeting<'a> {
         DVec2::new(self.at[0].velocity.length(), self.at[1].velocity.length())
     }
 
-    /// Reach of both surfaces along a normal towards the other one, and the points that reach
-    /// furthest.
+    /// The sum of the reaches of both surfaces towards one another along `normal`, and the points
+    /// that reach furthest.
     fn reach(&self, normal: DVec3) -> (f64, [DVec3; 2]) {
         let furthest = |yarn: usize, normal: DVec3| {
             self.sides[yarn].support.furthest(self.frames[yarn], self.at[yarn].sizes(), normal)
@@ -126,8 +129,8 @@ impl<'a> Meeting<'a> {
         (normal.dot(on[0]) - normal.dot(on[1]), on)
     }
 
-    /// Whether both run side by side and the direction between their centrelines already separates
-    /// them. The best direction separates them at least as well.
+    /// Whether both yarns run side by side and the direction between their centrelines already
+    /// separates them. The best direction separates them at least as well.
     fn passes_far_beside(&self) -> bool {
         let ([tangent, other], apart) = (self.tangents, self.apart());
         let level = apart - apart.dot(tangent) * tangent;
@@ -135,7 +138,7 @@ impl<'a> Meeting<'a> {
             && level.try_normalize().is_some_and(|towards| level.length() > FAR * self.reach(towards).0)
     }
 
-    /// Where the tubes touch.
+    /// The touch of the tubes.
     fn touch(&self) -> Touch {
         let ([tangent_a, tangent_b], apart) = (self.tangents, self.apart());
         let cross = tangent_a.cross(tangent_b);
@@ -155,8 +158,9 @@ impl<'a> Meeting<'a> {
         Touch { ratio, offset: DVec2::new(alpha, beta) / self.speeds(), normal }
     }
 
-    /// The touch of yarns side by side: the direction that separates best, with both places level.
-    /// The ratio is a linear function of the direction over a convex one, and has one maximum.
+    /// The touch of yarns side by side, along the direction that separates them best, with both
+    /// places level. The ratio is a linear function of the direction over a convex one, and
+    /// therefore has one maximum.
     fn beside(&self) -> Touch {
         let ([tangent, tangent_b], apart) = (self.tangents, self.apart());
         let along = apart.dot(tangent);
@@ -183,8 +187,8 @@ impl<'a> Meeting<'a> {
             }
         }
         let (best, angle) = if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
-        // Each takes half of the way. If the yarns run against one another, both go forward or both
-        // back.
+        // Each place moves by half of the way along the yarns. If the yarns run in opposite
+        // directions, both move forward or both back.
         let forward = tangent.dot(tangent_b).signum();
         let offset = 0.5 * along * DVec2::new(1.0, -forward) / self.speeds();
         Touch { ratio: best, offset, normal: turned(angle) }

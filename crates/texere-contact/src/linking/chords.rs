@@ -12,7 +12,7 @@ use glam::DVec3;
 /// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA",
 /// Biopolymers 54, 2000, method 1a. The solid angle is that of two triangles, each by van Oosterom
 /// and Strackee, "The solid angle of a plane triangle", IEEE Transactions on Biomedical Engineering
-/// 30, 1983, which takes one arctangent instead of four arcsines and stays exact where chords are
+/// 30, 1983. That needs one arctangent instead of four arcsines, and is exact even if chords are
 /// nearly in one plane.
 pub(super) fn integral(one: &[DVec3], other: &[DVec3]) -> f64 {
     let mut sum = 0.0;
@@ -35,13 +35,14 @@ fn half_angle(
     [(p, p_long), (s, s_long)]: [(DVec3, f64); 2],
     [(q, q_long), (r, r_long)]: [(DVec3, f64); 2],
 ) -> f64 {
-    // Both triangles have the same volume with the origin, that of the chords' tetrahedron.
+    // The tetrahedra of both triangles and the origin have the same volume: that of the chords'
+    // tetrahedron.
     let volume = q.dot(p.cross(r));
     let (pr, pr_long) = (p.dot(r), p_long * r_long);
     let one = pr_long * q_long + p.dot(q) * r_long + q.dot(r) * p_long + pr * q_long;
     let other = pr_long * s_long + p.dot(s) * r_long + s.dot(r) * p_long + pr * s_long;
     let (over, under) = (volume * (one + other), one * other - volume * volume);
-    // Chords in one plane sweep nothing.
+    // Chords in one plane have no solid angle.
     if volume == 0.0 { 0.0 } else { over.atan2(under) }
 }
 
@@ -49,7 +50,7 @@ fn half_angle(
 mod tests {
     use super::*;
 
-    /// A ring of radius 1, in the plane of x and y or upright in that of x and z.
+    /// A ring of radius 1, in the plane of x and y, or `upright` in the plane of x and z.
     fn ring(centre: DVec3, upright: bool, count: usize) -> Vec<DVec3> {
         let point = |k: usize| {
             let (sine, cosine) = (k as f64 / count as f64 * TAU).sin_cos();
@@ -94,7 +95,7 @@ mod tests {
     #[test]
     fn windows_of_rings_add_up_to_their_linking() {
         let (flat, upright) = (ring(DVec3::ZERO, false, 48), ring(DVec3::new(1.0, 0.0, 0.0), true, 48));
-        // Windows share their ends, of six chords each.
+        // Each window has six chords, and shares its ends with its neighbours.
         let windows = |line: &[DVec3]| -> Vec<Vec<DVec3>> {
             (0..8).map(|k| line[6 * k..=6 * k + 6].to_vec()).collect()
         };

@@ -1,4 +1,4 @@
-//! Passages as they are found: all are counted, the worst are kept.
+//! Passages as they are found. All are counted, and the worst are kept.
 
 use std::cmp::Ordering;
 
@@ -15,7 +15,8 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Counts a pair of windows by its `change`, and keeps it where it is a passage.
+    /// Counts a pair of windows with its `change` of the linking integral, and keeps the pair if it
+    /// is a passage.
     pub(super) fn add(&mut self, change: f64, passage: impl FnOnce() -> Passage) {
         self.compared += 1;
         self.largest = self.largest.max(change.abs());

@@ -10,15 +10,15 @@ use crate::grid::Bounds;
 /// The most intervals that are compared, copies included.
 const LIMIT: u64 = 1 << 29;
 
-/// The copies of an interval's box that are looked at: the copy that begins within the first
-/// repeat, and the copies some repeats before it that still reach into the first repeat. Any two
-/// boxes that meet do so once among these copies, with one of them beginning within the repeat
-/// along each axis.
+/// The copies of an interval's box that are searched: the copy that begins within the first repeat,
+/// and earlier copies that still reach into the first repeat. If any copies of two boxes meet,
+/// exactly one such pair is among these copies with, along each axis, one of the two beginning
+/// within the first repeat.
 #[derive(Debug)]
 pub(super) struct Images {
-    /// Lengths of the repeat along x and y, mm; 0 where nothing repeats.
+    /// Lengths of the repeat along x and y, mm. A length is 0 if nothing repeats along that axis.
     repeat: [f64; 2],
-    /// Copies along each axis, at most.
+    /// The most copies of one box along each axis.
     most: [u64; 2],
     points: u64,
 }
@@ -26,22 +26,23 @@ pub(super) struct Images {
 /// One copy of an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Image {
-    /// Number of repeats that it begins before the first one, along x and y.
+    /// Number of repeats by which the copy begins before the first repeat, along x and y.
     pub(super) back: [u64; 2],
-    /// Number of whole repeats that it is moved from its control points, along x and y.
+    /// Number of whole repeats by which the copy is moved from the interval's control points, along
+    /// x and y.
     pub(super) moved: [f64; 2],
 }
 
 impl Image {
-    /// Number of whole repeats that this copy is moved against another.
+    /// Number of whole repeats by which this copy is moved further than the `other`, along x and y.
     pub(super) fn from(&self, other: &Self) -> [f64; 2] {
         [0, 1].map(|axis| self.moved[axis] - other.moved[axis])
     }
 }
 
 impl Images {
-    /// Copies of the boxes in `spans`, which are numbered by their control points; `points` is the
-    /// number of all control points.
+    /// The copies of the boxes in `spans`. Boxes are numbered by their control points, and `points`
+    /// is the number of all control points.
     ///
     /// **Errors**: [`ContactError::LinkingSize`].
     pub(super) fn new<'s, I: Iterator<Item = (usize, Bounds)>>(
@@ -68,7 +69,7 @@ impl Images {
         Ok(images)
     }
 
-    /// Number of repeats that a box is moved to begin within the first one.
+    /// Number of repeats by which a box is moved to begin within the first repeat, along x and y.
     fn home(&self, each: &Bounds) -> [f64; 2] {
         [0, 1].map(|axis| match self.repeat[axis] {
             0.0 => 0.0,
@@ -76,7 +77,7 @@ impl Images {
         })
     }
 
-    /// Number of its copies that are looked at, along each axis.
+    /// Number of copies of a box that are searched, along each axis.
     fn count(&self, each: &Bounds) -> [u64; 2] {
         let home = self.home(each);
         [0, 1].map(|axis| match self.repeat[axis] {
@@ -85,7 +86,7 @@ impl Images {
         })
     }
 
-    /// The copies of interval `number` that are looked at: a number for each, and its box.
+    /// The copies of interval `number` that are searched: each copy's own number and its box.
     pub(super) fn of(&self, (number, each): (usize, Bounds)) -> impl Iterator<Item = (usize, Bounds)> {
         let count = self.count(&each);
         (0..count[1]).flat_map(move |y| (0..count[0]).map(move |x| [x, y])).map(move |back| {
@@ -95,25 +96,26 @@ impl Images {
         })
     }
 
-    /// The interval of copy `number`, and how many repeats the copy begins before the first one.
+    /// The interval of copy `number`, and the number of repeats by which the copy begins before the
+    /// first repeat.
     pub(super) fn decode(&self, number: usize) -> (usize, [u64; 2]) {
         let (point, copy) = (number as u64 % self.points, number as u64 / self.points);
         (point as usize, [copy % self.most[0], copy / self.most[0]])
     }
 
-    /// The copy of a box's interval that begins `back` repeats before the first one.
+    /// The copy of a box's interval that begins `back` repeats before the first repeat.
     pub(super) fn image(&self, each: &Bounds, back: [u64; 2]) -> Image {
         let home = self.home(each);
         Image { back, moved: [0, 1].map(|axis| home[axis] - back[axis] as f64) }
     }
 
-    /// The vector of a number of repeats, mm.
+    /// The vector of `moved` repeats along x and y, mm.
     pub(super) fn offset(&self, moved: [f64; 2]) -> DVec3 {
         DVec3::new(moved[0] * self.repeat[0], moved[1] * self.repeat[1], 0.0)
     }
 }
 
-/// A box that is moved.
+/// The box `each` moved by `offset`.
 pub(super) fn shifted(each: Bounds, offset: Vec3A) -> Bounds {
     Bounds { low: each.low + offset, high: each.high + offset }
 }

@@ -26,47 +26,51 @@ use crate::ContactError;
 use crate::grid::Grid;
 use crate::watch::{Report, Watch};
 
-/// Cells, and intervals, that one task takes.
+/// Number of cells in one task, and of intervals in a span.
 const TASK: usize = 1024;
 
 /// Finds the places where yarns have passed through one another, from their shapes before and after
 /// they were moved.
 ///
-/// The measure is the Gauss linking integral of two pieces of yarn. Bending the pieces changes it
-/// little; one passing through the other changes it by 1. A window of either yarn is taken round
-/// each place where a passage may have happened, and the integral of both windows before is
-/// compared with that after. The yarns have passed where it has changed by more than
-/// [`LINKING_CHANGE`]. Cloth that is bent, stretched, sheared or rolled up changes it by 0.13 at
-/// most. An end that changes sides, a dropped stitch and a pulled one change it by 0.86 to 1.03
-/// (0.8 half a pitch from an edge).
+/// The measure is the Gauss linking integral of two pieces of yarn. If the pieces bend, the
+/// integral changes little. If one piece passes through the other, it changes by 1. Round each
+/// place where a passage may have happened, a window of either yarn is cut out, and the integral of
+/// both windows before is compared with the integral after. The yarns have passed if the integral
+/// has changed by more than [`LINKING_CHANGE`]. In cloth that is bent, stretched, sheared or rolled
+/// up, it changes by 0.13 at most. If an end changes sides, or a stitch is dropped or pulled, it
+/// changes by 0.86 to 1.03 (0.8 half a pitch from an edge).
 ///
-/// A window has eight control intervals, or reaches five diameters each way where that is more. It
-/// holds a crossing and what leads to it, and is too short for passages to cancel out in it. A loop
-/// that slips off another passes on both its sides: windows of more than 1.3 loops don't see that.
+/// A window has eight control intervals, or reaches five diameters each way if that is more. It
+/// holds a crossing and the yarn on both sides of it, and is too short for passages to cancel out.
+/// A loop that slips off another passes through it on both sides. In windows of more than 1.3 loops
+/// the two passages cancel out.
 ///
 /// Most pairs of windows are left out, because nothing can have passed there. Let all control
 /// points move straight from their places before to their places after. Two intervals that stay
-/// apart all the way have not passed through one another. They can only meet if they are no further
-/// from one another, before or after, than they move against one another, so only such pairs are
-/// looked at. Intervals that move further than a quarter of a window are looked at within that
-/// distance only, and their windows are compared wherever they have moved too far to say. Yarns
-/// that are shifted, bent or stretched together, or slide beside one another, take no integral.
+/// apart all the way have not passed through one another. Two intervals can only meet if their
+/// distance before or after is no more than their motion against one another, so only such pairs
+/// are tested. The distance within which pairs are tested is a quarter of a window at most. If two
+/// intervals have moved against one another by more than twice that distance, their windows are
+/// compared in any case. For yarns that are shifted, bent or stretched together, or slide beside
+/// one another, no integral is computed.
 ///
-/// Two pieces of one yarn count like pieces of two yarns, where their windows are apart. A yarn may
-/// slip past another at its cut end. With a repeat in `boundary` yarns meet their neighbours'
-/// copies, and windows go on over the edge. Points of `after` must stand where they have moved to,
-/// not be brought back into the repeat. Sections don't matter: centrelines are compared.
+/// Two pieces of one yarn count like pieces of two yarns if their windows are apart. A yarn may
+/// slip past another at its cut end. With a repeat in `boundary`, yarns meet the copies of other
+/// yarns, and windows go on over the edge. Points of `after` must be where they have moved to, and
+/// must not be brought back into the repeat. Only centrelines are compared, so sections don't
+/// matter.
 ///
 /// Time grows with the control points and with how far they have moved. A million control points
-/// take half a second on two cores where they moved little, one second where they moved half a
-/// diameter, and 2.5 where they moved several. Turning the whole cloth over in its plane takes a
-/// hundred times as long, for then everything is compared. Memory is 17 bytes a control point
-/// beside the yarns. The result does not depend on the number of threads.
+/// take half a second on two cores if they have moved little, one second if they have moved half a
+/// diameter, and 2.5 seconds if they have moved several diameters. A cloth that is turned round in
+/// its plane takes a hundred times as long, because everything is compared. Memory is 17 bytes a
+/// control point beside the yarns. The result does not depend on the number of threads.
 ///
-/// **Errors**: [`ContactError::OtherLayout`] for yarns of other counts, [`ContactError::Yarns`] for
-/// yarns of another tension, [`ContactError::Boundary`] for a boundary that is not theirs,
-/// [`ContactError::LinkingSize`] for more intervals than are compared, with their copies in a
-/// repeat that is too small for them, [`ContactError::OutOfMemory`].
+/// **Errors**: [`ContactError::OtherLayout`] if `after` has other yarns or other numbers of control
+/// points, [`ContactError::Yarns`] if it has another tension, [`ContactError::Boundary`] for a
+/// boundary that is not that of the yarns, [`ContactError::LinkingSize`] for more intervals than
+/// are compared (with their copies, of which a small repeat has many),
+/// [`ContactError::OutOfMemory`].
 ///
 /// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA",
 /// Biopolymers 54, 2000, method 1a: the integral as a sum over pairs of chords.
@@ -93,10 +97,10 @@ pub fn linking(before: &Yarns, after: &Yarns, boundary: &Boundary) -> Result<Lin
     linking_with_progress(before, after, boundary, |_| ControlFlow::Continue(()))
 }
 
-/// [`linking()`] that calls `progress` with the share of the work done, from 0 to 1, from any
-/// thread. `Break` ends the comparison.
+/// Compares as [`linking()`] does, and calls `progress` with the share of the work done, from 0 to
+/// 1, from any thread. `Break` ends the comparison.
 ///
-/// **Errors**: the errors of [`linking()`]; [`ContactError::Cancelled`] where `progress` asked to
+/// **Errors**: the errors of [`linking()`], and [`ContactError::Cancelled`] if `progress` asks to
 /// stop.
 ///
 /// ```
@@ -135,8 +139,7 @@ fn compared(
     boundary.check(before.layout())?;
     let shapes = Shapes::new(before, after, boundary)?;
     let points = before.points().len() as u64;
-    // Intervals that were not near before and have met on the way came from afar, and may be near
-    // after.
+    // Intervals that were not near before but met on the way have moved far, and may be near after.
     let searches: &[Shape] =
         if shapes.any_is_far() { &[Shape::Before, Shape::After] } else { &[Shape::Before] };
     let watch = Watch::new(searches.len() as u64 * SEARCH, progress);
@@ -154,7 +157,7 @@ fn compared(
             .try_reduce(Found::default, |one, other| Ok(one.joined(other)))?;
         found = found.joined(more);
     }
-    // Progress that rounding has left out.
+    // The units of a search are rounded down, so the rest is added here.
     watch.advance(SEARCH)?;
     Ok(found.linking())
 }

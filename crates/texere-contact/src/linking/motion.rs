@@ -1,11 +1,12 @@
-//! Whether two chords meet while their ends move straight on.
+//! Whether two chords meet while their ends move along straight lines.
 
 use glam::Vec3A;
 
-/// The most halvings of a stretch of time. Chords that may still meet in it count as meeting.
+/// The most halvings of a stretch of time. Chords that may still meet in so short a stretch count
+/// as meeting.
 const HALVINGS: u32 = 10;
 
-/// A chord whose ends move straight on from one time to another.
+/// A chord whose ends move along straight lines from one time to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
     pub(super) before: [Vec3A; 2],
@@ -17,15 +18,15 @@ impl Chord {
         [0, 1].map(|end| self.before[end].lerp(self.after[end], time))
     }
 
-    /// Upper bound of how far the other chord moves against this one, mm.
+    /// Upper bound of how far the `other` chord moves against this one, mm.
     pub(super) fn motion(&self, other: &Self) -> f32 {
         let [one, two] = [self, other].map(|chord| [0, 1].map(|end| chord.after[end] - chord.before[end]));
         let squared = |a: usize, b: usize| one[a].distance_squared(two[b]);
         squared(0, 0).max(squared(0, 1)).max(squared(1, 0)).max(squared(1, 1)).sqrt()
     }
 
-    /// Whether the two may come within `apart` mm of one another on the way; `motion` bounds how
-    /// far they move against one another, mm.
+    /// Whether the two chords may come within `apart` mm of one another on the way. `motion` is an
+    /// upper bound of how far they move against one another, mm.
     pub(super) fn may_meet(&self, other: &Self, motion: f32, apart: f32) -> bool {
         let distance = |time: f32| distance(self.at(time), other.at(time));
         let start = distance(0.0);
@@ -34,8 +35,8 @@ impl Chord {
     }
 }
 
-/// Whether a distance may fall to `apart` between two times at which it is known. It changes by
-/// `motion` at most in the time from 0 to 1.
+/// Whether a distance may fall to `apart` between two times at which it is known. In the time from
+/// 0 to 1 the distance changes by `motion` at most.
 fn meets(
     distance: &impl Fn(f32) -> f32,
     motion: f32,
@@ -43,7 +44,8 @@ fn meets(
     [start, end]: [(f32, f32); 2],
     halvings: u32,
 ) -> bool {
-    // The distance falls no faster than that from either end, and is least where both falls meet.
+    // The distance falls no faster than `motion` from either end, and is least at the time when
+    // both falls meet.
     if start.1 + end.1 - motion * (end.0 - start.0) > 2.0 * apart {
         return false;
     }
@@ -65,8 +67,8 @@ fn distance([p, p_end]: [Vec3A; 2], [q, q_end]: [Vec3A; 2]) -> f32 {
     let (a, e, f) = (along.length_squared(), other.length_squared(), other.dot(apart));
     let (c, b) = (along.dot(apart), along.dot(other));
     let s = share(b * f - c * e, a * e - b * b);
-    // The other end's best place may lie off it; then the first one's best place for that end
-    // counts.
+    // The best place on the other segment may lie beyond its end. Then the best place on the first
+    // segment is the one for that end.
     let t = share(b * s + f, e);
     let s = share(b * t - c, a);
     (p + along * s).distance(q + other * t)

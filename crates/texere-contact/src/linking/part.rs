@@ -1,4 +1,4 @@
-//! Control intervals as the cells of the search hold them.
+//! The control intervals that a cell of the search holds.
 
 use glam::{UVec3, Vec3A};
 
@@ -15,21 +15,21 @@ pub(super) struct Part {
     pub(super) image: Image,
     pub(super) motion: Motion,
     pub(super) bounds: [Bounds; 2],
-    /// The first cell that its box reaches into.
+    /// The first cell that the copy's box reaches into.
     pub(super) cell: UVec3,
-    /// Its start, middle and end before and after.
+    /// The copy's start, middle and end before and after.
     corners: [[Vec3A; 3]; 2],
-    /// Upper bound of the centreline's distance from the chords between these, with all rounding,
-    /// mm.
+    /// Upper bound of the centreline's distance from the chords between the corners, with all
+    /// rounding, mm.
     sagitta: f32,
-    /// How far the ends lie from the middle before, how far after, and how differently they have
-    /// moved, mm.
+    /// How far the ends lie from the middle before, how far after, and how far the motion of either
+    /// end differs from that of the middle, mm.
     spread: [f32; 3],
 }
 
 impl Part {
-    /// The copy of interval `number` that begins `back` repeats before the first one, in the shape
-    /// that `grid` is of.
+    /// The copy of interval `number` that begins `back` repeats before the first repeat. `grid`
+    /// holds the boxes in `shape`.
     pub(super) fn new(
         shapes: &Shapes<'_>,
         (number, back): (usize, [u64; 2]),
@@ -63,8 +63,8 @@ impl Part {
         }
     }
 
-    /// Whether one has moved so far against the other that the places near it don't tell what it
-    /// met on the way.
+    /// Whether one interval has moved so far against the other that their distances before and
+    /// after don't tell whether they met on the way.
     fn is_afar(&self, other: &Self, motion: f32) -> bool {
         motion > 2.0 * (self.motion.margin + other.motion.margin)
     }
@@ -89,7 +89,7 @@ impl Part {
         })
     }
 
-    /// Its first or its second half.
+    /// The chord over the copy's first or second half.
     fn chord(&self, half: usize) -> Chord {
         let [before, after] = self.corners.map(|corners| [corners[half], corners[half + 1]]);
         Chord { before, after }

@@ -1,5 +1,5 @@
-//! The search: which intervals are near one another, which of them may have passed, and how their
-//! linking has changed.
+//! The search for intervals that are near one another and may have passed, and the comparison of
+//! their linking before and after.
 
 use std::ops::Range;
 
@@ -19,14 +19,14 @@ use crate::ContactError;
 use crate::grid::Grid;
 use crate::watch::Watch;
 
-/// Units of progress of one search.
+/// Number of units of progress of one search.
 pub(super) const SEARCH: u64 = 1 << 32;
 
-/// Intervals between two reports of progress.
+/// Number of intervals between two reports of progress.
 const REPORT_EVERY: u64 = 256;
 
 /// The least number of intervals between two intervals of one yarn that are compared. Windows of
-/// nearer ones would be too short to see a passage.
+/// nearer intervals would be too short to show a passage.
 const NEIGHBOURS: f64 = 6.0;
 
 /// The yarns in both shapes, with the cells of their intervals in one of the shapes.
@@ -35,7 +35,7 @@ pub(super) struct Search<'a> {
     images: &'a Images,
     grid: &'a Grid,
     shape: Shape,
-    /// Units of progress of an interval in a cell.
+    /// Number of units of progress for an interval in a cell.
     units: u64,
 }
 
@@ -47,8 +47,8 @@ impl<'a> Search<'a> {
 
     /// All passages of intervals that meet in `cells`.
     ///
-    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says
-    /// so.
+    /// **Errors**: [`ContactError::OutOfMemory`], and [`ContactError::Cancelled`] if the caller of
+    /// `watch` asks to stop.
     pub(super) fn cells(&self, cells: Range<usize>, watch: &Watch<'_>) -> Result<Found, ContactError> {
         let mut found = Found::default();
         let (mut numbers, mut parts) = (Vec::new(), Vec::new());
@@ -77,7 +77,7 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
-    /// The intervals of a cell, from left to right.
+    /// Reads the intervals of a cell into `parts`, from left to right.
     fn read(&self, cell: usize, numbers: &mut Vec<usize>, parts: &mut Vec<Part>) -> Result<(), ContactError> {
         numbers.clear();
         room_for(numbers, self.grid.count_in(cell), "a cell's intervals")?;
@@ -95,7 +95,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether two intervals of a cell are near one another and are to be compared in this cell.
-    /// Two copies may meet in several cells, and be near both before and after; each pair is
+    /// Two copies may meet in several cells, and be near both before and after. Each pair is
     /// compared once.
     fn counts(&self, one: &Part, other: &Part, cell: usize) -> bool {
         let meet = |shape: Shape| one.bounds[shape as usize].meets(&other.bounds[shape as usize]);
@@ -108,7 +108,7 @@ impl<'a> Search<'a> {
             && self.gap(one, other) >= NEIGHBOURS
     }
 
-    /// Number of intervals between two along one yarn; infinite for two yarns.
+    /// Number of intervals from one to the other along one yarn, infinite for two yarns.
     fn gap(&self, one: &Part, other: &Part) -> f64 {
         if one.yarn != other.yarn {
             return f64::INFINITY;
@@ -126,7 +126,7 @@ impl<'a> Search<'a> {
         let most = self.gap(one, other) - 1.0;
         let windows =
             [0, 1].map(|side| Window::around(&strands[side][0], pair[side].interval, diameter, most));
-        // The second window is moved beside the first.
+        // The second window is moved to the copy that is near the first.
         let offset = self.images.offset(pair[1].image.from(&pair[0].image));
         let [before, after] = [0, 1].map(|shape| {
             let [one, other] = [0, 1].map(|side| windows[side].corners(&strands[side][shape]));
@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// The middle of an interval after the move.
+    /// The middle of an interval after the move, with `offset` added.
     fn place(&self, part: &Part, [_, after]: &[Strand<'_>; 2], offset: DVec3) -> YarnPlace {
         let (yarn, interval) = (part.yarn, part.interval);
         let position = (after.at(interval as f64 + 0.5) + offset).to_array();

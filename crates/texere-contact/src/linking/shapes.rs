@@ -13,7 +13,7 @@ use super::strand::Strand;
 use crate::ContactError;
 use crate::grid::Bounds;
 
-/// Control points whose moves one task adds up.
+/// Number of control points whose moves one task adds up.
 const SUMMED: usize = 1 << 14;
 
 /// One of the two shapes.
@@ -30,19 +30,19 @@ pub(super) struct Span {
     intervals: Range<usize>,
 }
 
-/// Motion of an interval against the cloth as a whole, and the distance within which others are
-/// near it.
+/// Motion of an interval against the cloth as a whole, and the margin within which other intervals
+/// count as near.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Motion {
-    /// The furthest motion of any of its places, mm.
+    /// The furthest motion of any place of the interval, mm.
     moved: f32,
-    /// Two intervals are near where they come within the sum of their margins, mm.
+    /// Two intervals are near if they come within the sum of their margins, mm.
     pub(super) margin: f32,
 }
 
 impl Motion {
     /// Whether the interval has moved further than its margin. If two intervals have met without
-    /// being near before, one of them has.
+    /// being near before, at least one of them has moved so far.
     pub(super) fn is_far(&self) -> bool {
         self.moved > self.margin
     }
@@ -61,7 +61,9 @@ pub(super) struct Shapes<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::Yarns`] of another tension,
+    /// The shapes `before` and `after`, with the motion of each interval.
+    ///
+    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::Yarns`] for another tension,
     /// [`ContactError::OutOfMemory`].
     pub(super) fn new(
         before: &'a Yarns,
@@ -112,14 +114,14 @@ impl<'a> Shapes<'a> {
     }
 
     /// The source of an interval's middle, as [`YarnPlace`](texere_core::YarnPlace) defines it.
-    /// None where the yarns before have no sources.
+    /// None if the yarns before have no sources.
     pub(super) fn source(&self, yarn: usize, interval: usize) -> Option<u32> {
         let range = self.yarns[0].range(yarn)?;
         let nearer = range.start + (interval + 1) % range.len();
         self.yarns[0].sources()?.get(nearer).copied()
     }
 
-    /// All intervals in order, `most` at a time at most.
+    /// All intervals in order, in spans of `most` at most.
     pub(super) fn spans(&self, most: usize) -> Vec<Span> {
         let yarns = self.boundary.ends().iter().zip(self.yarns[0].layout().offsets().windows(2)).enumerate();
         yarns
@@ -152,8 +154,11 @@ impl<'a> Shapes<'a> {
         self.motions.par_iter().any(Motion::is_far)
     }
 
+    /// The motion of interval `number` against the mean motion `shift`.
+    ///
     /// Two places that meet on a straight way are no further from one another before than they move
-    /// against one another. The margin is that motion, up to the length that matters to windows.
+    /// against one another. The margin is the interval's motion, up to the length that matters to
+    /// windows.
     fn measure(&self, number: usize, shift: Vec3A) -> Motion {
         let (yarn, interval) = self.yarn_of(number);
         let strands = self.strands(yarn);
@@ -165,8 +170,8 @@ impl<'a> Shapes<'a> {
         let moved = moved.fold(0.0, f32::max).sqrt();
         let half = strands.iter().map(|strand| strand.half(interval)).fold(0.0, f32::max);
         let length = before[0].distance(before[1]) + before[1].distance(before[2]);
-        // A quarter of half a window. Windows at twice that distance are linked by a third of a
-        // passage.
+        // The margin is at most a quarter of half a window. The linking integral of windows at
+        // twice that distance is a third of a passage's.
         let most = (WINDOW_INTERVALS as f32 / 8.0 * length).max(WINDOW_REACH as f32 / 2.0 * half);
         Motion { moved, margin: moved.min(most) }
     }

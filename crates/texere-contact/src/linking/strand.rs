@@ -1,10 +1,11 @@
-//! One yarn in one of its shapes: a curve that goes on where its ends say so.
+//! One yarn in one of its shapes: a curve that ends, closes up or goes on as the yarn's [`Ends`]
+//! say.
 
 use glam::{DVec3, Vec3A};
 use texere_core::{ControlPoint, Ends};
 
-/// One yarn in one of its shapes. Its intervals are counted on past its last control point where it
-/// is closed or repeats.
+/// One yarn in one of its shapes. If the yarn is closed or repeats, its intervals are counted on
+/// past its last control point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Strand<'a> {
     pub(super) points: &'a [ControlPoint],
@@ -16,7 +17,7 @@ pub(super) struct Strand<'a> {
 }
 
 /// The corners of an interval's Bézier polygon, whose hull holds the centreline. They are in single
-/// precision, for finding out what may have passed.
+/// precision, which is enough for finding out what may have passed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hull([Vec3A; 4]);
 
@@ -34,7 +35,7 @@ impl Strand<'_> {
         }
     }
 
-    /// The four control points that steer an interval.
+    /// The four control points that an interval depends on.
     fn window(&self, interval: i64) -> [DVec3; 4] {
         [-1, 0, 1, 2].map(|step| self.point(interval + step))
     }
@@ -77,8 +78,8 @@ impl Strand<'_> {
     }
 
     /// Number of intervals from `from` to `to` along one yarn, by the shorter way round a closed
-    /// yarn. `to` is on a yarn moved by `moved` whole repeats. None where the move makes that a
-    /// copy, which is another yarn.
+    /// yarn. `to` is on a copy of the yarn that is moved by `moved` whole repeats. None if that
+    /// copy is not a continuation of the yarn, but counts as another yarn.
     pub(super) fn gap(&self, from: usize, to: usize, moved: [f64; 2]) -> Option<f64> {
         let (ahead, count) = (to as f64 - from as f64, self.points.len() as f64);
         match self.ends {
@@ -101,14 +102,14 @@ impl Hull {
         [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
     }
 
-    /// The interval's start, middle and end: the corners of two chords that stand for it.
+    /// The interval's start, middle and end: the corners of two chords that represent the interval.
     pub(super) fn chords(&self) -> [Vec3A; 3] {
         let [start, leaving, arriving, end] = self.0;
         [start, (start + end + (leaving + arriving) * 3.0) / 8.0, end]
     }
 
-    /// Upper bound of the centreline's distance from these chords, mm: an eighth of the second
-    /// derivative times the square of half the interval.
+    /// Upper bound of the centreline's distance from [`Self::chords`], mm: an eighth of the largest
+    /// second derivative, times the square of half the interval.
     pub(super) fn sagitta(&self) -> f32 {
         let [start, leaving, arriving, end] = self.0;
         let bend = |a: Vec3A, b: Vec3A, c: Vec3A| (a - 2.0 * b + c).length_squared();

@@ -1,4 +1,4 @@
-//! Windows: stretches of yarn round places that are compared.
+//! Windows: the stretches of yarn whose linking is compared.
 
 use glam::DVec3;
 use texere_core::Ends;
@@ -6,8 +6,8 @@ use texere_core::Ends;
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
 
-/// Chords of a window. With twice as many no change differs by more than 0.01, with half as many by
-/// 0.02.
+/// Number of chords of a window. With twice as many, no change of the integral differs by more than
+/// 0.01, and with half as many by no more than 0.02.
 const CHORDS: usize = 2 * WINDOW_INTERVALS;
 
 /// The corners of a window's chords.
@@ -22,7 +22,7 @@ pub(super) struct Window {
 
 impl Window {
     /// The window round the middle of `interval`, `most` intervals long at most. `diameter` is the
-    /// mean of both yarns', mm.
+    /// mean diameter of both yarns, mm.
     pub(super) fn around(strand: &Strand<'_>, interval: usize, diameter: f64, most: f64) -> Self {
         let (start, half) = (interval as i64, WINDOW_INTERVALS as i64 / 2);
         let count = strand.points.len();
@@ -33,7 +33,8 @@ impl Window {
         let (low, high) = ((start - half).max(first), (start + half + 1).min(last));
         let interval_mm = strand.way(low, high) / (high - low) as f64;
         let middle = start as f64 + 0.5;
-        // It goes no further than once round, where many control points lie in one place.
+        // If many control points lie in one place, the window still reaches no further than once
+        // round the yarn.
         let reach =
             (WINDOW_INTERVALS as f64 / 2.0).max((WINDOW_REACH * diameter / interval_mm).min(count as f64));
         let whole = if strand.ends == Ends::Closed { most.min(count as f64) } else { most };
@@ -41,7 +42,7 @@ impl Window {
         Self { from: (middle - reach).max(first as f64), to: (middle + reach).min(last as f64) }
     }
 
-    /// The corners of its chords in one of the yarn's shapes.
+    /// The corners of the window's chords in one of the yarn's shapes.
     pub(super) fn corners(&self, strand: &Strand<'_>) -> Corners {
         let step = (self.to - self.from) / CHORDS as f64;
         std::array::from_fn(|corner| strand.at(self.from + step * corner as f64))

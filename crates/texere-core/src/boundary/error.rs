@@ -13,40 +13,40 @@ pub enum BoundaryError {
     Repeat {
         /// `x` or `y`.
         axis: char,
-        /// Its length, mm.
+        /// The repeat's length, mm.
         length: f32,
-        /// The largest accepted, mm.
+        /// The largest length that is allowed, mm.
         limit: f32,
     },
-    /// There must be one `Ends` per yarn.
-    #[error("ends of {ends} where there are {yarns}", ends = counted(*.ends, "yarn"))]
+    /// The number of [`Ends`](crate::Ends) differs from the number of yarns.
+    #[error("ends of {ends}, but there are {yarns}", ends = counted(*.ends, "yarn"))]
     EndsCount {
-        /// Given.
+        /// Number of ends that were given.
         ends: usize,
-        /// Needed.
+        /// Number of yarns of the layout.
         yarns: usize,
     },
-    /// The layout and the ends must agree on whether a yarn is closed.
+    /// A yarn is closed in the layout and not by its ends, or the other way round.
     #[error("yarn {yarn} is {}closed, unlike its ends", if *.closed { "" } else { "not " })]
     Closed {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// Whether the layout has it closed.
+        /// Whether the yarn is closed in the layout.
         closed: bool,
     },
     /// A yarn goes on along an axis that has no period.
     #[error("yarn {yarn} goes on along {axis}, where there is no repeat")]
     NoRepeat {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
         /// `x` or `y`.
         axis: char,
     },
-    /// A repeating yarn must go on by at least one repeat. A yarn that ends where it began is
-    /// closed.
+    /// A repeating yarn goes on by 0 repeats along both axes. A yarn that ends where it begins must
+    /// be closed instead.
     #[error("yarn {yarn} goes on by no repeat")]
     NoWayOn {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
     },
 }

@@ -4,24 +4,24 @@
 /// pick.
 const UNKNOWNS: usize = 8;
 
-/// The damping of the equations: this share of each diagonal element is added to it, and this
-/// number for unknowns that nothing pulls at.
+/// The damping of the equations. Each diagonal element grows by this share of itself, and by this
+/// number, for unknowns that no term depends on.
 pub const DAMPING: f32 = 1e-3;
 
-/// The least pivot of Cholesky's method, which rounding could otherwise take to zero or below.
+/// The least pivot of Cholesky's method. Without it, rounding could make a pivot zero or negative.
 pub const PIVOT: f32 = 1e-9;
 
-/// The energy's gradient and curvature in the eight unknowns of a crossing, by Gauss and Newton:
-/// every term is a weight times the square of a residual.
+/// The energy's gradient and curvature in the eight unknowns of a crossing, for a step of the
+/// Gauss-Newton method. Every term of the energy is a weight times the square of a residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossingBlock {
     /// Half the energy's gradient.
     pub gradient: [f32; UNKNOWNS],
-    /// An upper bound on half the energy's curvature while neighbours step as well. It is
-    /// symmetric, and only the lower triangle is filled.
+    /// An upper bound on half the energy's curvature while neighbouring crossings step as well. It
+    /// is symmetric, and only the lower triangle is filled.
     pub curvature: [[f32; UNKNOWNS]; UNKNOWNS],
-    /// The least distance of two threads here, divided by the distance that they need: 1 where they
-    /// touch.
+    /// The least distance of two threads at this crossing, divided by the distance that they need.
+    /// It is 1 if they touch.
     pub clearance: f32,
 }
 
@@ -32,9 +32,9 @@ impl CrossingBlock {
     /// Adds the term `weight` times `residual` squared. `slopes` are the residual's derivatives by
     /// unknowns of this crossing, each with the unknown's number.
     ///
-    /// All crossings step at once. `share` is the factor by which this one's step must be shorter
-    /// than if it stepped alone: the sum of all crossings' slopes over its own, which keeps the
-    /// term from growing.
+    /// All crossings step at once. `share` is the factor by which this crossing's step must be
+    /// shorter than if it stepped alone, so that the term does not grow: the sum of the slopes of
+    /// all crossings in the term, divided by this crossing's own.
     pub(crate) fn add<const N: usize>(
         &mut self,
         weight: f32,

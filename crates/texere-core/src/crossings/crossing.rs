@@ -1,4 +1,4 @@
-//! The state of a crossing: its unknowns.
+//! The state of a crossing: the values of its unknowns.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -12,7 +12,7 @@ pub enum Set {
 }
 
 impl Set {
-    /// Both.
+    /// Both sets, the warp first.
     pub const BOTH: [Self; 2] = [Self::Warp, Self::Weft];
 
     /// The set that this one crosses.
@@ -44,11 +44,11 @@ impl Set {
 pub struct ThreadState {
     /// The shift sideways: of an end along x, of a pick along y.
     pub shift: f32,
-    /// The height of its middle.
+    /// The height of the thread's middle.
     pub height: f32,
-    /// Half of its width, in the plane of the cloth.
+    /// Half of the thread's width, in the plane of the cloth.
     pub half_width: f32,
-    /// Half of its thickness.
+    /// Half of the thread's thickness.
     pub half_height: f32,
 }
 
@@ -56,14 +56,14 @@ pub struct ThreadState {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct CrossingState {
-    /// The end.
+    /// The state of the end.
     pub warp: ThreadState,
-    /// The pick.
+    /// The state of the pick.
     pub weft: ThreadState,
 }
 
 impl CrossingState {
-    /// The thread of a set.
+    /// The state of the crossing's thread of `set`.
     ///
     /// ```
     /// use texere_core::crossings::{CrossingState, ThreadState, Set};
@@ -78,7 +78,7 @@ impl CrossingState {
         }
     }
 
-    /// The largest difference of any unknown.
+    /// The largest difference of any unknown from that of the `other` state.
     ///
     /// ```
     /// use texere_core::crossings::{CrossingState, ThreadState};

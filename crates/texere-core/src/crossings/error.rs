@@ -1,4 +1,4 @@
-//! Errors of crossings.
+//! Errors of settling by crossings.
 
 use crate::{OutOfMemory, counted};
 use thiserror::Error;
@@ -10,11 +10,11 @@ pub enum CrossingsError {
     /// The drawdown's size differs from the numbers of threads.
     #[error("a drawdown of {ups} does not fit {ends} and {picks}", ups = counted(*.ups, "crossing"), ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Drawdown {
-        /// Its crossings.
+        /// Number of crossings of the drawdown.
         ups: usize,
-        /// Threads of the warp.
+        /// Number of ends given.
         ends: usize,
-        /// Threads of the weft.
+        /// Number of picks given.
         picks: usize,
     },
     /// A set with too few threads.
@@ -22,9 +22,9 @@ pub enum CrossingsError {
     TooFew {
         /// `end` or `pick`.
         what: &'static str,
-        /// Their number.
+        /// Number of the set's threads.
         count: usize,
-        /// The least that are accepted.
+        /// The least number that is accepted.
         least: usize,
     },
     /// A count above its limit.
@@ -32,21 +32,21 @@ pub enum CrossingsError {
     TooMany {
         /// The things that are counted.
         what: &'static str,
-        /// Their number.
+        /// Number of these things.
         count: u64,
-        /// The most that are accepted.
+        /// The largest number that is accepted.
         limit: u64,
     },
     /// A setting out of its range.
     #[error("{setting} is {value}, not between {low} and {high}")]
     Setting {
-        /// Its name.
+        /// The setting's name.
         setting: &'static str,
-        /// Its value.
+        /// The setting's value.
         value: f32,
-        /// The least that is accepted.
+        /// The least value that is accepted.
         low: f32,
-        /// The most that is accepted.
+        /// The largest value that is accepted.
         high: f32,
     },
     /// A value of a thread out of its range.
@@ -54,15 +54,15 @@ pub enum CrossingsError {
     Thread {
         /// `warp` or `weft`.
         set: &'static str,
-        /// The thread's number, from 0.
+        /// The thread's number, counted from 0.
         thread: usize,
         /// `pitch`, `diameter` or `stiffness`.
         setting: &'static str,
-        /// Its value.
+        /// The value given.
         value: f32,
-        /// The least that is accepted.
+        /// The least value that is accepted.
         low: f32,
-        /// The most that is accepted.
+        /// The largest value that is accepted.
         high: f32,
     },
     /// An allocation failed.

@@ -1,12 +1,12 @@
-//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so no search
-//! is needed. At every crossing both threads shift sideways, rise, widen and flatten until an
-//! energy is least. The energy keeps threads from piercing one another.
+//! Settling of dense woven cloth by its crossings. The drawdown says which threads meet, so no
+//! search is needed. At every crossing both threads shift sideways, rise, widen and flatten until
+//! an energy is least. The energy keeps threads from piercing one another.
 //!
 //! A [`Crossings`] is the problem, a [`CrossingsPlan`] holds its tables, a [`CrossingsSettler`]
-//! does the passes on a device, and [`settle`] drives it. The definitions that all devices share
-//! are here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
-//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] gives the state that its
-//! neighbours see in the next pass.
+//! makes the passes on a device, and [`settle`] calls the settler until the cloth is at rest. All
+//! devices share the definitions in this module. [`CrossingsPlan::block`] gathers the energy's
+//! terms at one crossing. [`CrossingsPlan::moved`] makes the crossing's step.
+//! [`CrossingsPlan::ahead`] gives the state that neighbouring crossings read in the next pass.
 
 mod block;
 mod crossing;

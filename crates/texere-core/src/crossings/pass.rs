@@ -1,12 +1,12 @@
 //! The settings of a pass: the growth of threads, and the hardness of penalties.
 
-/// The passes in which threads grow and penalties harden.
+/// Number of passes in which threads grow and penalties harden.
 pub(super) const GROWING: u32 = 50;
 
-/// The share of their area that threads have at first.
+/// The share of their full area that threads have at first.
 const THIN: f64 = 0.4;
 
-/// The weights of penalties at first and in the end.
+/// The weight of penalties at first, and in the end.
 const PENALTIES: [f64; 2] = [30.0, 1000.0];
 
 /// The settings of one pass.
@@ -19,7 +19,7 @@ pub struct CrossingsPass {
 }
 
 impl CrossingsPass {
-    /// The settings of pass number `number`, from 0.
+    /// The settings of pass number `number`, counted from 0.
     ///
     /// ```
     /// use texere_core::crossings::CrossingsPass;

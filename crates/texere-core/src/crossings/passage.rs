@@ -1,37 +1,38 @@
 //! The passage of a thread that changes sides between two threads of the other set.
 
-/// The steps of Newton's method towards the best slope.
+/// Number of steps of Newton's method towards the best slope.
 pub const STEPS: u32 = 5;
 
-/// The least curvature of the room, as a share of the distance, at which Newton's step is used.
-/// Below it the step follows the slope alone.
+/// The least curvature of the room by the angle, as a share of the distance, at which Newton's step
+/// is used. Below it, the step is in proportion to the room's first derivative alone.
 pub const CURVED: f32 = 0.1;
 
 /// The longest turn of one step, radians.
 pub const TURN: f32 = 0.5;
 
-/// A straight passage over the first of two crossed threads and under the second, at the slope that
-/// leaves most room.
+/// The straight passage of a thread over the first of two crossed threads and under the second, at
+/// the slope that leaves most room.
 ///
-/// A line at slope t clears an upright ellipse by its support, sqrt((a sin t)² + (b cos t)²). Let
-/// two ellipses lie `across` and `rise` apart. A thread fits between them if across sin t + rise
-/// cos t is at least the sum of both supports and of both half heights of the thread.
+/// A line at slope angle t must keep a distance from the middle of an upright ellipse that is the
+/// ellipse's support, sqrt((a sin t)² + (b cos t)²). Let two ellipses lie `across` and `rise`
+/// apart. A thread fits between them if across sin t + rise cos t is at least the sum of both
+/// supports and of both half heights of the thread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightPassage {
-    /// Cosine and sine of the slope, 0 to a right angle.
+    /// Cosine and sine of the slope angle, which lies between 0 and a right angle.
     pub slope: [f32; 2],
-    /// The reach of both ellipses across the slope.
+    /// How far each ellipse reaches at right angles to the slope.
     pub reach: [f32; 2],
-    /// The distance of the middles of both ellipses, across the slope.
+    /// The distance between the middles of both ellipses, at right angles to the slope.
     pub between: f32,
-    /// The room that remains beside both ellipses and the thread. Below 0 they pierce.
+    /// The room that both ellipses and the thread leave. Below 0 they pierce one another.
     pub room: f32,
 }
 
 impl StraightPassage {
-    /// The passage between two ellipses `across` and `rise` apart. `rise` counts as positive if the
-    /// second one's middle lies above the first one's. `halves` are the half width and half height
-    /// of each. `thread` is the sum of the passing thread's two half heights.
+    /// The passage between two ellipses `across` and `rise` apart. `rise` is positive if the second
+    /// ellipse's middle lies above that of the first. `halves` are the half width and half height
+    /// of each ellipse. `thread` is the sum of the passing thread's two half heights.
     ///
     /// ```
     /// use texere_core::crossings::StraightPassage;
@@ -43,8 +44,8 @@ impl StraightPassage {
     pub fn new(across: f32, rise: f32, halves: [[f32; 2]; 2], thread: f32) -> Self {
         let distance = (across * across + rise * rise).sqrt();
         let excess = halves.map(|[a, b]| a * a - b * b);
-        // Candidates: the best slope of round threads, level, and upright. Wide ellipses leave most
-        // room at one of these.
+        // Newton's method starts at the best of three slopes: that of round threads, level, and
+        // upright. Wide ellipses leave most room near level or upright.
         let round = if rise > 0.0 { [rise / distance, across / distance] } else { [0.0, 1.0] };
         let left = |[c, s]: [f32; 2]| {
             let [first, second] = reach(c, s, halves);
@@ -75,15 +76,15 @@ impl StraightPassage {
         Self { slope: [c, s], reach, between, room: between - reach[0] - reach[1] - thread }
     }
 
-    /// The distance of both ellipses, divided by the distance that they and the thread need: 1
-    /// where they touch.
+    /// The distance of both ellipses, divided by the distance that they and the thread need. It is
+    /// 1 if all three touch.
     #[must_use]
     pub fn clearance(&self) -> f32 {
         self.between / (self.between - self.room)
     }
 }
 
-/// The reach of ellipses across a slope.
+/// How far ellipses reach at right angles to a slope with cosine `c` and sine `s`.
 fn reach(c: f32, s: f32, halves: [[f32; 2]; 2]) -> [f32; 2] {
     halves.map(|[a, b]| {
         let (x, z) = (a * s, b * c);

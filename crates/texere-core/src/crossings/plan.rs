@@ -1,4 +1,4 @@
-//! The plan: every count and table of a problem, made on the host before anything is launched.
+//! The plan: all counts and tables of a problem, made on the host before anything is launched.
 
 use super::rows::{further, rows};
 use super::{CrossingState, CrossingThread, Crossings, CrossingsError, Row, Set, Site, ThreadState};
@@ -11,25 +11,30 @@ const THREADS_MIN: usize = 2;
 /// The most crossings of a plan.
 const CROSSINGS_MAX: u64 = 1 << 31;
 
-/// The ranges of pitch and diameter, in units, and of a thread's stiffness.
+/// The least and the largest pitch of a thread, in units.
 const PITCH: [f32; 2] = [0.2, 1000.0];
+
+/// The least and the largest diameter of a thread, in units.
 const DIAMETER: [f32; 2] = [0.1, 10.0];
+
+/// The least and the largest stiffness of a thread.
 const STIFFNESS: [f32; 2] = [0.01, 100.0];
 
 /// The most levels of a set.
 const LEVELS_MAX: u32 = 8;
 
-/// The largest height up and down, in units, per level of the set with most levels.
+/// The largest height of a thread above or below the middle of the cloth, in units, for each level
+/// of the set with most levels.
 const HEIGHT: f32 = 1.5;
 
 /// The distance of levels at the start, in units.
 const RISE: f32 = 1.5;
 
-/// The share of its radius with which a thread starts: the root of 0.4, so that it has 0.4 of its
-/// area.
+/// The share of its radius with which a thread starts. It is the square root of 0.4, so that the
+/// thread has 0.4 of its area.
 const THIN: f32 = 0.632_455_5;
 
-/// The tables of a problem. Lengths are in its unit, the mean diameter of warp and weft.
+/// The tables of a problem. Lengths are in the plan's unit, the mean diameter of warp and weft.
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, CrossingThread};
@@ -54,7 +59,7 @@ pub struct CrossingsPlan {
 }
 
 impl CrossingsPlan {
-    /// The plan of a problem, which is checked.
+    /// Checks a problem and makes its plan.
     ///
     /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a
     /// set, and values out of range or not finite.
@@ -111,7 +116,8 @@ impl CrossingsPlan {
     }
 
     /// The bytes that a settler holds besides the plan: three states of each crossing. They are the
-    /// present one, the one that neighbours see, and the one that they will see.
+    /// present state, the state that neighbouring crossings read in this pass, and the state that
+    /// they read in the next.
     #[must_use]
     pub const fn settler_bytes(&self) -> u64 {
         3 * size_of::<CrossingState>() as u64 * self.ups.len() as u64
@@ -123,7 +129,7 @@ impl CrossingsPlan {
         self.unit
     }
 
-    /// The threads of a set.
+    /// The rows of a set's threads.
     #[must_use]
     pub fn rows(&self, set: Set) -> &[Row] {
         match set {
@@ -132,14 +138,15 @@ impl CrossingsPlan {
         }
     }
 
-    /// Whether the first end follows the last one again, and whether the first pick does.
+    /// Whether the first end follows the last end, and whether the first pick follows the last
+    /// pick.
     #[must_use]
     pub const fn repeats(&self) -> [bool; 2] {
         self.repeats
     }
 
-    /// Whether a level of both sets is a layer of the cloth: both sets have the same number of
-    /// levels, and more than one.
+    /// Whether each level of both sets is a layer of the cloth. It is if both sets have the same
+    /// number of levels, and more than one.
     #[must_use]
     pub const fn is_layered(&self) -> bool {
         self.is_layered
@@ -153,7 +160,7 @@ impl CrossingsPlan {
         self.is_layered && self.rows[0][site.end].level != self.rows[1][site.pick].level
     }
 
-    /// The tension of a set, 1 for relaxed cloth.
+    /// The tension of a set's threads, 1 for relaxed cloth.
     #[must_use]
     pub const fn tension(&self, set: Set) -> f32 {
         match set {
@@ -188,7 +195,7 @@ impl CrossingsPlan {
         Site { end: number % ends, pick: number / ends }
     }
 
-    /// The side of a set's thread: 1 on the face, -1 on the back.
+    /// The side on which a set's thread lies at a crossing: 1 on the face, -1 on the back.
     ///
     /// **Panics** past the last crossing.
     #[must_use]
@@ -196,8 +203,8 @@ impl CrossingsPlan {
         if self.ups[self.number(site)] == (set == Set::Warp) { 1.0 } else { -1.0 }
     }
 
-    /// The crossing `along` threads further along a thread of `set`, and `across` threads of that
-    /// set to the side. `None` beyond an edge.
+    /// The crossing `along` crossings further on along a thread of `set`, and `across` threads of
+    /// `set` to the side. `None` beyond an edge.
     #[must_use]
     pub fn beside(&self, site: Site, set: Set, along: i32, across: i32) -> Option<Site> {
         let [ends, picks] = match set {
@@ -210,7 +217,8 @@ impl CrossingsPlan {
     }
 
     /// All crossings before the first pass: thin round threads at the heights of their levels. If
-    /// the levels leave them piercing, they lie one on top of the other.
+    /// the two threads of a crossing would pierce one another at these heights, they touch instead,
+    /// one on top of the other.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn start(&self) -> Result<Vec<CrossingState>, BackendError> {

@@ -1,23 +1,24 @@
-//! The problem: the drawdown and the threads of a cloth.
+//! The problem that is settled: the drawdown and the threads of a cloth.
 
 /// A thread of the warp or the weft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingThread {
-    /// The distance from its middle to that of the next thread of its set, mm. The last one's leads
-    /// to the first of the next repeat.
+    /// The distance from the middle of this thread to that of the next thread of its set, mm. For
+    /// the last thread, it is the distance to the first thread of the next repeat.
     pub pitch: f32,
-    /// The diameter of a circle with its section's area, mm, before it loses any area.
+    /// The diameter of a circle with the area of the thread's section, mm, before the section loses
+    /// any area.
     pub diameter: f32,
     /// The stiffness against bending, 1 for a cotton yarn of its diameter.
     pub stiffness: f32,
     /// The level among the threads of its set, 0 for the lowest. Threads of one level lie side by
-    /// side, those of others above or below: the picks of a double cloth alternate between two
-    /// levels. If warp and weft have the same number of levels, a level of both is a layer of the
-    /// cloth.
+    /// side, and threads of different levels above or below one another. The picks of a double
+    /// cloth alternate between two levels. If warp and weft have the same number of levels, a level
+    /// of both is a layer of the cloth.
     pub level: u32,
 }
 
-/// The problem of woven cloth that is to come to rest.
+/// Woven cloth that is to come to rest.
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, CrossingThread};
@@ -38,23 +39,23 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// A repeat that is endless along both axes. `ups` says where the warp lies on the face: pick
-    /// after pick, and end after end in each pick.
+    /// Cloth that repeats without end along both axes. `ups` says for each crossing whether the
+    /// warp lies on the face, pick after pick, and end after end in each pick.
     #[must_use]
     pub const fn new(ups: Vec<bool>, warp: Vec<CrossingThread>, weft: Vec<CrossingThread>) -> Self {
         Self { ups, threads: [warp, weft], repeats: [true; 2], tension: [1.0; 2], press: 1.0, passes: 400 }
     }
 
     /// Sets whether the cloth goes on beyond its last end, and beyond its last pick. If not,
-    /// nothing holds its edge. The default is both.
+    /// nothing holds the cloth's edge. By default the cloth goes on beyond both.
     #[must_use]
     pub const fn repeats(mut self, ends: bool, picks: bool) -> Self {
         self.repeats = [ends, picks];
         self
     }
 
-    /// Sets the tension of warp and weft, 0 to 10, 1 for relaxed cloth. More of it straightens a
-    /// set at the cost of the other.
+    /// Sets the tension of warp and weft, 0 to 10, 1 for relaxed cloth. A higher tension
+    /// straightens one set at the cost of the other.
     #[must_use]
     pub const fn tension(mut self, warp: f32, weft: f32) -> Self {
         self.tension = [warp, weft];

@@ -3,39 +3,39 @@
 use super::{CrossingThread, CrossingsError, Set};
 use crate::backend::room;
 
-/// The largest distance, in threads, of neighbours of one level.
+/// The largest distance, in threads, at which threads of one level count as neighbours.
 const BESIDE_MAX: i32 = 16;
 
-/// The largest shift sideways: a quarter of a unit, and two fifths of the way to a neighbour.
-/// Without bounds threads tunnel through one another or the steps stop short.
+/// The largest shift sideways: a quarter of a unit, and two fifths of the way to the nearer
+/// neighbour. Without bounds, threads pass through one another, or the steps stop short.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
-/// A thread, in units.
+/// A thread. Lengths are in the plan's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
     /// The distance to the next thread.
     pub gap: f32,
-    /// Its radius.
+    /// The thread's radius.
     pub radius: f32,
-    /// Its stiffness against bending, 1 for cotton.
+    /// The thread's stiffness against bending, 1 for cotton.
     pub stiffness: f32,
-    /// The largest shift, either way.
+    /// The largest shift to either side.
     pub freedom: f32,
     /// The largest height, up or down.
     pub height: f32,
-    /// Its level.
+    /// The thread's level.
     pub level: i32,
-    /// The distances, in threads, to the nearest thread of its level before and after it. 0 if none
-    /// is near enough to touch.
+    /// The distances, in threads, to the nearest thread of the same level before and after this
+    /// one. A distance is 0 if there is no such thread within 16 threads.
     pub beside: [i32; 2],
 }
 
-/// A crossing, given by its end and its pick, from 0.
+/// A crossing, given by the numbers of its end and its pick, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Site {
-    /// The end.
+    /// Number of the end.
     pub end: usize,
-    /// The pick.
+    /// Number of the pick.
     pub pick: usize,
 }
 
@@ -50,14 +50,14 @@ impl Site {
     }
 }
 
-/// `at` moved on by `by` among `count`. After the last one follows the first if they repeat;
-/// otherwise there is none.
+/// Number `at` moved on by `by` among `count` threads. If the threads repeat, the first follows the
+/// last. Otherwise there is none beyond the last.
 pub(super) fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
     let to = at.wrapping_add_signed(by as isize);
     if to < count {
         return Some(to);
     }
-    // A number before the first has wrapped round.
+    // A number below 0 has wrapped round to the largest numbers.
     repeats.then(|| if by < 0 { to.wrapping_add(count) } else { to - count })
 }
 

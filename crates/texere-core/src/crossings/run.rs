@@ -6,29 +6,31 @@ use super::pass::GROWING;
 use super::{CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use crate::BackendError;
 
-/// The cloth is at rest if no unknown has moved further than this, in the plan's unit, in this
-/// number of passes. One pass is not enough: an oscillation stands still where it turns.
+/// A pass counts as still if no unknown moves further than this, in the plan's unit.
 const STILL: f32 = 5e-5;
+
+/// The number of still passes in a row after which the cloth is at rest. One is not enough, because
+/// an oscillation stands still for a moment where it turns.
 const STILL_PASSES: u32 = 10;
 
 /// The result of a settling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingsRest {
-    /// Whether the last passes moved nothing.
+    /// Whether the cloth has come to rest: in the last passes, no unknown moved noticeably.
     pub at_rest: bool,
-    /// Passes in all.
+    /// Number of passes made.
     pub passes: u32,
     /// The measures of the last pass.
     pub seen: CrossingsSeen,
 }
 
-/// Lets crossings come to rest on a device, and leaves them there. `watch` sees every pass. If it
-/// breaks off, the run ends after that pass, or after the passes that were asked for together with
-/// it, ten at most.
+/// Lets crossings come to rest on a device, and leaves them there. `watch` is called after every
+/// pass. If it breaks off, the run ends after that pass, or after the passes that were sent to the
+/// device together with it, ten at most.
 ///
-/// In fifty passes threads grow from four tenths of their area, while penalties that part them
-/// harden. Then passes follow until nothing moves, as many as the problem allows. The device gets
-/// as many passes at once as are certainly needed to reach rest.
+/// In the first fifty passes, threads grow from four tenths of their area, and the penalties that
+/// keep them apart harden. More passes follow until the cloth is at rest, as many as the problem
+/// allows. The device gets as many passes at once as are certainly needed to reach rest.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(
@@ -40,7 +42,8 @@ pub fn settle(
     let mut rest = CrossingsRest { at_rest: false, passes: 0, seen: CrossingsSeen::NOTHING };
     let mut still = 0;
     while rest.passes < plan.passes() && !rest.at_rest {
-        // Rest needs all of these passes to stand still, so it can't come before the last of them.
+        // The cloth is at rest only if all of these passes are still, so not before the last of
+        // them.
         let last = plan.passes().min(rest.passes + STILL_PASSES - still);
         let passes: Vec<CrossingsPass> = (rest.passes..last).map(CrossingsPass::of).collect();
         let broken_off = settler.passes(&passes, &mut |pass, seen| {

@@ -13,40 +13,40 @@ use crate::BackendError;
 pub struct CrossingsSeen {
     /// The longest step of any unknown, in the plan's unit.
     pub step: f32,
-    /// The least distance of two threads before the step, divided by the distance that they need: 1
-    /// where they touch.
+    /// The least distance of two threads before the step, divided by the distance that they need.
+    /// It is 1 if they touch.
     pub clearance: f32,
 }
 
 impl CrossingsSeen {
-    /// The measures of no pass.
+    /// The measures before any pass.
     pub const NOTHING: Self = Self { step: 0.0, clearance: f32::INFINITY };
 
-    /// The measures of two passes or parts of a pass together.
+    /// The measures of two passes, or of two parts of a pass, together.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self { step: self.step.max(other.step), clearance: self.clearance.min(other.clearance) }
     }
 }
 
-/// Crossings on one device. [`settle`](super::settle) calls it: first `upload`, with as many
-/// crossings as the plan has.
+/// The crossings of a plan on one device. [`settle`](super::settle) calls these methods: first
+/// `upload`, with as many crossings as the plan has.
 ///
-/// **Errors**: all methods return a [`BackendError`] for failures that could not be foreseen, and
-/// for nothing else.
+/// **Errors**: all methods return a [`BackendError`], only for failures that could not be foreseen.
 pub trait CrossingsSettler: Any + Debug + Send {
     /// The plan of the settler.
     fn plan(&self) -> &Arc<CrossingsPlan>;
 
-    /// Takes the states of all crossings, all at rest.
+    /// Sets the states of all crossings, without momentum.
     fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError>;
 
-    /// Moves every crossing once. Each reads the states that all crossings showed before the pass,
-    /// and afterwards shows its own new state.
+    /// Moves every crossing once. Each crossing reads the states of others that were written before
+    /// the pass, and writes its own state for the next pass.
     fn pass(&mut self, pass: &CrossingsPass) -> Result<CrossingsSeen, BackendError>;
 
     /// Makes several passes, and calls `watch` with the measures of each. A device that the host
-    /// waits for may make all of them first. Any other makes no more after `watch` breaks off.
+    /// waits for may make all passes before the first call of `watch`. Any other device makes no
+    /// pass after `watch` breaks off.
     fn passes(
         &mut self,
         passes: &[CrossingsPass],
@@ -60,7 +60,7 @@ pub trait CrossingsSettler: Any + Debug + Send {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Writes the present states of all crossings.
+    /// Writes the present states of all crossings into `crossings`.
     fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError>;
 }
 

@@ -5,7 +5,7 @@ use super::{CrossingBlock, CrossingState, CrossingsPlan, Set, Site};
 /// The longest step of an unknown, in units.
 pub const STEP: f32 = 0.1;
 
-/// The share of its last step that a crossing goes on by.
+/// The share of a crossing's last step that is added as momentum.
 pub const MOMENTUM: f32 = 0.8;
 
 /// The least and the largest half width, in radii.
@@ -15,7 +15,7 @@ pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
 pub const HALF_HEIGHT: [f32; 2] = [0.3, 2.0];
 
 impl CrossingsPlan {
-    /// A crossing after its step.
+    /// The state of a crossing after the step that `block` gives.
     #[must_use]
     pub fn moved(&self, crossing: &CrossingState, block: &CrossingBlock, site: Site) -> CrossingState {
         let step = block.step();
@@ -24,8 +24,8 @@ impl CrossingsPlan {
         self.bounded(crossing, step.map(|step| share * step), site)
     }
 
-    /// The state in which other crossings see one that has moved from `was` to `is`: momentum
-    /// carries it on.
+    /// The state that other crossings read of a crossing that has moved from `was` to `is`: `is`,
+    /// moved on by momentum.
     #[must_use]
     pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
         let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];

@@ -1,9 +1,9 @@
 //! The terms of the energy of crossings.
 //!
-//! The idea is simple. The energy is a list of wishes: a thread wants to be straight, flat and of
-//! its own area, and clear of every thread beside it. A wish is a weight times the square of a
-//! residual, which is 0 where the wish comes true. A pass is one step of Gauss and Newton's method
-//! for the sum of all wishes, at every crossing at once.
+//! The energy is a sum of terms. Each term is a weight times the square of a residual, which is 0
+//! if a condition holds: a thread is straight, flat and of its own area, and clear of every thread
+//! beside it. A pass is one step of the Gauss-Newton method for the sum of all terms, at every
+//! crossing at once.
 //!
 //! ```text
 //! for each crossing:
@@ -23,9 +23,9 @@
 //!     contact        end and pick lie one on top of the other
 //! ```
 //!
-//! A term of several crossings is computed by each of them, which keeps the slopes in its own
-//! unknowns. Everything is thus gathered and nothing is scattered. The sum over all crossings
-//! counts each term once.
+//! A term that depends on several crossings is computed at each of them. Each crossing keeps the
+//! slopes by its own unknowns only, so that terms are gathered and nothing is scattered. In the
+//! energy each term counts once.
 
 use super::{
     CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Set, Site, StraightPassage, ThreadState,
@@ -34,9 +34,10 @@ use super::{
 /// The weight of second differences of heights, times the fourth power of a diameter over the third
 /// power of a pitch.
 pub const BEND: f32 = 1.0;
-/// The weight of second differences of shifts, in the same units as [`BEND`]. It is higher because
-/// skewed threads collide at corners that no passage sees. With 1, a 2/2 twill comes to another
-/// crimp, and `cloths_of_the_mills_come_to_rest` and `mirrored_cloth_rests_mirrored` fail.
+/// The weight of second differences of shifts, in the same units as [`BEND`]. It is higher than
+/// [`BEND`] because skewed threads collide at corners that the passage term does not cover. With 1,
+/// a 2/2 twill comes to another crimp, and `cloths_of_the_mills_come_to_rest` and
+/// `mirrored_cloth_rests_mirrored` fail.
 pub const SIDEWAYS_BEND: f32 = 20.0;
 
 /// The weight of first differences of heights, times the square of a diameter over a pitch.
@@ -44,8 +45,8 @@ pub const TENSION: f32 = 1.0;
 /// The weight of first differences of shifts, in the same units as [`TENSION`].
 pub const SIDEWAYS_TENSION: f32 = 0.1;
 
-/// The weight of heights, times the square of a diameter: a finish presses the cloth flat. With 0,
-/// `energy_goes_down_while_penalties_stay` fails.
+/// The weight of heights, times the square of a diameter, by which a finish presses the cloth flat.
+/// With 0, `energy_goes_down_while_penalties_stay` fails.
 pub const PRESS: f32 = 0.3;
 
 /// The weight of first differences of half widths and half heights along a thread, in radii. With
@@ -64,17 +65,17 @@ pub const AREA_LOSS: f32 = 6.0;
 /// The weight of area that a section has gained.
 pub const AREA_GAIN: f32 = 100.0;
 
-/// The distance that threads are kept apart, in units, since penalties give way a little.
+/// The distance by which threads are kept apart, in units, because penalties give way a little.
 pub const MARGIN: f32 = 0.003;
 
-/// The distance, in units, below which threads that do not touch yet are felt already: they do not
-/// push, but make each other's steps shorter. With 0, momentum swings, since contacts come and go:
-/// a plain weave at its jam does not come to rest (`cloths_of_the_mills_come_to_rest`,
+/// The distance, in units, below which threads that do not touch yet make each other's steps
+/// shorter. They do not push one another. With 0, contacts come and go and the threads keep
+/// swinging: a plain weave at its jam does not come to rest (`cloths_of_the_mills_come_to_rest`,
 /// `energy_goes_down_while_penalties_stay`).
 pub const NEAR: f32 = 0.02;
 
-/// The slope of a layer's thread over that of the straight line between two crossings. It is
-/// steeper since it bends where it binds.
+/// The slope of a layer's thread, divided by that of the straight line between two crossings. The
+/// thread is steeper because it bends where it binds.
 pub const STEEPER: f32 = 1.4;
 
 // The unknowns of a thread, counted from the first of its set.
@@ -84,10 +85,10 @@ const WIDTH: usize = 2;
 const THICKNESS: usize = 3;
 
 impl CrossingsPlan {
-    /// The equations of the crossing at `site`, gathered from all terms that it is part of, in the
-    /// states `crossings`.
+    /// The equations of the crossing at `site`, gathered from all terms that depend on the
+    /// crossing. `crossings` are the states of all crossings.
     ///
-    /// **Panics** where `crossings` has fewer than the plan.
+    /// **Panics** if `crossings` has fewer crossings than the plan.
     #[must_use]
     pub fn block(&self, pass: &CrossingsPass, crossings: &[CrossingState], site: Site) -> CrossingBlock {
         let mut block = CrossingBlock::NOTHING;
@@ -118,7 +119,7 @@ impl CrossingsPlan {
     }
 }
 
-/// Contact: both threads of a crossing lie one on top of the other.
+/// Adds the contact of both threads of a crossing: one lies on top of the other.
 fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
     let Here { plan, pass, site, .. } = *warp;
     let [end, pick] = [warp, weft].map(|thread| thread.thread(site));
@@ -171,7 +172,7 @@ struct Here<'a> {
     all: &'a [CrossingState],
     site: Site,
     set: Set,
-    /// The first of its unknowns.
+    /// Number of the thread's first unknown.
     row: usize,
 }
 
@@ -193,7 +194,7 @@ impl Here<'_> {
         self.way(self.set.other(), site, 1)
     }
 
-    /// The distance from the thread of a set at `site` to the one `steps` after it.
+    /// The distance from the thread of a set at `site` to the thread `steps` after it.
     fn way(&self, set: Set, site: Site, steps: i32) -> f32 {
         let rows = self.plan.rows(set);
         let mut way = rows[site.thread(set)].gap;
@@ -204,14 +205,15 @@ impl Here<'_> {
         way
     }
 
-    /// The nearest threads of a set on the level of the one here, before (-1) and after (1): the
-    /// direction, and the distance in threads. 0 if there is none.
+    /// The nearest threads of `set` before (-1) and after (1) this crossing, on the level of the
+    /// crossing's own thread of `set`. Each comes as the direction, and the distance in threads,
+    /// which is 0 if there is no such thread.
     fn of_level(&self, set: Set) -> [(i32, i32); 2] {
         let [before, after] = self.plan.rows(set)[self.site.thread(set)].beside;
         [(-1, before), (1, after)]
     }
 
-    /// The slope of the thread next to the crossing, on its steeper side.
+    /// The slope of the thread from the crossing to the one before or after, whichever is steeper.
     fn steepest(&self) -> f32 {
         let slope = |steps: i32| {
             self.along(steps).map_or(0.0, |other| {
@@ -226,7 +228,7 @@ impl Here<'_> {
         self.plan.rows(self.set)[self.site.thread(self.set)].radius
     }
 
-    /// The thread's own terms: shape, area, and press.
+    /// Adds the thread's own terms: shape, area, and press.
     fn own(&self, block: &mut CrossingBlock) {
         let (lie, radius, row) = (self.thread(self.site), self.radius(), self.row);
         let (wide, thick) = (lie.half_width / radius, lie.half_height / radius);
@@ -239,8 +241,8 @@ impl Here<'_> {
         block.add(press, 1.0, lie.height, [(row + HEIGHT, 1.0)]);
     }
 
-    /// Bending: second differences along the thread, at this crossing and at those before and
-    /// after.
+    /// Adds bending: second differences along the thread, at this crossing and at the crossings
+    /// before and after.
     fn bends(&self, block: &mut CrossingBlock) {
         let thread = self.plan.rows(self.set)[self.site.thread(self.set)];
         let square = 4.0 * thread.radius * thread.radius;
@@ -259,7 +261,7 @@ impl Here<'_> {
         }
     }
 
-    /// First differences along the thread: tension, and sections that change little.
+    /// Adds first differences along the thread: tension, and the evenness of sections.
     fn steps(&self, block: &mut CrossingBlock) {
         let (lie, radius) = (self.thread(self.site), self.radius());
         let tension = self.plan.tension(self.set) * 4.0 * radius * radius;
@@ -275,7 +277,8 @@ impl Here<'_> {
         }
     }
 
-    /// Clearance between this crossing and the one `steps` further along the thread.
+    /// Adds the clearance of the thread between this crossing and the one `steps` further along the
+    /// thread.
     fn meeting(&self, block: &mut CrossingBlock, steps: i32) {
         let Some(other) = self.along(steps) else { return };
         let second = steps < 0;
@@ -288,9 +291,9 @@ impl Here<'_> {
         }
     }
 
-    /// The thread stays on its side between two crossings `way` apart. Where it slopes, it clears
-    /// the shoulder of the thread under its upper end. This crossing is the `second` or the first
-    /// of the two.
+    /// Adds the clearance of a thread that stays on its side between two crossings `way` apart. If
+    /// it slopes, it must clear the shoulder of the thread under its upper end. This crossing is
+    /// the second of the two if `second`, otherwise the first.
     fn shoulder(&self, block: &mut CrossingBlock, sites: [Site; 2], way: f32, second: bool) {
         let crossed = self.set.other();
         let [first, last] = sites.map(|site| self.crossing(site));
@@ -300,7 +303,8 @@ impl Here<'_> {
         let (own, other, under) = (upper.thread(self.set), lower.thread(self.set), upper.thread(crossed));
         let across = way + last.thread(crossed).shift - first.thread(crossed).shift;
         let slope = side * (own.height - other.height) / across;
-        // Measured upright, not across the slope.
+        // The thread's half height, measured upright, is longer by this factor than at right angles
+        // to the slope.
         let length = (1.0 + slope * slope).sqrt();
         let Reach { reach, steeper, wider: widens, thicker: thickens } = Reach::new(under, slope);
         let above = side * (own.height - under.height);
@@ -330,8 +334,8 @@ impl Here<'_> {
         }
     }
 
-    /// The thread changes sides between two crossings `way` apart. This crossing is the `second` or
-    /// the first of the two.
+    /// Adds the clearance of a thread that changes sides between two crossings `way` apart. This
+    /// crossing is the second of the two if `second`, otherwise the first.
     fn passage(&self, block: &mut CrossingBlock, [first, last]: [Site; 2], way: f32, second: bool) {
         let side = self.plan.side(first, self.set);
         let crossed = self.set.other();
@@ -345,7 +349,7 @@ impl Here<'_> {
         let room = passage.room - MARGIN;
         if room < NEAR {
             let [c, s] = passage.slope;
-            // This crossing's slopes of the term.
+            // The term's slopes by this crossing's unknowns.
             let (sign, lie, reach) =
                 if second { (1.0, two, passage.reach[1]) } else { (-1.0, one, passage.reach[0]) };
             let row = crossed.first();
@@ -360,15 +364,15 @@ impl Here<'_> {
         }
     }
 
-    /// The distance from this thread's place to that of the one `across` after it, or before it if
-    /// negative.
+    /// The distance from this thread's place to that of the thread `across` after it, or before it
+    /// if `across` is negative.
     fn gap(&self, neighbour: Site, across: i32) -> f32 {
         let lower = if across < 0 { neighbour } else { self.site };
         self.way(self.set, lower, across.abs())
     }
 
-    /// Neighbours of one level keep their places at a crossing, whatever their heights, and are
-    /// clear of one another beside it.
+    /// Adds the clearance of neighbours of one level. At a crossing they keep apart sideways,
+    /// whatever their heights. Half way to the crossings beside it, they are clear as ellipses.
     fn neighbour(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
         if across == 0 {
@@ -389,7 +393,8 @@ impl Here<'_> {
         }
     }
 
-    /// Neighbours of two levels lie side by side or one above the other, clear as ellipses.
+    /// Adds the clearance of neighbours of two levels: they lie side by side or one above the
+    /// other, clear as ellipses.
     fn stacked(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
         let (lie, other, sign) = (self.thread(self.site), self.thread(neighbour), across as f32);
@@ -408,7 +413,8 @@ impl Here<'_> {
         }
     }
 
-    /// Neighbours `gap` apart are clear as ellipses half way between two crossings.
+    /// Adds the clearance of neighbours `gap` apart half way between two crossings, where they are
+    /// clear as ellipses.
     fn half_way(&self, block: &mut CrossingBlock, along: i32, across: i32, gap: f32) {
         let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
         let sites = [beside(along, 0), beside(0, across), beside(along, across)];
@@ -425,8 +431,8 @@ impl Here<'_> {
         self.keep_clear(block, &ellipses, sign, 0.5);
     }
 
-    /// Keeps two ellipses clear of one another. `part` is the share of this crossing's thread in
-    /// them.
+    /// Adds the clearance of two ellipses. `part` is the share with which this crossing's thread
+    /// enters them.
     fn keep_clear(&self, block: &mut CrossingBlock, ellipses: &Ellipses, sign: f32, part: f32) {
         let Ellipses { apart, rise, wide, thick } = *ellipses;
         let (x, z) = (apart / wide, rise / thick);
@@ -440,14 +446,15 @@ impl Here<'_> {
                 (self.row + WIDTH, part * (clearance - 1.0 - x * x / clearance)),
                 (self.row + THICKNESS, -part * z * z * wide / (thick * clearance)),
             ];
-            // All crossings that have a part step at once.
+            // All crossings that the term depends on step at once.
             block.add(self.pass.penalty, 2.0 / part, room.min(0.0), slopes);
         }
     }
 }
 
-/// Two sections side by side: the way from the middle of one to that of the other, and the sums of
-/// both half widths and of both half heights.
+/// Two sections side by side: the way from the middle of one to that of the other, sideways
+/// (`apart`) and upwards (`rise`), and the sums of both half widths (`wide`) and of both half
+/// heights (`thick`).
 struct Ellipses {
     apart: f32,
     rise: f32,

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::{OutOfMemory, counted};
 
-/// A failure of a backend. Errors that the core finds before it calls a backend have types of their
+/// A failure of a backend. What the core refuses before it calls a backend has error types of its
 /// own.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -29,9 +29,9 @@ pub enum BackendError {
     /// does not know.
     #[error("{variable} is \"{wanted}\"; this processor has: {}", .found.join(", "))]
     NoInstructionSet {
-        /// The variable.
+        /// The variable's name.
         variable: &'static str,
-        /// Its value.
+        /// The variable's value.
         wanted: String,
         /// Names that would have worked.
         found: Vec<&'static str>,
@@ -60,11 +60,12 @@ pub enum BackendError {
     /// An allocation failed.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// Too many yarns lie in one place: a settling would have to look at too many pairs of chords.
+    /// Too many yarns lie in one place, so that a settling would have to compare too many pairs of
+    /// chords.
     #[error(
         "more than {limit} pairs of neighbours among {chords}: too many yarns lie in one place to settle", chords = counted(*.chords, "chord"))]
     Crowded {
-        /// The chords of all yarns.
+        /// Number of chords of all yarns.
         chords: u64,
         /// The most pairs that are listed for this number of chords.
         limit: u64,
@@ -72,7 +73,7 @@ pub enum BackendError {
     /// The device is lost, and with it the session. A new session on a healthy device works.
     #[error("device {device} is lost")]
     DeviceLost {
-        /// Its name.
+        /// The device's name.
         device: String,
         /// The driver's message.
         source: Option<Box<dyn std::error::Error + Send + Sync>>,
@@ -80,15 +81,15 @@ pub enum BackendError {
     /// The backend, or its schedule, can't do what was asked for.
     #[error("{schedule} does not do {what}")]
     Unsupported {
-        /// Backend and schedule.
+        /// The backend and its schedule.
         schedule: String,
-        /// The thing asked for.
+        /// What was asked for.
         what: String,
     },
     /// The driver refused to compile a kernel.
     #[error("kernel {kernel} does not compile:\n{log}")]
     Compile {
-        /// The kernel.
+        /// The kernel's name.
         kernel: &'static str,
         /// The driver's whole log.
         log: String,
@@ -103,7 +104,7 @@ pub enum BackendError {
     /// A call of the driver failed.
     #[error("{call} failed")]
     Driver {
-        /// The call.
+        /// The name of the call.
         call: &'static str,
         /// The driver's message.
         source: Box<dyn std::error::Error + Send + Sync>,

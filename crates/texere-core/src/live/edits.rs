@@ -1,4 +1,4 @@
-//! Edits of a live mesh: yarns that are replaced, and control points that move.
+//! Edits of a live mesh: replacing yarns, and moving control points.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,12 +13,12 @@ use crate::yarns::check_points;
 use crate::{ControlPoint, PlanError, Yarn};
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
-    /// Takes control points, the first of which is number `first` of the present fabric. The next
-    /// [`LiveMesh::update`] makes again all rings that they affect.
+    /// Replaces control points. The first of `points` is number `first` of the present fabric. The
+    /// next [`LiveMesh::update`] makes again all rings that they affect.
     ///
     /// **Errors**: [`SessionError::UploadRange`] past the last control point,
-    /// [`SessionError::Yarns`] for a point that is not sound, [`SessionError::Plan`] for a yarn
-    /// with up directions of its own, and [`SessionError::Backend`].
+    /// [`SessionError::Yarns`] for an invalid point, [`SessionError::Plan`] if the points of a yarn
+    /// with given up directions move, and [`SessionError::Backend`].
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
         let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
         if end > total {
@@ -44,16 +44,16 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Replaces yarn number `yarn`, from 0, by another one with other control points, perhaps more
-    /// or fewer.
+    /// Replaces yarn number `yarn`, counted from 0, by another yarn, which may have more or fewer
+    /// control points.
     ///
     /// **Errors**: the errors of [`LiveMesh::set_yarns`].
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), SessionError> {
         self.set_yarns(&Edits::from([(yarn, (what, points))]))
     }
 
-    /// Replaces many yarns at once, each by another one with other control points, perhaps more or
-    /// fewer. The mesh is planned once for all of them.
+    /// Replaces many yarns at once, each by another yarn, which may have more or fewer control
+    /// points. The mesh is planned once for all of them.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -77,10 +77,10 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// Their splines have the tension of the plan's [layout](crate::Layout::tension).
+    /// The new yarns' splines have the tension of the plan's [layout](crate::Layout::tension).
     ///
     /// **Errors**: [`SessionError::NoYarn`], the errors of [`Plan::edited_all`],
-    /// [`SessionError::Yarns`] for a point that is not sound, and [`SessionError::Backend`]. All
+    /// [`SessionError::Yarns`] for an invalid point, and [`SessionError::Backend`]. All of these
     /// but the last leave everything unchanged, whichever yarn is refused.
     pub fn set_yarns(&mut self, edits: &Edits<'_>) -> Result<(), SessionError> {
         let yarns = self.plan.layout().yarns().len();
@@ -105,8 +105,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Takes control points of some yarns, and notes the yarns whose stand changes with them: those
-    /// that become steep, lie flat again, or lean in another way.
+    /// Stores control points of some yarns, and notes the yarns whose [`Stand`] changes with them:
+    /// yarns that become steep, are no longer steep, or lean in another way.
     fn note_stands(
         &mut self,
         first: u64,
@@ -130,7 +130,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Takes a plan that differs from the present one in `yarns`, which are in order.
+    /// Replaces the present plan by one that differs in `yarns`, which are in order.
     fn replan(&mut self, yarns: &[usize], plan: Plan) -> Result<(), SessionError> {
         let plan = Arc::new(plan);
         for run in runs(yarns) {
@@ -149,14 +149,15 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// The rings affected by control points `own` of `yarn`, counted from its first. A yarn with
-    /// rolls is affected as a whole: a turn at one place turns the rest.
+    /// The rings affected by control points `own` of `yarn`, counted from its first. If the plan
+    /// needs a scan, the whole yarn is affected, because a turn at one place turns the rest. The
+    /// whole yarn also counts if it is closed or if attributes are made.
     fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
         let rings = self.plan.rings(yarn);
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
         let (first, end) = (own.start as u64, own.end as u64);
-        // A point affects the two intervals before it and the two behind, whose last ring is that
-        // of a knot.
+        // A point affects the two intervals before it and the two behind. The ring at the end of
+        // the last of them is included.
         let (from, to) = (first.saturating_sub(2) * per_interval, (end + 1).saturating_mul(per_interval) + 1);
         if self.attributes || self.plan.needs_scan() || self.plan.yarn(yarn).closed {
             return 0..rings;
@@ -165,7 +166,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 }
 
-/// The stand of `yarn` with its present control points.
+/// The [`Stand`] of `yarn` with its present control points.
 fn stands_now(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Stand {
     let offsets = plan.layout().offsets();
     let count = (offsets[yarn + 1] - offsets[yarn]) as usize;

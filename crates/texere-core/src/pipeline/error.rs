@@ -15,7 +15,7 @@ pub enum PipelineError {
     /// The backend failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// A misused session. The pipeline should never cause it.
+    /// A misused session. The pipeline never causes this error.
     #[error(transparent)]
     Session(SessionError),
     /// The progress callback asked to stop.

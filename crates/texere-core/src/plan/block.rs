@@ -2,35 +2,34 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// The rings of a full block. 64 rings of six vertices are nine kilobytes, which fit a core's first
-/// cache. On a GPU a block is a workgroup.
+/// Number of rings of a full block. 64 rings of six vertices are nine kilobytes, which fit a core's
+/// first cache. A GPU works on each block with one workgroup.
 pub const BLOCK_RINGS: u32 = 64;
 
-/// A block: up to [`BLOCK_RINGS`] consecutive rings of one yarn. Blocks are the rows of a table
-/// from which every kernel learns its yarn without a search.
+/// A block: up to [`BLOCK_RINGS`] consecutive rings of one yarn. Blocks are the rows of a table.
+/// From its row, a kernel gets its yarn without a search.
 ///
-/// **Shape**: eight `u32`, 32 bytes. All but `yarn` and `first_ring` count from the start of the
-/// chunk.
+/// **Shape**: eight `u32`, 32 bytes. All starts but `first_ring` count from the start of the chunk.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Block {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
-    /// The first ring, from the yarn's start.
+    /// Number of the first ring, counted from the yarn's start.
     pub first_ring: u32,
-    /// The rings whose vertices the block writes, 1 to 64.
+    /// Number of rings whose vertices the block writes, 1 to 64.
     pub rings: u32,
-    /// The rings that are joined by quads to the ring after each: `rings`, or one less at the end
-    /// of a part.
+    /// Number of rings that are joined by quads to the ring after them. It equals `rings`, or is
+    /// one less at the end of a part.
     pub quads: u32,
-    /// The padded control point `P[j-1]` of the first ring's interval, from the start of the
-    /// chunk's window.
+    /// Number of the padded control point `P[j-1]` of the first ring's interval, counted from the
+    /// start of the chunk's window.
     pub first_point: u32,
-    /// The first ring among the chunk's.
+    /// Number of the first ring among the chunk's rings.
     pub chunk_ring: u32,
-    /// The first vertex.
+    /// Number of the first vertex among the chunk's.
     pub first_vertex: u32,
-    /// The first index, if the topology has any.
+    /// Number of the first index among the chunk's, if the topology is indexed.
     pub first_index: u32,
 }
 

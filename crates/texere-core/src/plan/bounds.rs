@@ -26,20 +26,20 @@ pub struct Bounds {
     pub high: [f32; 3],
 }
 
-/// The factor for rounding in frames, rolls and products with half widths. Sines and cosines are
-/// within 1.2e-7, and a tangent within 1e-6 of z counts as z.
+/// The factor by which a box grows for rounding in frames, rolls and products with half widths.
+/// Sines and cosines are exact to 1.2e-7, and a tangent within 1e-6 of z counts as z.
 const FRAME_SLACK: f32 = 1.0 + 1e-5;
 
 /// The slack for rounding in sums of coordinates, as a share of the largest coordinate. A CPU
-/// rounds them as the box's own sums are rounded. Other devices may be off by a few units in the
-/// last place more.
+/// rounds the sums of vertices in the same way as those of the box. Other devices may be off by a
+/// few units in the last place more.
 const SUM_SLACK: f32 = 8.0 * f32::EPSILON;
 
 impl Bounds {
     /// The empty box.
     pub const NOTHING: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    /// The smallest box that holds both.
+    /// The smallest box that holds both boxes.
     #[must_use]
     pub fn joined(&self, other: &Self) -> Self {
         Self {
@@ -77,8 +77,8 @@ impl Bounds {
 
 impl Plan {
     /// A box that holds every vertex of the mesh. `points` must have been made for this plan and
-    /// [uploaded](PaddedPoints::upload). A `Picker` of texere-cpu keeps such boxes for a cloth that
-    /// is edited.
+    /// [uploaded](PaddedPoints::upload). For a cloth that is edited, a `Picker` of texere-cpu keeps
+    /// such boxes.
     ///
     /// **Panics** for points that were made for another plan.
     ///
@@ -115,11 +115,13 @@ impl Plan {
         self.part_bounds(points, yarn, 0..self.rings(yarn))
     }
 
-    /// A box that holds the vertices of some rings of `yarn`, and so all triangles between them.
-    /// [`Bounds::NOTHING`] for no rings. Rings past the last are ignored.
+    /// A box that holds the vertices of some rings of `yarn`, and therefore all triangles between
+    /// them. It is [`Bounds::NOTHING`] for no rings. Rings past the last are ignored.
     ///
-    /// The box is the Bézier hull of the spline, widened by the section's reach there: along z by
-    /// at most the yarn's height, along x and y by the larger of height and width.
+    /// The box is that of the spline's Bézier hull, widened by the section's reach. Along x and y
+    /// that is the section's furthest reach, times the larger of half width and half height. Along
+    /// z it is the section's reach along its up times the half height, for a yarn that neither
+    /// turns nor leans.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -129,7 +131,8 @@ impl Plan {
         self.stretches(yarn, rings).fold(Bounds::NOTHING, |all, (interval, from, to)| {
             let window = [padded[interval], padded[interval + 1], padded[interval + 2], padded[interval + 3]];
             let hull = Segment::new(&window, self.sampling().s()).hull(from, to);
-            // The frame's side is level, so a section reaches along z by its height alone.
+            // The side of an upright frame is level, so a section reaches along z by its height
+            // alone.
             let level = level * hull.half_width.max(hull.half_height);
             let rising = if self.leans(yarn).is_some() { level } else { upright * hull.half_height };
             let reach = Vec3::new(level, level, rising) * FRAME_SLACK;
@@ -140,8 +143,8 @@ impl Plan {
         })
     }
 
-    /// The reach of the section of `yarn` from its centre, in half widths or half heights: in any
-    /// direction, and along the frame's up.
+    /// The furthest reach of the section of `yarn` from its centre, in half widths or half heights:
+    /// first in any direction, then along the frame's up.
     pub(crate) fn reach(&self, yarn: usize) -> [f32; 2] {
         let outline = self.outline(self.yarn(yarn).section as usize);
         let most = |reach: fn(f32, f32) -> f32| {
@@ -152,8 +155,8 @@ impl Plan {
         [any, if turns { any } else { most(|_, y| y.abs()) }]
     }
 
-    /// The intervals that contain `rings` of `yarn`, each with the parameters at which the rings
-    /// begin and end.
+    /// The intervals that contain `rings` of `yarn`, each with the parameters of its first and its
+    /// last such ring.
     fn stretches(&self, yarn: usize, rings: Range<u32>) -> impl Iterator<Item = (usize, f32, f32)> {
         let (per_interval, step) = (self.settings().subdivisions + 1, self.sampling().step());
         let all = self.rings(yarn);

@@ -6,43 +6,43 @@ use super::Block;
 use super::identity::{PlanId, TablesId};
 use crate::End;
 
-/// A run of one yarn's rings in a chunk. All fields but `yarn` and `first_ring` count from the
-/// start of the chunk.
+/// A run of one yarn's rings in a chunk. `first_vertex` and `first_index` count from the start of
+/// the chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
-    /// The first ring, from the yarn's start.
+    /// Number of the first ring, counted from the yarn's start.
     pub first_ring: u32,
-    /// The number of rings, with the one that a cut repeats.
+    /// The number of rings, including the ring that is repeated at a cut.
     pub rings: u32,
-    /// The first vertex; `rings * sides` follow.
+    /// Number of the first of `rings * sides` vertices.
     pub first_vertex: u32,
-    /// The first index; `(rings - 1) * sides * 6` follow if the topology is indexed.
+    /// Number of the first of `(rings - 1) * sides * 6` indices, if the topology is indexed.
     pub first_index: u32,
 }
 
 /// The cap on an end of a yarn: `sides` vertices after all tube vertices of the chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cap {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
     /// The end that the cap closes.
     pub end: End,
-    /// The ring under the cap, among the chunk's.
+    /// Number of the ring under the cap, among the chunk's rings.
     pub chunk_ring: u32,
-    /// The first vertex, from the start of the chunk.
+    /// Number of the first vertex, counted from the start of the chunk.
     pub first_vertex: u32,
-    /// The first index, from the start of the chunk, if the topology is indexed.
+    /// Number of the first index, counted from the start of the chunk, if the topology is indexed.
     pub first_index: u32,
 }
 
 /// A range of blocks that is launched, read and drawn together.
 ///
-/// It holds the tables for a launch: the block table, its parts, and its place in the whole. If it
-/// ends inside a yarn it repeats the next ring, so that its triangles use only its own vertices.
-/// Only [`Plan::chunks`](crate::backend::Plan::chunks) makes chunks, and they can't be changed, so
-/// a kernel need not check their tables.
+/// A chunk holds the tables for a launch: the block table, the parts, the caps, and the chunk's
+/// place in the whole. If it ends inside a yarn, it repeats the next ring, so that its triangles
+/// use only its own vertices. Only a plan makes chunks, and they can't be changed, so a kernel need
+/// not check their tables.
 ///
 /// ```
 /// use texere_core::backend::Plan;
@@ -63,7 +63,7 @@ pub struct Chunk {
     pub(super) plan: PlanId,
     pub(super) index: u64,
     pub(super) tables: TablesId,
-    /// The blocks of the chunk, in order.
+    /// Ranges of the numbers of the chunk's blocks among all of the plan, in order.
     pub(super) runs: Vec<Range<u64>>,
     pub(super) window: Range<u64>,
     pub(super) blocks: Vec<Block>,
@@ -78,20 +78,20 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    /// The plan of the chunk.
+    /// The identity of the chunk's plan.
     pub(crate) const fn plan(&self) -> PlanId {
         self.plan
     }
 
-    /// The chunk's number among the chunks of the same cut, from 0.
+    /// The chunk's number among the chunks of the same cut, counted from 0.
     #[must_use]
     pub const fn index(&self) -> u64 {
         self.index
     }
 
-    /// The range of the chunk's blocks among all of the plan. A chunk of a
-    /// [region](crate::backend::Plan::within) may skip some. The table has one more row for each
-    /// repeated ring.
+    /// The range from the chunk's first to its last block among all blocks of the plan. A chunk of
+    /// a [region](crate::backend::Plan::within) may skip some blocks. The block table has one more
+    /// row for each repeated ring.
     #[must_use]
     pub(crate) const fn block_range(&self) -> Range<u64> {
         self.tables.blocks.start..self.tables.blocks.end
@@ -103,8 +103,8 @@ impl Chunk {
         &self.tables
     }
 
-    /// The padded control points that the chunk reads, from a multiple of
-    /// [`WINDOW_POINTS`](crate::backend::WINDOW_POINTS) on.
+    /// The range of padded control points that the chunk reads. It starts at a multiple of
+    /// [`WINDOW_POINTS`](crate::backend::WINDOW_POINTS).
     #[must_use]
     pub const fn window(&self) -> Range<u64> {
         self.window.start..self.window.end
@@ -116,7 +116,7 @@ impl Chunk {
         &self.blocks
     }
 
-    /// The chunk's parts: one run of rings for each of its yarns.
+    /// The chunk's parts, in order: each is a run of rings of one yarn.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -128,33 +128,33 @@ impl Chunk {
         &self.caps
     }
 
-    /// Whether the last ring is the first of the next chunk.
+    /// Whether the chunk's last ring is repeated as the first of the next chunk.
     #[must_use]
     pub const fn repeats_ring(&self) -> bool {
         self.repeats_ring
     }
 
-    /// The number of rings, with the repeated one and with those that there is only
-    /// [room](crate::backend::Plan::with_room) for.
+    /// The number of rings, including repeated rings and unused
+    /// [room](crate::backend::Plan::with_room).
     #[must_use]
     pub const fn rings(&self) -> u32 {
         self.rings
     }
 
-    /// The number of vertices, with caps and room.
+    /// The number of vertices, including caps and unused room.
     #[must_use]
     pub const fn vertices(&self) -> u32 {
         self.vertices
     }
 
-    /// The number of indices, with caps and room. 0 unless the topology is
+    /// The number of indices, including caps and unused room. 0 unless the topology is
     /// [`Topology::Indexed`](crate::Topology::Indexed).
     #[must_use]
     pub const fn indices(&self) -> u32 {
         self.indices
     }
 
-    /// The rows of the block table that hold some of `rings` of `yarn`.
+    /// The range of rows of the block table that hold any of `rings` of `yarn`.
     #[must_use]
     pub fn rows(&self, yarn: usize, rings: Range<u32>) -> Range<usize> {
         let before = |yarn: usize, ring: u32| {
@@ -167,13 +167,13 @@ impl Chunk {
         first..end.max(first)
     }
 
-    /// The number of vertices in all chunks before.
+    /// The number of vertices in all chunks before this one.
     #[must_use]
     pub const fn first_vertex(&self) -> u64 {
         self.first_vertex
     }
 
-    /// The number of indices in all chunks before.
+    /// The number of indices in all chunks before this one.
     #[must_use]
     pub const fn first_index(&self) -> u64 {
         self.first_index
@@ -181,8 +181,8 @@ impl Chunk {
 }
 
 impl Cap {
-    /// The cap at place `place` among the chunk's caps. The starts of vertices and indices are
-    /// counted in caps until the last tube is known.
+    /// The cap at place `place` among the chunk's caps. Until the last tube is known,
+    /// `first_vertex` and `first_index` are counted in caps.
     pub(super) fn at(place: u32, yarn: usize, end: End, chunk_ring: u32) -> Self {
         Self { yarn: yarn as u32, end, chunk_ring, first_vertex: place, first_index: place }
     }

@@ -9,8 +9,8 @@ use super::{BLOCK_RINGS, Block, Plan};
 use crate::{End, Topology};
 
 impl Plan {
-    /// `chunk` with the block table, parts and caps that it has in this plan. It must be a chunk of
-    /// this plan or of one that this plan was [edited](Plan::edited) from.
+    /// `chunk` with the block table, parts and caps that it has in this plan. `chunk` must be a
+    /// chunk of this plan or of a plan that this one was [edited](Plan::edited) from.
     #[must_use]
     pub(crate) fn recut(&self, chunk: &Chunk) -> Chunk {
         let mut cut = Chunk {
@@ -31,8 +31,8 @@ impl Plan {
     }
 
     /// A patch: a chunk of some rows of the block table of `chunk`, with the caps of their yarns.
-    /// All its results have the places that they have in `chunk`, so memory for `chunk` is enough.
-    /// `rows` are in order and do not overlap.
+    /// All results of the patch have the places that they have in `chunk`, so memory for `chunk` is
+    /// enough. `rows` are in order and do not overlap.
     ///
     /// **Panics** for no rows, rows past the last, and a chunk of another plan.
     #[must_use]
@@ -62,7 +62,7 @@ impl Plan {
 
 impl Plan {
     /// The rings of block `block` of `yarn`, room included: the first, their number, and whether
-    /// the yarn may go on after it.
+    /// the yarn may go on after the block.
     pub(super) fn block_rings(&self, yarn: usize, block: u64) -> (u32, u32, bool) {
         let offsets = self.ring_offsets();
         let first = (block - self.block_offsets()[yarn]) as u32 * BLOCK_RINGS;
@@ -70,8 +70,8 @@ impl Plan {
         (first, left.min(BLOCK_RINGS), left > BLOCK_RINGS)
     }
 
-    /// Fills the block table, the parts and the caps of `chunk`. Room has a place in the chunk, but
-    /// only rings that exist get a row.
+    /// Fills the block table, the parts and the caps of `chunk`. Unused room has a place in the
+    /// chunk, but only rings that exist are in a row.
     pub(super) fn fill(&self, chunk: &mut Chunk) {
         let (settings, roomy) = (self.settings(), self.is_roomy());
         let (sides, indexed) = (settings.sides, settings.topology == Topology::Indexed);
@@ -119,7 +119,8 @@ impl Plan {
                 if indexed {
                     chunk.indices += (if may_go_on { room } else { room - 1 }) * sides * 6;
                 }
-                // The repeated ring is the next chunk's first, or one that no chunk holds.
+                // The repeated ring is the first of the next chunk, or in a region a ring of no
+                // other chunk.
                 chunk.repeats_ring = goes_on && ends_run && self.makes(number + 1);
                 if goes_on && ends_run {
                     self.push_block(chunk, yarn, first + rings, 1, 0);
@@ -140,11 +141,11 @@ impl Plan {
         chunk.indices += caps * cap_indices;
     }
 
-    /// Adds a row for the next rings.
+    /// Adds a row of the block table for the next rings.
     fn push_block(&self, chunk: &mut Chunk, yarn: usize, first_ring: u32, rings: u32, quads: u32) {
         let settings = self.settings();
-        // Kernels work out interval and remainder in the same way for all rings, so the row has the
-        // plain interval of its first ring.
+        // Kernels work out the interval and the ring within it in the same way for all rings. The
+        // row therefore has the quotient for its first ring, even if that ring is the yarn's last.
         let interval = u64::from(first_ring) / (u64::from(settings.subdivisions) + 1);
         let point = self.padded_offsets()[yarn] + interval;
         chunk.blocks.push(Block {

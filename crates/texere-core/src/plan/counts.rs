@@ -5,23 +5,23 @@ use crate::Vertex;
 /// The counts of everything that a plan makes, before it is cut into chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Yarns.
+    /// Number of yarns.
     pub yarns: u64,
-    /// Control points.
+    /// Number of control points.
     pub control_points: u64,
-    /// Rings of all yarns.
+    /// Number of rings of all yarns.
     pub rings: u64,
-    /// Vertices, caps included.
+    /// Number of vertices, caps included.
     pub vertices: u64,
-    /// Triangles that are drawn, caps included.
+    /// Number of triangles that are drawn, caps included.
     pub triangles: u64,
-    /// Indices that are stored. With [`Topology::Shared`](crate::Topology::Shared) they are far
-    /// fewer than three per triangle.
+    /// Number of indices that are stored. With [`Topology::Shared`](crate::Topology::Shared) it is
+    /// far less than three per triangle.
     pub indices: u64,
 }
 
 impl Counts {
-    /// The bytes of the mesh: 24 per vertex, 4 per index.
+    /// The bytes of the mesh: 24 per vertex and 4 per index.
     #[must_use]
     pub const fn bytes(&self) -> u64 {
         self.vertices * size_of::<Vertex>() as u64 + self.indices * 4

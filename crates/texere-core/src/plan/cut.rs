@@ -1,4 +1,4 @@
-//! The cutting of a plan into chunks.
+//! Cuts a plan into chunks.
 
 use std::ops::Range;
 
@@ -8,8 +8,8 @@ use super::{BLOCK_RINGS, Block, Limits, Plan};
 use crate::definitions::Ring;
 use crate::{ControlPoint, PlanError, Topology, Vertex};
 
-/// Windows start at multiples of this number of control points: 256 bytes, an offset that every
-/// device allows for a binding.
+/// Windows start at multiples of this number of control points. It is 256 bytes, an offset that
+/// every device allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;
 
 /// The size of a chunk, in the units of [`Limits`].
@@ -34,10 +34,10 @@ impl Size {
         ]
     }
 
-    /// The first limit that is exceeded.
+    /// The error for the first limit that is exceeded, or none.
     fn excess(&self, resident: u64, limits: &Limits) -> Option<PlanError> {
         let rings = self.rings as u32;
-        // In an indexed draw the first index is a `u32`, the first vertex an `i32`.
+        // In an indexed draw the first index is a `u32`, and the first vertex an `i32`.
         let (index_limit, vertex_limit) = (u64::from(u32::MAX), i32::MAX as u64);
         let counts = [
             ("blocks", self.blocks, limits.blocks),
@@ -68,20 +68,21 @@ impl Plan {
     }
 }
 
-/// An iterator over the chunks of a plan, each cut when it is asked for.
+/// An iterator over the chunks of a plan. Each chunk is cut when the iterator reaches it.
 #[derive(Debug, Clone)]
 pub struct Chunks<'a> {
     plan: &'a Plan,
     limits: Limits,
     index: u64,
     next: Cursor,
-    /// The identity of the plan's region; 0 for the whole plan.
+    /// The identity of the plan's region, 0 for the whole plan.
     region: u64,
     first_vertex: u64,
     first_index: u64,
 }
 
-/// A block of a plan: its run, its number and its yarn. There is none past the last run.
+/// A block of a plan: its run, its number and its yarn. If `run` is the number of runs, the cursor
+/// is past the last block.
 #[derive(Debug, Clone, Copy)]
 struct Cursor {
     run: usize,
@@ -107,14 +108,15 @@ impl<'a> Chunks<'a> {
 
     pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
         let chunks = Self::of(plan, limits);
-        // If the largest block fits, yarns need not be checked one by one. A session asks for
-        // chunks with each scan.
+        // If the largest block fits, yarns need not be checked one by one. That matters because a
+        // session cuts the plan anew for each scan.
         if chunks.largest_block().excess(plan.resident_bytes(), &limits).is_none() {
             return Ok(chunks);
         }
         for yarn in 0..plan.layout().yarns().len() {
             let offsets = plan.block_offsets();
-            // The first, the last, and the second block of the yarn, which stands for all others.
+            // The first, the second and the last block of the yarn are checked. All others are as
+            // large as the second.
             let (first, end) = (offsets[yarn], offsets[yarn + 1]);
             for block in [first, (first + 1).min(end - 1), end - 1] {
                 let size = chunks.extended(&Size::default(), None, yarn, block).1;
@@ -149,8 +151,8 @@ impl<'a> Chunks<'a> {
             rings,
             vertices: (rings + 2) * sides,
             indices: (rings + 1) * sides * 6,
-            // Each ring in an interval of its own, and the other points that the last ring and the
-            // step to the next one read.
+            // Each ring may lie in an interval of its own. The last ring, and the step to the ring
+            // after it, read some more points.
             window: rings + 5 + WINDOW_POINTS,
         }
     }
@@ -167,18 +169,18 @@ impl<'a> Chunks<'a> {
         start + self.first_interval(yarn, first)..(start + last).min(end)
     }
 
-    /// The interval that ring `ring` of `yarn` is evaluated in: the last ring of an open yarn is t
+    /// The interval that ring `ring` of `yarn` is evaluated in. The last ring of an open yarn is t
     /// = 1 of the interval before.
     fn first_interval(&self, yarn: usize, ring: u32) -> u64 {
         let interval = u64::from(ring) / (u64::from(self.plan.settings().subdivisions) + 1);
-        // In a yarn with room any ring may become the last.
+        // In a plan with room, any ring may become the last of its yarn.
         let last = |ring: u32| self.plan.is_roomy() && ring > 0 || ring + 1 == self.plan.rings(yarn);
         let at_end = !self.plan.yarn(yarn).closed && last(ring);
         if at_end { interval.saturating_sub(1) } else { interval }
     }
 
-    /// The caps of a block, room included. A yarn with room may end in any of its blocks, but only
-    /// in one.
+    /// The number of caps of a block, room included. A yarn with room may end in any one of its
+    /// blocks.
     fn cap_count(&self, yarn: usize, first: u32, goes_on: bool) -> u64 {
         if self.plan.settings().caps && !self.plan.yarn(yarn).closed {
             u64::from(first == 0) + u64::from(!goes_on || self.plan.is_roomy())
@@ -187,14 +189,15 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// `size` with one more block, for two cases: other blocks follow, or the chunk ends there and
-    /// may have to repeat a ring. `window` is the start of the chunk's control points.
+    /// `size` with one more block, for two cases: that other blocks follow, and that the chunk ends
+    /// after the block and may have to repeat a ring. `window` is the start of the chunk's control
+    /// points.
     fn extended(&self, size: &Size, window: Option<u64>, yarn: usize, block: u64) -> (Size, Size) {
         self.with_rings(size, window, yarn, self.plan.block_rings(yarn, block))
     }
 
-    /// [`Chunks::extended`] for the rings of one block of a yarn: the first, their number, and
-    /// whether others follow.
+    /// Does the work of [`Chunks::extended`] for given rings of a yarn: the first, their number,
+    /// and whether other rings follow.
     fn with_rings(
         &self,
         size: &Size,
@@ -207,8 +210,8 @@ impl<'a> Chunks<'a> {
         let caps = self.cap_count(yarn, first, goes_on);
         let quads = u64::from(if goes_on { rings } else { rings - 1 });
         let points = self.points_read(yarn, first, rings + u32::from(goes_on));
-        // An unknown window gets the worst case: it starts up to WINDOW_POINTS - 1 points earlier,
-        // to be aligned.
+        // If the window is not known, the worst case counts: the window starts WINDOW_POINTS - 1
+        // points earlier, to be aligned.
         let window = window.unwrap_or(points.start.saturating_sub(WINDOW_POINTS - 1));
         let inner = Size {
             blocks: size.blocks + 1,
@@ -228,7 +231,8 @@ impl<'a> Chunks<'a> {
     }
 
     /// `size` with the whole yarn that begins at `at`, and the block after it. `None` if the run
-    /// ends before that, or if the yarn has room: the sizes of its blocks then do not add up.
+    /// ends before that block, or if the plan has room, because the sizes of blocks then do not add
+    /// up to that of the yarn.
     fn with_yarn(&self, size: &Size, window: u64, at: Cursor) -> Option<(Size, Cursor)> {
         let blocks = &self.plan.block_offsets()[at.yarn..at.yarn + 2];
         let is_whole = at.block == blocks[0] && blocks[1] < self.plan.runs()[at.run].end;
@@ -268,7 +272,7 @@ impl<'a> Chunks<'a> {
         cut
     }
 
-    /// The blocks from the next one on and before `end`.
+    /// Ranges of the blocks from the next one on and before `end`.
     fn runs_to(&self, end: Cursor) -> Vec<Range<u64>> {
         let runs = (self.next.run..=end.run).filter_map(|run| {
             let all = self.plan.runs().get(run)?;
@@ -356,7 +360,7 @@ mod tests {
         }
     }
 
-    /// Chunks end as far on as their limits allow, whether yarns are taken as a whole or block by
+    /// Chunks end as late as their limits allow, whether yarns are added as a whole or block by
     /// block.
     #[test]
     fn a_chunk_ends_at_the_last_block_that_fits() {

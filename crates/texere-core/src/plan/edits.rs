@@ -1,4 +1,5 @@
-//! Edited plans: plans with other yarns, the conditions for them, and the stands of those yarns.
+//! Edited plans: plans in which some yarns are replaced, the conditions for edits, and the
+//! [`Stand`]s of the new yarns.
 
 use std::sync::Arc;
 
@@ -10,14 +11,15 @@ use crate::stand::Stand;
 use crate::{ControlPoint, PlanError, TWIST_LIMIT, Yarn};
 
 impl Plan {
-    /// This plan with `what` and `points` as yarn number `yarn`. The points decide whether it is
-    /// [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). All offsets stay, so both
-    /// plans own one another's chunks. Chunks that hold some of the yarn are out of date.
+    /// This plan with `what` and `points` as yarn number `yarn`. The points decide whether the yarn
+    /// is [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). All offsets stay, so
+    /// both plans own one another's chunks. Chunks that hold part of the yarn are out of date.
     ///
     /// **Errors**: [`PlanError::NoRoom`] for more points than there is [room](Plan::with_room) for,
-    /// [`PlanError::TooFewPoints`], and [`PlanError::OtherPlan`] for changes that take a new plan:
-    /// an open yarn that becomes closed or the other way round, a section that the layout lacks, a
-    /// twist that is not sound, or a twist where no yarn's rolls are scanned.
+    /// [`PlanError::TooFewPoints`], and [`PlanError::OtherPlan`] for changes that need a new plan:
+    /// an open yarn that becomes closed or the other way round, a yarn with given up directions, a
+    /// section that the layout lacks, a twist beyond [`TWIST_LIMIT`], or a twist if no yarn's rolls
+    /// are scanned.
     ///
     /// **Panics** past the last yarn.
     pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
@@ -25,7 +27,7 @@ impl Plan {
     }
 
     /// Edits many yarns at once, in the time of one new plan. Each edit is checked against this
-    /// plan: a twist is refused if no yarn's rolls are scanned in it, even if another edit makes a
+    /// plan. A twist is refused if this plan scans no yarn's rolls, even if another edit makes a
     /// yarn steep.
     ///
     /// ```
@@ -44,7 +46,7 @@ impl Plan {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// **Errors** and **panics**: those of [`Plan::edited`], for the first yarn that is refused.
+    /// **Errors** and **panics**: as of [`Plan::edited`], for the first yarn that is refused.
     pub fn edited_all(&self, edits: &Edits<'_>) -> Result<Self, PlanError> {
         for (&yarn, (what, points)) in edits {
             self.check_edit(yarn, what, points.len() as u64)?;
@@ -59,7 +61,7 @@ impl Plan {
         Ok(plan.standing(stands))
     }
 
-    /// This plan with other stands for some yarns, by their numbers.
+    /// This plan with new [`Stand`]s for some yarns, each with the yarn's number.
     pub(crate) fn standing(mut self, stands: impl IntoIterator<Item = (usize, Stand)>) -> Self {
         for (yarn, stand) in stands {
             let leans = stand.leaning.is_some();
@@ -78,7 +80,7 @@ impl Plan {
     /// Checks whether [`Plan::edited`] accepts `what` with `points` control points as yarn number
     /// `yarn`. No plan is made.
     ///
-    /// **Errors** and **panics**: those of [`Plan::edited`].
+    /// **Errors** and **panics**: as of [`Plan::edited`].
     pub fn check_edit(&self, yarn: usize, what: &Yarn, points: u64) -> Result<(), PlanError> {
         let before = self.yarn(yarn);
         let room = self.offsets.room(yarn, before.closed);

@@ -11,82 +11,82 @@ pub enum PlanError {
     /// Too many points inserted between control points.
     #[error("{subdivisions}, more than {limit}", subdivisions = counted(*.subdivisions, "subdivision"))]
     Subdivisions {
-        /// Given.
+        /// Number of subdivisions given.
         subdivisions: u32,
-        /// Most allowed.
+        /// The largest number allowed.
         limit: u32,
     },
     /// Too few or too many sides.
     #[error("{sides}, outside {low} to {high}", sides = counted(*.sides, "side"))]
     Sides {
-        /// Given.
+        /// Number of sides given.
         sides: u32,
-        /// Least allowed.
+        /// The least number allowed.
         low: u32,
-        /// Most allowed.
+        /// The largest number allowed.
         high: u32,
     },
     /// The number of sides differs from a polygon section's number of corners.
     #[error(
         "section {section} is a polygon of {corners}, but tubes have {sides}; set sides to {}", .corners, corners = counted(*.corners, "corner"), sides = counted(*.sides, "side"))]
     PolygonSides {
-        /// The section.
+        /// Number of the section.
         section: usize,
-        /// Its corners.
+        /// Number of the section's corners.
         corners: usize,
-        /// The plan's sides.
+        /// Number of sides of the plan's tubes.
         sides: u32,
     },
     /// One yarn has more rings than a `u32` counts.
     #[error("yarn {yarn} has {rings}, more than {limit}", rings = counted(*.rings, "ring"))]
     YarnRings {
-        /// The yarn, from 0.
+        /// Number of the yarn, counted from 0.
         yarn: usize,
-        /// Its rings.
+        /// Number of the yarn's rings.
         rings: u64,
-        /// Most allowed.
+        /// The largest number allowed.
         limit: u64,
     },
     /// All yarns together have more rings than any machine holds.
     #[error("{rings}, more than {limit}", rings = counted(*.rings, "ring"))]
     Rings {
-        /// All rings.
+        /// Number of all rings.
         rings: u64,
-        /// Most allowed.
+        /// The largest number allowed.
         limit: u64,
     },
     /// A yarn is to have more control points than the plan has room for.
     #[error("yarn {yarn} of {points}, but the plan has room for {room}", points = counted(*.points, "control point"))]
     NoRoom {
-        /// The yarn, from 0.
+        /// Number of the yarn, counted from 0.
         yarn: usize,
-        /// Its control points.
+        /// Number of the yarn's control points.
         points: u64,
-        /// Most that it may have.
+        /// The largest number that there is room for.
         room: u64,
     },
     /// A yarn is to have too few control points.
     #[error("yarn {yarn} of {points}, fewer than {least}", points = counted(*.points, "control point"))]
     TooFewPoints {
-        /// The yarn, from 0.
+        /// Number of the yarn, counted from 0.
         yarn: usize,
-        /// Its control points.
+        /// Number of the yarn's control points.
         points: u64,
-        /// Least allowed.
+        /// The least number allowed.
         least: u64,
     },
-    /// An edit that takes a new plan.
+    /// An edit that needs a new plan.
     #[error("yarn {yarn} can't be {what}: that takes a new plan")]
     OtherPlan {
-        /// The yarn, from 0.
+        /// Number of the yarn, counted from 0.
         yarn: usize,
-        /// The change.
+        /// The change, as in "yarn 3 can't be ...".
         what: &'static str,
     },
     /// Not even one block fits a limit of bytes.
     #[error("one block of {rings} needs {needed} for {what}, but the limit is {limit}", rings = counted(*.rings, "ring"), needed = counted(*.needed, "byte"), limit = counted(*.limit, "byte"))]
     BlockTooLarge {
-        /// Rings in the block.
+        /// Number of rings of the block.
         rings: u32,
         /// The buffer.
         what: &'static str,
@@ -98,7 +98,7 @@ pub enum PlanError {
     /// Not even one block fits a limit of counts: see [`Limits::blocks`](crate::Limits::blocks).
     #[error("one block of {rings} takes {needed} {what}, but the limit is {limit}", rings = counted(*.rings, "ring"))]
     BlockOverCount {
-        /// Rings in the block.
+        /// Number of rings of the block.
         rings: u32,
         /// The things that are counted: blocks, vertices or indices.
         what: &'static str,

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Identifies the offsets of a plan within the process. They never change, so clones, edited plans
-/// and plans of a region share the identity.
+/// Identifies the offsets of a plan within the process. Offsets never change, so clones, edited
+/// plans and plans of a region share the identity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlanId(u64);
 
@@ -15,8 +15,8 @@ impl PlanId {
     }
 }
 
-/// Identifies the tables of a chunk within its plan. Chunks of one plan with the same identity have
-/// the same tables, and differ at most in their place in the whole.
+/// Identifies the tables of a chunk within its plan. Chunks of one plan whose identities are equal
+/// have equal tables, and differ at most in their place in the whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TablesId {
     pub(super) blocks: Range<u64>,

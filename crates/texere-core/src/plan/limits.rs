@@ -6,10 +6,10 @@ use crate::definitions::SIDES_MAX;
 
 /// The limits that chunks are cut to.
 ///
-/// By default a buffer of a chunk has at most 64 MiB: with six sides some 466,000 rings and 5.6
-/// million triangles. Two such chunks take less than 300 MB whatever the fabric, progress comes in
-/// steps of that size, and a cancellation takes effect at the next one. A larger chunk would only
-/// save a launch.
+/// By default a buffer of a chunk has at most 64 MiB. With six sides that is some 466,000 rings and
+/// 5.6 million triangles. Two such chunks need less than 300 MB, whatever the fabric. Progress is
+/// reported after each chunk, and a cancellation takes effect after the present one. Larger chunks
+/// would only save launches.
 ///
 /// ```
 /// use texere_core::Limits;
@@ -21,14 +21,14 @@ use crate::definitions::SIDES_MAX;
 pub struct Limits {
     /// The most bytes of one buffer that a kernel can see.
     pub binding_bytes: u64,
-    /// The most bytes of the control points and two chunks together.
+    /// The most bytes of all control points and two chunks together.
     pub memory_bytes: u64,
     /// The most blocks of one launch.
     pub blocks: u64,
 }
 
 impl Limits {
-    /// No limits but those of `u32` indices.
+    /// No limits except those of `u32` indices.
     pub const NONE: Self = Self { binding_bytes: u64::MAX, memory_bytes: u64::MAX, blocks: u64::MAX };
 
     /// The stricter of two limits in each field.
@@ -45,14 +45,14 @@ impl Limits {
 /// The most bytes of a buffer of a chunk by default.
 const CHUNK_BUFFER_BYTES: u64 = 64 << 20;
 
-// A block of the most sides fits, so the default refuses no plan.
+// A block with the largest number of sides fits, so the default refuses no plan.
 const _: () = assert!(
     (BLOCK_RINGS as u64 + 3) * (SIDES_MAX as u64) * (size_of::<Vertex>() as u64) <= CHUNK_BUFFER_BYTES
         && (BLOCK_RINGS as u64 + 2) * (SIDES_MAX as u64) * 6 * 4 <= CHUNK_BUFFER_BYTES
 );
 
 impl Default for Limits {
-    /// Bounded chunks on a device without limits of its own.
+    /// Chunks of bounded size, on a device without limits of its own.
     fn default() -> Self {
         Self { binding_bytes: CHUNK_BUFFER_BYTES, ..Self::NONE }
     }

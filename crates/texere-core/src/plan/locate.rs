@@ -5,24 +5,24 @@ use crate::{End, Topology};
 
 /// The place of a vertex or a triangle on its yarn.
 ///
-/// A triangle has the place of the first vertex of its quad: it lies between that ring and the
-/// next, and between that side and the next.
+/// A triangle has the place of the first vertex of its quad. The triangle lies between that ring
+/// and the next, and between that corner of the section and the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MeshPlace {
-    /// The yarn, from 0 among all.
+    /// Number of the yarn among all yarns, counted from 0.
     pub yarn: u32,
-    /// The ring, from the yarn's start.
+    /// Number of the ring, counted from the yarn's start.
     pub ring: u32,
-    /// The corner of the section, from 0. For a cap's triangle it is 0.
+    /// Number of the section's corner, counted from 0. For a cap's triangle it is 0.
     pub side: u32,
-    /// The end of the yarn, if it belongs to a cap.
+    /// The end of the yarn whose cap the vertex or triangle belongs to, if it belongs to one.
     pub cap: Option<End>,
 }
 
 impl Plan {
     /// The place of vertex number `vertex` of `chunk`, a chunk of this plan. The time grows with
-    /// the logarithm of the chunk's blocks. `None` past the last vertex, and in unused
-    /// [room](Plan::with_room).
+    /// the logarithm of the number of the chunk's blocks. `None` past the last vertex, and in
+    /// unused [room](Plan::with_room).
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -56,9 +56,9 @@ impl Plan {
         Some(MeshPlace { side: vertex - cap.first_vertex, ..self.place_of_cap(cap.yarn, cap.end) })
     }
 
-    /// The place of triangle number `triangle` of `chunk`, a chunk of this plan: the triangle of
-    /// indices `3 * triangle` and the two after it. `None` past the last, in unused room, and with
-    /// another topology than [`Topology::Indexed`].
+    /// The place of triangle number `triangle` of `chunk`, a chunk of this plan. The triangle's
+    /// corners are index `3 * triangle` and the two after it. `None` past the last triangle, in
+    /// unused room, and with another topology than [`Topology::Indexed`].
     #[must_use]
     pub fn place_of_triangle(&self, chunk: &Chunk, triangle: u32) -> Option<MeshPlace> {
         if self.settings().topology != Topology::Indexed {
@@ -79,8 +79,9 @@ impl Plan {
         Some(self.place_of_cap(cap.yarn, cap.end))
     }
 
-    /// The control interval of a ring, from 0 along its yarn, and the ring's parameter in it, in
-    /// \[0, 1). The last ring of an open yarn is at the start of one more interval.
+    /// The number of a ring's control interval, counted from 0 along its yarn, and the ring's
+    /// parameter in that interval, in \[0, 1). The last ring of an open yarn is at the start of one
+    /// more interval.
     #[must_use]
     pub fn interval(&self, ring: u32) -> (u32, f32) {
         let per_interval = self.settings().subdivisions + 1;

@@ -1,4 +1,5 @@
-//! The plan: every count, offset and byte size, worked out on the host before anything is launched.
+//! The plan: all counts, offsets and byte sizes, worked out on the host before anything is
+//! launched.
 
 mod block;
 mod bounds;
@@ -60,11 +61,11 @@ pub struct Plan {
     settings: Settings,
     sampling: Sampling,
     offsets: Arc<Offsets>,
-    /// The blocks that the plan makes, in order: all of them, unless it is of a
-    /// [region](Plan::within).
+    /// Ranges of the blocks that the plan makes, in order. They are all blocks, unless the plan is
+    /// of a [region](Plan::within).
     runs: Arc<[Range<u64>]>,
     needs_scan: bool,
-    /// The lean of each ring of the yarns that lean, by their numbers.
+    /// The lean of each ring of the yarns that lean, by the yarns' numbers.
     leans: BTreeMap<usize, Arc<[Turn]>>,
     outlines: Vec<SectionPoint>,
     cap_triangles: Vec<Vec<[u32; 3]>>,
@@ -81,9 +82,9 @@ impl Plan {
         Self::planned(layout, settings, None)
     }
 
-    /// A plan with room for more control points: `room` gives the most that a yarn, by its number,
-    /// may have. The offsets leave space for them, and [`Plan::edited`] changes the number of
-    /// points, but no offset.
+    /// A plan with room for more control points. `room` gets a yarn's number and gives the most
+    /// control points that the yarn may have. The offsets leave space for that many, so that
+    /// [`Plan::edited`] changes the number of points but no offset.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -100,7 +101,7 @@ impl Plan {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// **Errors**: the errors of [`Plan::new`], with the rings of the room counted too.
+    /// **Errors**: the errors of [`Plan::new`], where rings count as if all room were used.
     pub fn with_room(
         layout: Arc<Layout>,
         settings: Settings,
@@ -152,21 +153,22 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether `chunk` was cut from this plan, a clone of it, an [edited](Plan::edited) one or one
-    /// of a [region](Plan::within), so that its tables fit the plan's offsets.
+    /// Whether the tables of `chunk` fit this plan's offsets. They do if `chunk` was cut from this
+    /// plan or a clone, or if this plan and the chunk's come from the same plan by
+    /// [edits](Plan::edited) or by a [region](Plan::within).
     #[must_use]
     pub fn owns(&self, chunk: &Chunk) -> bool {
         chunk.plan() == self.id
     }
 
-    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same plan, so
-    /// that all their offsets are equal.
+    /// Whether all offsets of this plan and of `other` are equal because both are clones, or come
+    /// from the same plan by [edits](Plan::edited) or by a [region](Plan::within).
     #[must_use]
     pub fn shares_offsets(&self, other: &Self) -> bool {
         self.id == other.id
     }
 
-    /// Whether yarns have room for more control points.
+    /// Whether the plan was made with room for more control points.
     pub(crate) fn is_roomy(&self) -> bool {
         self.offsets.roomy
     }
@@ -182,13 +184,13 @@ impl Plan {
         &self.layout
     }
 
-    /// The settings.
+    /// The settings of the mesh.
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The sampling of the spline.
+    /// The sampling of the splines.
     #[must_use]
     pub const fn sampling(&self) -> &Sampling {
         &self.sampling
@@ -200,15 +202,17 @@ impl Plan {
         &self.counts
     }
 
-    /// The start of each yarn's rings among all, and their total last (the paper's Ωp): yarns + 1
-    /// values. Times sides, these are the paper's ΩM. [Room](Plan::with_room) counts as if it were
-    /// used, here and in all other offsets.
+    /// The start of each yarn's rings among all rings, and the number of all rings last (the
+    /// paper's Ωp). There is one value more than there are yarns. Multiplied by the number of
+    /// sides, these values are the paper's ΩM. [Room](Plan::with_room) counts as if it were used,
+    /// in these and all other offsets.
     #[must_use]
     pub fn ring_offsets(&self) -> &[u64] {
         &self.offsets.rings
     }
 
-    /// The start of each yarn's *padded* control points, and their total last: yarns + 1 values.
+    /// The start of each yarn's *padded* control points, and the number of all padded points last.
+    /// There is one value more than there are yarns.
     ///
     /// A yarn of m control points is stored as `[virtual start, m points, virtual end]` if open and
     /// as `[P[m-1], m points, P[0], P[1], P[2]]` if closed. Interval j reads `padded[j..j + 4]`,
@@ -219,13 +223,15 @@ impl Plan {
         &self.offsets.padded
     }
 
-    /// The start of each yarn's blocks among all, and their total last: yarns + 1 values.
+    /// The start of each yarn's blocks among all blocks, and the number of all blocks last. There
+    /// is one value more than there are yarns.
     #[must_use]
     pub fn block_offsets(&self) -> &[u64] {
         &self.offsets.blocks
     }
 
-    /// The range of the padded control points of `yarn` among all, without its room for more.
+    /// The range of the padded control points of `yarn` among all padded points, without unused
+    /// room.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -257,8 +263,8 @@ impl Plan {
         &self.layout.yarns()[yarn]
     }
 
-    /// A yarn's twist ([`Yarn::twist`]) in turns per mm, as [`Frame::step`](crate::Frame::step) and
-    /// the kernels take it.
+    /// A yarn's twist ([`Yarn::twist`]) in turns per mm, the unit of
+    /// [`Frame::step`](crate::Frame::step) and of the kernels.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -266,7 +272,7 @@ impl Plan {
         (f64::from(self.yarn(yarn).twist) / std::f64::consts::TAU) as f32
     }
 
-    /// The orientation of the sections of `yarn`: that of the settings, unless the yarn is
+    /// The frame of the sections of `yarn`. It is that of the settings, unless the yarn is
     /// [steep](Layout::is_steep).
     ///
     /// **Panics** past the last yarn.
@@ -291,7 +297,8 @@ impl Plan {
         self.leans.get(&yarn).map(|leans| &**leans)
     }
 
-    /// Ring number `ring` of `yarn`, at `sample`, with the roll from the scan.
+    /// Ring number `ring` of `yarn`, at `sample`, with the roll `scanned` from the scan. The yarn's
+    /// lean is added.
     ///
     /// **Panics** past the last yarn, and past the last ring of a yarn that leans.
     #[must_use]
@@ -299,8 +306,8 @@ impl Plan {
     pub fn ring(&self, yarn: usize, ring: u32, sample: &Sample, scanned: Turn) -> Ring {
         let Some(leans) = self.leans(yarn) else { return Ring::new(sample, scanned) };
         let lean = leans[ring as usize];
-        // An upright section leans with its outline. A carried section starts with the lean of the
-        // first ring.
+        // An upright section leans with its outline. A section in a rotation minimising frame
+        // starts with the lean of the first ring.
         let start = match self.frame(yarn) {
             Frame::Upright => lean,
             Frame::RotationMinimizing => leans[0],
@@ -308,7 +315,7 @@ impl Plan {
         Ring { lean, ..Ring::new(sample, scanned + start) }
     }
 
-    /// All outlines, section after section, `sides` points each.
+    /// The outlines of all sections, one after the other, `sides` points each.
     #[must_use]
     pub fn outlines(&self) -> &[SectionPoint] {
         &self.outlines
@@ -331,8 +338,8 @@ impl Plan {
         &self.cap_triangles[section]
     }
 
-    /// Whether any yarn needs its rolls scanned. For an [edited](Plan::edited) plan: whether any
-    /// yarn of it or of a plan before it did.
+    /// Whether the rolls of any yarn have to be scanned. For an [edited](Plan::edited) plan, the
+    /// yarns of the plans that it was edited from count, too.
     #[must_use]
     pub const fn needs_scan(&self) -> bool {
         self.needs_scan
@@ -344,9 +351,9 @@ impl Plan {
         self.offsets.padded.last().copied().unwrap_or(0) * size_of::<ControlPoint>() as u64
     }
 
-    /// The peak bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU:
-    /// the mesh, the padded control points, the block table, leans, and the rolls if any yarn
-    /// turns. The caller's yarns do not count.
+    /// The peak bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) needs on a CPU:
+    /// those of the mesh, the padded control points, the block table, leans, and the rolls if any
+    /// yarn turns. The caller's yarns do not count.
     #[must_use]
     pub fn host_bytes(&self) -> u64 {
         let rings = self.offsets.rings.last().copied().unwrap_or(0);

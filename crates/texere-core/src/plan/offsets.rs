@@ -4,26 +4,26 @@ use super::BLOCK_RINGS;
 use crate::definitions::Sampling;
 use crate::{Layout, PlanError};
 
-/// The most rings of one plan, 2³⁶. More would be over ten terabytes of mesh with six sides: a
-/// mistake in the input.
+/// The most rings of one plan, 2³⁶. With six sides, more would be a mesh of over ten terabytes,
+/// which must be a mistake in the input.
 pub const RINGS_MAX: u64 = 1 << 36;
 
 /// The most rings of one yarn: the largest `u32`.
 pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
 
-/// Prefix sums over the yarns: yarns + 1 values each.
+/// Prefix sums over the yarns. Each list has one value more than there are yarns.
 #[derive(Debug)]
 pub(super) struct Offsets {
     pub(super) padded: Vec<u64>,
     pub(super) rings: Vec<u64>,
     pub(super) blocks: Vec<u64>,
-    /// Whether there is room for more control points.
+    /// Whether the offsets were made with room for more control points.
     pub(super) roomy: bool,
 }
 
 impl Offsets {
-    /// `room` gives the most control points that a yarn may have. Fewer than it has count as what
-    /// it has.
+    /// The offsets of the yarns of `layout`. `room` gives the most control points that a yarn may
+    /// have. If that is less than the yarn has, the yarn's own number counts.
     pub(super) fn new(
         layout: &Layout,
         sampling: &Sampling,
@@ -33,7 +33,8 @@ impl Offsets {
         let (mut padded, mut rings, mut blocks) = (0, 0, 0);
         for (index, (yarn, bounds)) in layout.yarns().iter().zip(layout.offsets().windows(2)).enumerate() {
             let points = (bounds[1] - bounds[0]).max(room.map_or(0, |room| room(index)));
-            // 2^32 points of 2^10 rings fit a u64. More points are too many whatever their rings.
+            // 2^32 points of 2^10 rings each fit a u64. More points are refused, whatever the
+            // number of rings.
             let own = if points > YARN_RINGS_MAX { points } else { sampling.rings(points, yarn.closed) };
             if own > YARN_RINGS_MAX {
                 return Err(PlanError::YarnRings { yarn: index, rings: own, limit: YARN_RINGS_MAX });
@@ -57,7 +58,7 @@ impl Offsets {
     }
 }
 
-/// The number of padded control points of a yarn that are not its own.
+/// The number of padded control points of a yarn beside its own control points.
 pub(super) const fn virtual_points(closed: bool) -> u64 {
     if closed { 4 } else { 2 }
 }

@@ -1,4 +1,4 @@
-//! Plans of a region: only a part of the cloth is made.
+//! Plans of a region, which make only a part of the cloth.
 
 use std::iter;
 use std::ops::Range;
@@ -9,13 +9,14 @@ use crate::Topology;
 use crate::backend::PaddedPoints;
 
 impl Plan {
-    /// A plan that makes only the part in a box: the blocks of [`BLOCK_RINGS`] rings whose own
-    /// [box](Plan::part_bounds) touches `bounds`. Everything in the box is made, with the same bits
-    /// as in the whole mesh, and up to a block of each yarn beyond. `points` are this plan's.
+    /// A plan that makes only the part of the mesh in a box: the blocks of [`BLOCK_RINGS`] rings
+    /// whose own [box](Plan::part_bounds) touches `bounds`. Everything in the box is made, with the
+    /// same bits as in the whole mesh, and up to a block of each yarn beyond. `points` must have
+    /// been made for this plan.
     ///
-    /// Numbers of yarns, rings and control points stay, as do all offsets. A session of either plan
-    /// makes chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks) are those of
-    /// the region.
+    /// Yarns, rings and control points keep their numbers, and all offsets stay. A session of
+    /// either plan can make chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks)
+    /// are those of the region.
     ///
     /// ```
     /// use texere_core::backend::{PaddedPoints, Plan};
@@ -42,7 +43,7 @@ impl Plan {
             blocks.flat_map(|(yarn, ends)| (ends[0]..ends[1]).map(move |block| (yarn, block)))
         {
             let first = (block - self.offsets.blocks[yarn]) as u32 * BLOCK_RINGS;
-            // The block's last triangles reach to the ring after it.
+            // The block's last triangles reach to the ring after the block.
             let rings = first..first.saturating_add(BLOCK_RINGS + 1);
             if self.part_bounds(points, yarn, rings).touches(bounds) {
                 match runs.last_mut() {
@@ -56,7 +57,7 @@ impl Plan {
         plan
     }
 
-    /// The plan without its region: it makes everything.
+    /// The plan without its region, which makes everything.
     #[must_use]
     pub fn whole(&self) -> Self {
         let mut plan = self.clone();
@@ -110,7 +111,7 @@ impl Plan {
         }
     }
 
-    /// The blocks that the plan makes: runs of neighbours, in order.
+    /// Ranges of the blocks that the plan makes, in order.
     pub(super) fn runs(&self) -> &[Range<u64>] {
         &self.runs
     }
@@ -121,7 +122,7 @@ impl Plan {
         after > 0 && block < self.runs[after - 1].end
     }
 
-    /// The yarn of a block.
+    /// The yarn of block number `block`.
     pub(super) fn yarn_of_block(&self, block: u64) -> usize {
         self.offsets.blocks.partition_point(|&start| start <= block) - 1
     }

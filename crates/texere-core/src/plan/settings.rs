@@ -1,13 +1,13 @@
-//! The choices that a mesh is made with.
+//! The settings of a mesh.
 
 use crate::{Frame, Quantum, Topology};
 
 /// The choices that a mesh is made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Points inserted between two control points (the paper's K).
+    /// Number of points inserted between two control points (the paper's K).
     pub subdivisions: u32,
-    /// Sides of the tube (the paper's nc).
+    /// Number of sides of the tube (the paper's nc).
     pub sides: u32,
     /// The orientation of sections.
     pub frame: Frame,
@@ -20,7 +20,8 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// The paper's: K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹² mm.
+    /// The settings of the paper: K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹²
+    /// mm.
     fn default() -> Self {
         Self {
             subdivisions: 1,

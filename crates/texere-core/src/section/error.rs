@@ -11,13 +11,13 @@ pub enum SectionError {
     /// A number outside its limits, or not a number.
     #[error("{field} is {value}, outside {low} to {high}")]
     OutOfRange {
-        /// The parameter.
+        /// The parameter's name.
         field: &'static str,
-        /// Its value.
+        /// The parameter's value.
         value: f32,
-        /// Least allowed.
+        /// The least value allowed.
         low: f32,
-        /// Most allowed.
+        /// The largest value allowed.
         high: f32,
     },
     /// A polygon with too few or too many corners.
@@ -25,26 +25,27 @@ pub enum SectionError {
     Corners {
         /// The number of corners.
         corners: usize,
-        /// Least allowed.
+        /// The least number allowed.
         low: u32,
-        /// Most allowed.
+        /// The largest number allowed.
         high: u32,
     },
     /// Two neighbouring corners coincide.
-    #[error("corners {corner} and the next of the polygon coincide")]
+    #[error("corner {corner} of the polygon and the next coincide")]
     RepeatedCorner {
-        /// The first of the two, from 0.
+        /// Number of the first of the two corners, counted from 0.
         corner: usize,
     },
     /// The outline crosses, touches or folds onto itself.
     #[error("edges {first} and {second} of the polygon meet")]
     SelfIntersecting {
-        /// One edge, from 0.
+        /// Number of one edge, counted from 0.
         first: usize,
-        /// The other.
+        /// Number of the other edge.
         second: usize,
     },
-    /// The corners run clockwise: the tube would be inside out. Reverse them.
+    /// The corners run clockwise, so that the tube would be inside out. Their order must be
+    /// reversed.
     #[error("polygon runs clockwise; give its corners counter-clockwise")]
     Clockwise,
 }

@@ -13,8 +13,8 @@ use bytemuck::{Pod, Zeroable};
 /// The shape of a yarn's cross-section, in units of the yarn's radius.
 ///
 /// Every shape but the polygon encloses the area of the unit circle, so that a yarn keeps its
-/// volume, and with it its weight, whatever its shape. x is the section's side (level in cloth), y
-/// its up (out of the fabric).
+/// volume, and with it its weight, whatever its shape. x is along the section's side (level in
+/// cloth), and y along its up (out of the fabric).
 ///
 /// **Source** of ellipse, power ellipse and lenticular: Sherburn, "Geometric and mechanical
 /// modelling of textiles", PhD thesis, Nottingham, 2007 (the TexGen library).
@@ -42,14 +42,16 @@ pub enum Section {
     Lenticular {
         /// Width over height.
         aspect: f32,
-        /// The height of the edges above the middle, in half heights, within (-1, 1).
+        /// The height of the edges above the middle, in half heights, from -0.9 to 0.9.
         distortion: f32,
     },
-    /// An ellipse whose height is `|sin θ|^exponent`.
+    /// An ellipse whose height at angle θ is in proportion to `|sin θ|^exponent` instead of
+    /// `|sin θ|`.
     PowerEllipse {
         /// Width over height.
         aspect: f32,
-        /// 1 is an ellipse; below 1 boxier, above 1 closer to a lens.
+        /// The exponent, from 0.1 to 4. With 1 the section is an ellipse. Below 1 it is closer to a
+        /// box, and above 1 closer to a lens.
         exponent: f32,
     },
     /// The outline of `plies` round plies twisted together.
@@ -57,32 +59,32 @@ pub enum Section {
         /// Number of plies.
         plies: u32,
     },
-    /// An outline of the caller's own: counter-clockwise corners, in radii of the yarn. A plan with
-    /// it must have one side per corner.
+    /// An outline of the caller's own: counter-clockwise corners, in radii of the yarn. A plan of
+    /// yarns with this section must have one side per corner.
     Polygon(Vec<[f32; 2]>),
 }
 
 /// One point of a section's outline with its outward normal.
 ///
-/// **Shape**: four `f32`, 16 bytes. **Units**: radii of the yarn; the normal is a unit vector.
+/// **Shape**: four `f32`, 16 bytes. **Units**: radii of the yarn. The normal is a unit vector.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct SectionPoint {
-    /// Along the section's side.
+    /// Position along the section's side.
     pub x: f32,
-    /// Along the section's up.
+    /// Position along the section's up.
     pub y: f32,
-    /// Normal along the side.
+    /// The normal's component along the side.
     pub normal_x: f32,
-    /// Normal along up.
+    /// The normal's component along the up.
     pub normal_y: f32,
 }
 
 const _: () = assert!(size_of::<SectionPoint>() == 16);
 
 impl SectionPoint {
-    /// Position · normal: how far the surface moves along its normal here when the radius grows by
-    /// 1. It is 1 all round a circle.
+    /// The dot product of position and normal. It says how far the surface moves along its normal
+    /// at this point if the radius grows by 1. All round a circle it is 1.
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.x * self.normal_x + self.y * self.normal_y
@@ -101,5 +103,5 @@ impl SectionPoint {
 /// The fewest sides a tube can have.
 pub(crate) const SIDES_MIN: u32 = 3;
 
-/// The most sides a tube can have: far more than a yarn a few pixels wide can show.
+/// The most sides a tube can have. These are far more than can be seen on a yarn a few pixels wide.
 pub const SIDES_MAX: u32 = 256;

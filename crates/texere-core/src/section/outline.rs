@@ -10,11 +10,11 @@ use crate::turn::atan2_turns;
 /// each other, and their loose fibres fill the rest.
 const VALLEY: f32 = 0.5;
 
-/// The points at which the extent and the area of a section are measured. A polygon of 1,024 sides
-/// misses 6e-6 of a circle's area.
+/// Number of points at which the extent and the area of a section are measured. A polygon of 1,024
+/// sides lacks 6e-6 of a circle's area.
 const MEASURE_POINTS: u32 = 1024;
 
-/// A unit circle's sine and cosine at `k / count` of a turn.
+/// Sine and cosine of `k / count` of a turn.
 fn sin_cos_at(k: u32, count: u32) -> (f32, f32) {
     Turn(((u64::from(k) << 32) / u64::from(count)) as u32).sin_cos()
 }
@@ -22,14 +22,15 @@ fn sin_cos_at(k: u32, count: u32) -> (f32, f32) {
 impl Section {
     /// The outline as `sides` points, counter-clockwise seen against the tangent.
     ///
-    /// A polygon has its corners, whatever `sides` is. A plan refuses the two if they differ.
+    /// The outline of a polygon consists of its corners, whatever `sides` is. A plan refuses a
+    /// polygon whose number of corners differs from its sides.
     #[must_use]
     pub fn outline(&self, sides: u32) -> Vec<SectionPoint> {
         if let Self::Polygon(corners) = self {
             return polygon(corners);
         }
         let shape = |count: u32| (0..count).map(move |k| point(self, k, count));
-        // Equal area: scale by the root of π over the area of the bare shape.
+        // For equal area, the bare shape is scaled by the square root of π over its area.
         let scale = match self {
             Self::Circle | Self::Ellipse { .. } => 1.0,
             _ => (std::f32::consts::PI / area(shape(MEASURE_POINTS))).sqrt(),
@@ -43,7 +44,7 @@ impl Section {
         self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.x.abs().max(most))
     }
 
-    /// Half the height, in radii of the yarn: the room that crossing yarns need.
+    /// Half the height, in radii of the yarn. Crossing yarns need this much room.
     #[must_use]
     pub fn half_height(&self) -> f32 {
         self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.y.abs().max(most))
@@ -75,7 +76,8 @@ fn point(section: &Section, k: u32, count: u32) -> SectionPoint {
     }
 }
 
-/// Two arcs from edge to edge. The upper has the first half of the points, the lower the second.
+/// Point `k` of `count` of two arcs from edge to edge. The first half of the points lies on the
+/// upper arc, and the second on the lower.
 fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
     let half_width = aspect;
     let along = (2 * k) as f32 / count as f32;
@@ -94,13 +96,13 @@ fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
     with_normal(radius * sin, distortion + up * (radius * cos - (radius - rise)), sin, up * cos)
 }
 
-/// `1 - depth (1 - cos(plies θ))`: it touches the unit circle at each ply and falls to the valley
-/// between two.
+/// Point `k` of `count` of the curve with the radius `1 - depth (1 - cos(plies θ))`. The curve
+/// touches the unit circle at each ply, and reaches the valley between two plies.
 fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
     let (sin, cos) = sin_cos_at(k, count);
     let turn = ((u64::from(k) << 32) / u64::from(count)) as u32;
     let (lobe_sin, lobe_cos) = Turn(turn.wrapping_mul(plies)).sin_cos();
-    // The valley between two touching round plies whose centres lie `c` from the axis: c cos(π /
+    // Two touching round plies whose centres lie `c` from the axis have a valley at c cos(π /
     // plies).
     let (half_sin, half_cos) = sin_cos_at(1, 2 * plies);
     let valley = (half_cos / (1.0 + half_sin)).max(VALLEY);
@@ -110,19 +112,19 @@ fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
     with_normal(distance * cos, distance * sin, distance * cos + change * sin, distance * sin - change * cos)
 }
 
-/// A point from a normal of any length.
+/// A point with a normal that is given with any length.
 fn with_normal(x: f32, y: f32, normal_x: f32, normal_y: f32) -> SectionPoint {
     let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y).sqrt();
     SectionPoint { x, y, normal_x: normal_x * inverse, normal_y: normal_y * inverse }
 }
 
-/// Area inside an outline, by the shoelace formula.
+/// The area inside an outline, by the shoelace formula.
 fn area(outline: impl Iterator<Item = SectionPoint>) -> f32 {
     let points: Vec<_> = outline.map(|point| [point.x, point.y]).collect();
     (doubled_area(&points) / 2.0) as f32
 }
 
-/// Twice the signed area of a polygon, positive when counter-clockwise.
+/// Twice the signed area of a polygon, positive if the corners run counter-clockwise.
 pub(super) fn doubled_area(corners: &[[f32; 2]]) -> f64 {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| cross(*a, *b)).sum()
 }
@@ -136,7 +138,7 @@ fn polygon(corners: &[[f32; 2]]) -> Vec<SectionPoint> {
     (0..count)
         .map(|k| {
             let [before, here, after] = [k + count - 1, k, k + 1].map(|corner| corners[corner % count]);
-            // Outward normals of the two edges that meet here, added.
+            // The normal is that of the sum of the outward normals of both edges at this corner.
             let edge = |from: [f32; 2], to: [f32; 2]| {
                 let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
                 let inverse = 1.0 / (dx * dx + dy * dy).sqrt();

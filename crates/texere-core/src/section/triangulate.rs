@@ -5,8 +5,9 @@ use super::SectionPoint;
 /// The `n - 2` triangles that fill an outline of `n` points, as numbers of corners,
 /// counter-clockwise like the outline.
 ///
-/// Ear clipping (Meisters 1975), since lobed sections are not convex. The result always has `n - 2`
-/// triangles. If rounding leaves no clean ear, the fattest corner is cut.
+/// The method is ear clipping (Meisters 1975), because lobed sections are not convex. The result
+/// always has `n - 2` triangles. If rounding leaves no corner that can be cut cleanly, the corner
+/// with the best-shaped triangle is cut.
 #[must_use]
 pub(crate) fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     let mut left: Vec<u32> = (0..outline.len() as u32).collect();
@@ -21,8 +22,8 @@ pub(crate) fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The place in `left` of the corner to cut: of the triangles that hold no other corner the
-/// fattest, which avoids slivers.
+/// The place in `left` of the corner to cut. Its triangle holds no other corner, and has the
+/// largest area for its longest side squared, which avoids slivers.
 fn sharpest_ear(outline: &[SectionPoint], left: &[u32]) -> usize {
     let count = left.len();
     let at = |place: usize| {

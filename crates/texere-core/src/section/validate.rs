@@ -35,8 +35,8 @@ impl Section {
     }
 }
 
-/// Checks the corners of a polygon: their number, how far out they lie, and that the outline meets
-/// itself nowhere and runs counter-clockwise.
+/// Checks the corners of a polygon: their number and their coordinates, and that the outline
+/// nowhere meets itself and runs counter-clockwise.
 fn polygon(corners: &[[f32; 2]]) -> Result<(), SectionError> {
     let count = corners.len();
     if !(SIDES_MIN as usize..=SIDES_MAX as usize).contains(&count) {
@@ -52,7 +52,8 @@ fn polygon(corners: &[[f32; 2]]) -> Result<(), SectionError> {
             });
         }
     }
-    // Checked before edges are compared: the two edges beside a repeated corner meet in it.
+    // Repeated corners are found before edges are compared, because the two edges beside a repeated
+    // corner meet in it.
     if let Some(corner) = (0..count).find(|&corner| corners[corner] == corners[(corner + 1) % count]) {
         return Err(SectionError::RepeatedCorner { corner });
     }
@@ -64,7 +65,7 @@ fn polygon(corners: &[[f32; 2]]) -> Result<(), SectionError> {
             if apart && intersect(corners[first], corners[next], corners[second], corners[after]) {
                 return Err(SectionError::SelfIntersecting { first, second });
             }
-            // Two edges that share a corner and overlap: the outline turns back on itself.
+            // If two edges share a corner and overlap, the outline turns back on itself.
             if next == second && folds(corners[first], corners[next], corners[after]) {
                 return Err(SectionError::SelfIntersecting { first, second });
             }

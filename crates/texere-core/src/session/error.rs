@@ -4,8 +4,8 @@ use thiserror::Error;
 
 use crate::{BackendError, OutOfMemory, PlanError, YarnError};
 
-/// A failed call of a session: misuse, which every backend reports alike, or a failure of the
-/// backend.
+/// A failed call of a session: a misuse, which is reported alike with every backend, or a failure
+/// of the backend.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
@@ -16,30 +16,30 @@ pub enum SessionError {
     /// There is no yarn of this number.
     #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
     NoYarn {
-        /// The yarn.
+        /// The number that was given.
         yarn: usize,
-        /// The number that exist.
+        /// Number of yarns.
         yarns: usize,
     },
-    /// A control point is not sound.
+    /// A control point is invalid.
     #[error(transparent)]
     Yarns(#[from] YarnError),
     /// An upload past the last control point.
     #[error("upload of points {first} to {end}, but there are {points}")]
     UploadRange {
-        /// First point.
+        /// Number of the first point.
         first: u64,
-        /// One past the last.
+        /// Number of the last point, plus 1.
         end: u64,
-        /// The number that exist.
+        /// Number of control points of the plan.
         points: u64,
     },
     /// A stage was called before the one that it depends on.
     #[error("{call} was called before {needed}")]
     OutOfOrder {
-        /// The call.
+        /// The name of the call.
         call: &'static str,
-        /// The call that has to come first.
+        /// The name of the call that has to come first.
         needed: &'static str,
     },
     /// The settler's yarns have other numbers of control points than the session's.
@@ -51,7 +51,7 @@ pub enum SessionError {
         /// The chunk's index.
         chunk: u64,
     },
-    /// A chunk was read for which no stage has run, or whose memory has been reused since.
+    /// A chunk was read for which the stage has not run, or whose memory has been reused since.
     #[error("chunk {chunk} is not in flight")]
     NotInFlight {
         /// The chunk's index.
@@ -60,17 +60,17 @@ pub enum SessionError {
     /// There is no chunk of this number.
     #[error("chunk {chunk}, but there are {chunks}, counted from 0")]
     NoChunk {
-        /// The chunk.
+        /// The number that was given.
         chunk: usize,
-        /// The number that exist.
+        /// Number of chunks.
         chunks: usize,
     },
     /// An output slice does not have exactly the planned length.
     #[error("{what} has room for {given}, but the chunk has {planned}")]
     OutputLength {
-        /// The slice.
+        /// The slice: `vertices` or `indices`.
         what: &'static str,
-        /// Its length.
+        /// The slice's length.
         given: u64,
         /// The planned length.
         planned: u64,

@@ -1,4 +1,4 @@
-//! The checks of a settling, and the lengths that follow from all its control points.
+//! The checks of a settling, and sizes that are worked out from all its control points.
 
 use glam::DVec3;
 
@@ -43,7 +43,7 @@ pub(super) fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
     }
 }
 
-/// A scale for all places that a cloth may come to.
+/// A scale with room for all places that control points may move to.
 pub(super) fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
     let points = settling.points();
     let far = DVec3::splat(f64::INFINITY);
@@ -51,7 +51,7 @@ pub(super) fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
         let at = point.position().as_dvec3();
         (low.min(at), high.max(at))
     });
-    // The origin is at z = 0, since plates lie on either side of it.
+    // The origin is at z = 0, because plates lie at equal distances above and below it.
     let origin = ((low + high) / 2.0).round().with_z(0.0);
     let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
     let diameter = thinnest.fold(f32::INFINITY, f32::min);

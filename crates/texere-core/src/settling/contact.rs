@@ -4,17 +4,17 @@ use glam::{IVec3, Vec3};
 
 use super::{Interval, Scale};
 
-/// A chord: a straight piece of an interval. Neighbours are found by chords.
+/// A chord: a straight piece of an interval. The search for neighbours compares chords.
 #[derive(Debug, Clone, Copy)]
 pub struct Chord {
-    /// The start, units.
+    /// The chord's start, units.
     pub at: IVec3,
-    /// The vector from start to end, mm.
+    /// The vector from the chord's start to its end, mm.
     pub span: Vec3,
 }
 
 impl Chord {
-    /// Chord number `piece` of an interval's `pieces`.
+    /// Chord number `piece`, counted from 0, of the `pieces` chords of an interval.
     #[must_use]
     #[inline]
     pub fn new(interval: &Interval, piece: u32, pieces: u32, scale: &Scale) -> Self {
@@ -23,15 +23,15 @@ impl Chord {
         Self { at: interval.start.wrapping_add(scale.step(from)), span: offset(piece + 1) - from }
     }
 
-    /// The middle, units.
+    /// The chord's middle, units.
     #[must_use]
     #[inline]
     pub fn middle(&self, scale: &Scale) -> IVec3 {
         self.at.wrapping_add(scale.step(self.span * 0.5))
     }
 
-    /// The nearest places of this chord and another one that begins `way` from its start, mm, as
-    /// shares of both chords.
+    /// The nearest places of this chord and the `other`, as shares of both chords. `way` is the
+    /// vector from the start of this chord to that of the other, mm.
     #[must_use]
     #[inline]
     pub fn nearest(&self, other: &Self, way: Vec3) -> [f32; 2] {
@@ -39,15 +39,15 @@ impl Chord {
         let b = self.span.dot(other.span);
         let (c, f) = (-self.span.dot(way), -other.span.dot(way));
         let determinant = a * e - b * b;
-        // On parallel chords any place is as good as another.
+        // On parallel chords many places are equally near, so the middle is tried.
         let first = if determinant > PARALLEL * (a * e) { share((b * f - c * e) / determinant) } else { 0.5 };
         let second = share((b * first + f) / e);
         [share((b * second - c) / a), second]
     }
 }
 
-/// The least squared length of a chord or a velocity, mm². Shorter ones count as this long. Its
-/// square is still a normal number.
+/// The least squared length of a chord or a velocity, mm². Shorter ones count as this long. The
+/// square of this number is still a normal number.
 pub const SHORT: f32 = 1e-15;
 
 /// The squared sine of the angle below which two chords count as parallel.
@@ -62,19 +62,19 @@ pub const SKEW: f32 = 0.05;
 /// The distance up to which two places count as one, mm.
 pub const ONE_PLACE: f32 = 1e-9;
 
-/// The value clamped to 0 and 1. -0 becomes 0, as it does in vectors.
+/// The value clamped to between 0 and 1. -0 becomes 0, as it does in vector code.
 #[allow(clippy::manual_clamp, reason = "clamp keeps -0")]
 #[inline]
 pub(super) fn share(value: f32) -> f32 {
     value.max(0.0).min(1.0)
 }
 
-/// The distance, as a multiple of the one where two yarns touch, up to which their nearest places
-/// on the splines are worked out.
+/// The distance of two chords up to which the nearest places on the splines are worked out, as a
+/// multiple of the distance at which the two yarns touch.
 pub const NEAR: f32 = 1.1;
 
-/// The factor by which yarns are thicker while they settle than they are, so that they are clear
-/// when settling ends.
+/// The factor by which yarns count as thicker while they settle, so that they are clear when
+/// settling ends.
 pub const MARGIN: f32 = 1.002;
 
 /// The nearest places of two intervals.
@@ -84,7 +84,7 @@ pub(super) struct Approach {
     pub(super) at: [f32; 2],
     /// The vector from the first interval's place to the second's, mm.
     pub(super) way: Vec3,
-    /// The length of that vector, mm.
+    /// The length of `way`, mm.
     pub(super) distance: f32,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct Approach {
 pub(super) struct Pair<'a> {
     /// Both intervals.
     pub(super) intervals: [&'a Interval; 2],
-    /// The vector from the first one's start to the second one's, mm.
+    /// The vector from the start of the first interval to that of the second, mm.
     pub(super) way: Vec3,
 }
 
@@ -104,11 +104,11 @@ impl Pair<'_> {
         Approach { at, way, distance: way.length_squared().sqrt() }
     }
 
-    /// The nearest places on the splines near `at`: one step of Newton's method, of at most
-    /// `stride`, if that comes nearer.
+    /// The nearest places on the splines near `at`, by one step of Newton's method of at most
+    /// `stride`. If the step does not come nearer, the places are `at`.
     ///
-    /// Chords alone make yarns seem clear that are not: 0.998 of the distance that they need where
-    /// the splines have 0.92.
+    /// Chords alone make yarns seem clear that are not. They showed 0.998 of the distance that
+    /// yarns need where the splines had 0.92.
     #[must_use]
     #[inline]
     pub(super) fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Approach {
@@ -132,8 +132,9 @@ impl Pair<'_> {
 }
 
 impl Approach {
-    /// The direction from the first interval's place to the second's. If both places are one, it is
-    /// at right angles to both yarns; the second interval then sees the opposite direction.
+    /// The direction from the first interval's place to the second's. If both places are one, the
+    /// direction is at right angles to both yarns. For the second interval it is then the opposite
+    /// one.
     #[must_use]
     #[inline]
     pub(super) fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {

@@ -17,54 +17,55 @@ pub enum SettlingError {
     ShortRepeat {
         /// `x` or `y`.
         axis: char,
-        /// The given length.
+        /// The length given, mm.
         repeat: f32,
-        /// The thickest yarn's diameter.
+        /// The thickest yarn's diameter, mm.
         diameter: f32,
-        /// The least length that is accepted.
+        /// The least length that is accepted, mm.
         least: f32,
     },
-    /// A yarn with too few control points between its ends.
+    /// A yarn with too few control points.
     #[error("yarn {} has {points}, settling needs {least}", .yarn + 1, points = counted(*.points, "control point"))]
     TooFewPoints {
-        /// The yarn's number, from 0.
+        /// The yarn's number, counted from 0.
         yarn: usize,
-        /// Its control points.
+        /// Number of the yarn's control points.
         points: u64,
-        /// The least that are accepted.
+        /// The least number that is accepted.
         least: u64,
     },
-    /// A cloth too large for its thinnest yarn: the units of places would be too coarse.
+    /// A cloth that is too large for its thinnest yarn, because the units of places would be too
+    /// coarse.
     #[error("a cloth of {extent} mm is too large to settle with yarns of {diameter} mm")]
     TooLarge {
-        /// From its middle to its furthest point, mm.
+        /// The distance from the cloth's middle to its furthest point along one axis, mm.
         extent: f32,
         /// The thinnest yarn's diameter, mm.
         diameter: f32,
     },
-    /// A yarn that is so long for its thickness, from one control point to the next, that it takes
+    /// A yarn that is so long for its thickness, from one control point to the next, that it needs
     /// too many chords.
     #[error(
         "yarn {}: from one of its control points to the next, along {axis}, {chords} are needed, more than {limit}: it is too long for its thickness",
         .yarn + 1, chords = counted(*.chords, "chord"))]
     LongInterval {
-        /// The yarn's number, from 0.
+        /// The yarn's number, counted from 0.
         yarn: usize,
-        /// The axis along which it goes most: `x` or `y`.
+        /// The axis along which the yarn goes most: `x` or `y`.
         axis: char,
-        /// The chords needed.
+        /// Number of chords needed.
         chords: u64,
-        /// The most that are accepted.
+        /// The largest number that is accepted.
         limit: u64,
     },
-    /// Yarns that are so long for their thickness, all together, that they take too many chords for
-    /// their control points.
+    /// Yarns that are so long for their thickness, all together, that they need too many chords for
+    /// their number of control points.
     #[error(
         "yarns of {points} need {chords}, more than {limit}: they are too long for their thickness", points = counted(*.points, "control point"), chords = counted(*.chords, "chord"))]
     LongYarns {
-        /// Control points.
+        /// Number of control points.
         points: u64,
-        /// The chords needed.
+        /// Number of chords needed.
         chords: u64,
         /// The most chords for this number of points.
         limit: u64,
@@ -74,9 +75,9 @@ pub enum SettlingError {
     TooMany {
         /// The things that are counted.
         what: &'static str,
-        /// Their number.
+        /// Number of these things.
         count: u64,
-        /// The most that are accepted.
+        /// The largest number that is accepted.
         limit: u64,
     },
     /// An allocation failed.
@@ -85,27 +86,27 @@ pub enum SettlingError {
     /// A setting out of its range.
     #[error("{setting} is {value}, not between {low} and {high}")]
     Setting {
-        /// Its name.
+        /// The setting's name.
         setting: &'static str,
-        /// Its value.
+        /// The setting's value.
         value: f32,
-        /// The least that is accepted.
+        /// The least value that is accepted.
         low: f32,
-        /// The most that is accepted.
+        /// The largest value that is accepted.
         high: f32,
     },
     /// A pinned control point that does not exist.
     #[error("control point {point} can't be pinned, there are {points}")]
     Pinned {
-        /// The point's number, from 0.
+        /// The point's number, counted from 0.
         point: u64,
-        /// The number that exist.
+        /// Number of control points.
         points: u64,
     },
 }
 
 impl SettlingError {
-    /// The number of the refused yarn, from 0. `None` if the error is about all yarns.
+    /// The number of the refused yarn, counted from 0. `None` if the error is not about one yarn.
     ///
     /// ```
     /// use texere_core::SettlingError;

@@ -1,4 +1,4 @@
-//! Intervals: the yarn between two control points while it settles.
+//! Intervals: the pieces of yarn between two control points while the yarn settles.
 
 use glam::{IVec3, Vec3};
 
@@ -6,15 +6,15 @@ use super::{Place, Scale};
 use crate::definitions::VERTICAL;
 use crate::spline::coefficients;
 
-/// The spline between two control points, relative to the first of them, with the yarn's thickness
-/// there.
+/// The spline between two control points, relative to the first of them, with the yarn's half width
+/// and half height.
 #[derive(Debug, Clone, Copy)]
 pub struct Interval {
-    /// The start, units.
+    /// The interval's start, units.
     pub start: IVec3,
-    /// The coefficients of u, u² and u³, mm.
+    /// The coefficients of u, u² and u³ in the vector from the start, mm.
     pub terms: [Vec3; 3],
-    /// Half width and half height at the start, and their growth to the end, mm.
+    /// Half width and half height at the start, and by how much both grow to the end, mm.
     halves: [[f32; 2]; 2],
 }
 
@@ -30,9 +30,10 @@ impl Interval {
         Self { start, terms: coefficients(a, b, c, s), halves: [halves[0], growth] }
     }
 
-    /// An interval from four rows, as backends store it: the start (as bits) and the growth of the
-    /// half width; the coefficient of u and the half width at the start; that of u² and the half
-    /// height; that of u³ and the growth of the half height.
+    /// An interval from four rows, as backends store it. Row 0 has the start (as bits) and the
+    /// growth of the half width. Row 1 has the coefficient of u and the half width at the start,
+    /// row 2 the coefficient of u² and the half height at the start, and row 3 the coefficient of
+    /// u³ and the growth of the half height.
     #[must_use]
     pub fn from_rows(rows: &[[f32; 4]; 4]) -> Self {
         let [[x, y, z, width_growth], [.., width], [.., height], [.., height_growth]] = *rows;
@@ -66,7 +67,7 @@ impl Interval {
     }
 
     /// The reach of the yarn from its centreline at `u` in direction `towards`, a unit vector, mm.
-    /// The yarn stands upright: its width is level, its height out of the cloth.
+    /// The yarn stands upright: its width is level, and its height points out of the cloth.
     #[must_use]
     #[inline]
     pub fn reach(&self, u: f32, towards: Vec3) -> f32 {
@@ -81,7 +82,7 @@ impl Interval {
         if level <= VERTICAL * square {
             return width;
         }
-        // The side is (-y, x, 0), the up is t x side, both over their lengths.
+        // The side is (-y, x, 0) and the up is t x side, both divided by their lengths.
         let aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
         let up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
         ((aside * aside + up * up / square) / level).sqrt()
@@ -96,7 +97,7 @@ impl Interval {
         start[0].max(start[1]).max(end[0].max(end[1]))
     }
 
-    /// The length between two parameters, by Gauss's rule with three nodes, mm.
+    /// The arc length between two parameters, by Gauss's rule with three nodes, mm.
     #[must_use]
     #[inline]
     pub fn arc_between(&self, from: f32, to: f32) -> f32 {
@@ -106,7 +107,7 @@ impl Interval {
         mean * (to - from)
     }
 
-    /// The length by Gauss's rule with three nodes, mm, and the direction from start to end.
+    /// The arc length by Gauss's rule with three nodes, mm, and the direction from start to end.
     #[must_use]
     #[inline]
     pub fn arc(&self) -> (f32, Vec3) {
@@ -121,7 +122,7 @@ impl Interval {
 /// The nodes of Gauss's rule on \[0, 1\]: 1/2 and 1/2 ± √0.15.
 pub const GAUSS: [f32; 3] = [0.112_701_67, 0.5, 0.887_298_35];
 
-/// The weights of the outer nodes and of the middle one.
+/// The weight of either outer node, and that of the middle node.
 pub const GAUSS_WEIGHTS: [f32; 2] = [5.0 / 18.0, 8.0 / 18.0];
 
 /// The weights of an interval's four control points at `u`. Their sum is 1.

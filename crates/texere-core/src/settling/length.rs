@@ -1,16 +1,17 @@
-//! The lengths of yarns: held, given or free.
+//! The lengths of yarns while they settle: held, given or free.
 
 /// The lengths that settling aims for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Length {
-    /// Every interval keeps its length, so that no yarn is drawn through.
+    /// Every interval keeps its length, so that no yarn is drawn along its own path.
     Held,
-    /// Every interval gets this multiple of its length, 0.5 to 2.
+    /// Every interval gets this multiple of its length at the start, 0.5 to 2.
     Given(f32),
-    /// Yarns take the length that their course needs, spread evenly along them. While bends are
-    /// soft a tension draws them in, as a share of their length per pass.
+    /// Yarns get the length that their path needs, spread evenly along them. While soft bends act,
+    /// a tension shortens the yarns.
     Free {
-        /// Tension, 0 for none, 0.1 at most.
+        /// The share of its length by which an interval is shortened in a pass: 0 for no tension,
+        /// 0.1 at most.
         tension: f32,
     },
 }
@@ -20,13 +21,14 @@ pub const FREE_LEAST: f32 = 0.8;
 /// The largest length of an interval whose length is free, as a share of its length at the start.
 pub const FREE_MOST: f32 = 1.15;
 
-/// The share that a free interval takes on, in a pass, of the difference between its length and the
-/// mean of its own and its neighbours' lengths. Without this damping, equalising together with
-/// momentum diverges.
+/// The share of a difference of lengths that a free interval makes up in a pass. The difference is
+/// that between the length that the interval aims for and the mean of its own and its neighbours'
+/// arc lengths. Without this damping, equalising together with momentum diverges.
 pub const FREED: f32 = 0.05;
 
-/// The length asked of an interval after a pass with free lengths. `arcs` are the lengths of the
-/// interval before it, its own and the next one's.
+/// The length that an interval aims for after a pass with free lengths. `length` is what it aimed
+/// for in the pass, and `start` its length at the start. `arcs` are the arc lengths of the interval
+/// before it, of the interval itself and of the one after it.
 #[must_use]
 #[inline]
 pub fn freed(length: f32, start: f32, arcs: [Option<f32>; 3], tension: f32) -> f32 {

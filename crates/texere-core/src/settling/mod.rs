@@ -1,9 +1,9 @@
-//! Settling: yarns come to rest. Control points move until yarns nowhere pierce one another,
+//! Settling of yarns by their contacts. Control points move until yarns nowhere pierce one another,
 //! nowhere fold, and have the length that is asked for.
 //!
-//! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] does the
-//! passes on a device, and [`settle`] drives it. The definitions that all devices share are here:
-//! [`Interval`], [`Chord`], [`Pull`].
+//! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] makes the
+//! passes on a device, and [`settle`] calls the settler until the yarns are at rest. All devices
+//! share the definitions in this module: [`Interval`], [`Chord`], [`Pull`].
 
 mod check;
 mod contact;

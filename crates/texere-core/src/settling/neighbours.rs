@@ -1,5 +1,5 @@
-//! Neighbours of chords. Each chord's neighbours are listed in the order of their numbers, so the
-//! way in which they were found does not matter.
+//! Neighbours of chords. Each chord's neighbours are listed in the order of their numbers, so that
+//! the result does not depend on the way in which a device searches for them.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -8,14 +8,14 @@ use glam::IVec3;
 use super::plan::{SKIN, SettlingPlan};
 use super::{Chord, Interval, MARGIN};
 
-/// A chord with its interval and its place.
+/// A chord with its interval, and the chord's place in the interval.
 #[derive(Debug, Clone, Copy)]
 pub struct Listed<'a> {
     /// The chord.
     pub chord: &'a Chord,
-    /// Its interval.
+    /// The chord's interval.
     pub interval: &'a Interval,
-    /// The interval's place.
+    /// Number of the place at which the interval begins.
     pub place: usize,
     /// The chord's number within the interval.
     pub piece: u32,
@@ -24,11 +24,11 @@ pub struct Listed<'a> {
 }
 
 /// The least length of yarn between two neighbouring chords of one yarn, as a multiple of the sum
-/// of both radii. A yarn can't come back sooner than in a half circle.
+/// of both radii. To come back to itself, a yarn needs at least a half circle.
 pub const LEADS_ON: f32 = FRAC_PI_2;
 
 impl<'a> Listed<'a> {
-    /// Chord `number` of all, on the interval that begins at `place`.
+    /// Chord number `number` of all chords, on the interval that begins at `place`.
     #[must_use]
     #[inline]
     pub fn new(
@@ -44,8 +44,9 @@ impl<'a> Listed<'a> {
 }
 
 impl SettlingPlan {
-    /// The nearest image of the second chord, which begins `way` units from the first: its distance
-    /// in repeats, by the chords' middles.
+    /// The nearest image of the second chord, as a number of repeats along x and y. `way` is the
+    /// vector from the first chord's start to the second's, in units. The middles of the chords
+    /// decide which image is nearest.
     #[must_use]
     #[inline]
     pub fn image(&self, [one, other]: [&Chord; 2], way: IVec3) -> [i32; 2] {
@@ -54,7 +55,7 @@ impl SettlingPlan {
         [0, 1].map(|axis| -((apart[axis] * inverse[axis] + 0.5).floor() as i32))
     }
 
-    /// The vector `way`, in units, to something, moved to its image `image` repeats away.
+    /// The vector `way`, in units, to the image `image` repeats away.
     #[must_use]
     #[inline]
     pub(super) fn to_image(&self, way: IVec3, image: [i32; 2]) -> IVec3 {
@@ -66,8 +67,9 @@ impl SettlingPlan {
         )
     }
 
-    /// Whether two chords are neighbours while yarns have `growth` of their thickness: they are
-    /// near one another, and not so close along one yarn that they can't be clear of one another.
+    /// Whether two chords are neighbours while yarns have the share `growth` of their thickness.
+    /// Neighbours are near one another, but not so close along one yarn that they can't be clear of
+    /// one another.
     #[must_use]
     pub fn are_neighbours(&self, one: Listed<'_>, other: Listed<'_>, growth: f32) -> bool {
         let way = other.chord.at.wrapping_sub(one.chord.at);
@@ -83,9 +85,9 @@ impl SettlingPlan {
             && !(yarn == other_yarn && self.leads_on(yarn, chords, image, thickness))
     }
 
-    /// Whether two chords of a yarn lie so close along it that they can't be clear of one another:
-    /// less than a half circle of their thickness lies between them. The second one is seen `image`
-    /// repeats away.
+    /// Whether two chords of a yarn lie so close along it that they can't be clear of one another,
+    /// because less than a half circle of their `thickness` lies between them. The second chord
+    /// counts at its image `image` repeats away.
     #[must_use]
     pub fn leads_on(&self, yarn: u32, chords: [u32; 2], image: [i32; 2], thickness: f32) -> bool {
         let strand = &self.strands()[yarn as usize];

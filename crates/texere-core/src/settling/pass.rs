@@ -1,9 +1,8 @@
-//! One pass: what pulls at an interval's four control points, and the step that each point takes.
+//! One pass: the pulls at an interval's four control points, and the step of each point.
 //!
-//! The idea is simple. Where two yarns are too near, each is pushed away by half of what is
-//! lacking. Where a yarn bends too tightly, it is straightened. Where an interval is too long or
-//! too short, its ends are moved. Each control point then takes one step towards all that it is
-//! asked for.
+//! If two yarns are too near, each is pushed away by half of the lacking distance. If a yarn bends
+//! too tightly, it is straightened. If an interval is too long or too short, its ends are moved.
+//! Each control point then makes one step that combines all pulls at it.
 //!
 //! ```text
 //! for each interval:                               Pull, written once
@@ -23,8 +22,8 @@
 //! ```
 //!
 //! A pass only gathers: every interval reads places and writes its own [`Pull`], then every control
-//! point reads the pulls of its four intervals. Sums go in one order, so every schedule gives the
-//! same bits.
+//! point reads the pulls of its four intervals. Sums are added up in one order, so every schedule
+//! gives the same bits.
 
 use glam::Vec3;
 
@@ -36,12 +35,12 @@ use super::{Interval, Listed, MARGIN, NEAR, Place, SHORT, SettlingPlan, bends};
 /// The way in which a point's step is made from its pulls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Form {
-    /// Contacts, bends and length each have a weighted mean, and these add up. It comes near rest
-    /// soon.
+    /// Contacts, bends and length each have a weighted mean, and the step is the sum of these. This
+    /// form needs few passes to come near rest.
     #[default]
     Weighted,
-    /// One step is the best compromise of all pulls, each along its own direction. It is slower,
-    /// but it comes to rest where pulls in the weighted form would keep swinging.
+    /// The step is the best compromise of all pulls, each along its own direction. This form is
+    /// slower, but it comes to rest where points would keep swinging in the weighted form.
     Block,
 }
 
@@ -52,11 +51,11 @@ pub struct Pass {
     pub form: Form,
     /// The share of their thickness that yarns have in this pass.
     pub growth: f32,
-    /// The strength, 0 to 1, of everything that eases the way to rest and is gone at rest: soft
-    /// bends, tension, plates.
+    /// The strength, 0 to 1, of what acts only on the way to rest: soft bends, tension, plates.
     pub ease: f32,
-    /// The share of its last step that each point goes on by. More of it makes ribs and garter
-    /// stitch thicker: garter came to rest at 2.8 diameters with 0, and at 4.3 with 0.9.
+    /// The share of each point's last step that is added to its next. More momentum makes ribs and
+    /// garter stitch thicker: garter stitch came to rest 2.8 diameters thick with 0, and 4.3 with
+    /// 0.9.
     pub momentum: f32,
 }
 
@@ -67,11 +66,11 @@ pub const BEND_RADIUS: f32 = 0.6;
 /// above it.
 pub const BEND_MARGIN: f32 = 1.02;
 
-/// The soft stiffness of bends below the limit while a pass eases, as a share of the stiffness
-/// beyond it.
+/// The stiffness of soft bends, which act below the limit, too, as a share of the stiffness beyond
+/// the limit.
 pub const SOFT_BEND: f32 = 0.02;
 
-/// The weight of contacts.
+/// The weight of contacts, for each control point times its spline weight.
 pub const CONTACT: f32 = 1.12;
 
 /// The weight of bends in the weighted form. 0.6 was tried first.
@@ -80,10 +79,11 @@ pub const BEND: f32 = 1.0;
 /// The weight of bends in the block form.
 pub const BLOCK_BEND: f32 = 5.0;
 
-/// The largest distance, in chords, of a contact's places on the splines from those on the chords.
+/// The largest distance, in chords, of a contact's places on the splines from its places on the
+/// chords.
 pub const STRIDE: f32 = 0.6;
 
-/// The share of the lacking distance by which plates move points in a pass.
+/// The share of a point's distance beyond a plate by which the plate moves the point in a pass.
 pub const PRESS: f32 = 0.1;
 
 /// The least weight by which the sum of contacts is divided in the weighted form.
@@ -91,11 +91,12 @@ pub const CONTACTS_MIN: f32 = 0.64;
 /// The least weight by which the sum of bends is divided in the weighted form.
 pub const BENDS_MIN: f32 = 0.3;
 
-/// The distance, over both reaches, below which yarns obey contacts alone. Without it a strong
-/// tension can squeeze yarns through one another in spite of the limit of steps.
+/// The distance, divided by the sum of both reaches, below which only contacts move the points of
+/// two yarns. Without this bound a strong tension can squeeze yarns through one another in spite of
+/// the limit of steps.
 pub const CROSSING: f32 = 0.3;
-/// The growth of all other pulls with the distance beyond [`CROSSING`]: they have full strength
-/// from 0.7 on.
+/// The growth of all other pulls with the distance beyond [`CROSSING`]. They have full strength at
+/// 0.7.
 pub const CROSSING_SHARE: f32 = 2.5;
 
 /// The longest step, as a share of the least distance to another yarn.
@@ -103,36 +104,37 @@ pub const STEP_NEAR: f32 = 0.2;
 /// The longest step, as a share of the diameter.
 pub const STEP_DIAMETER: f32 = 0.1;
 
-/// The inertia of a point in the block form: the weight of staying in place.
+/// The weight, in the block form, with which a point stays in place.
 pub const INERTIA: f32 = 0.12;
 
 /// The least number of equal parts of an interval at whose ends bends are measured. An interval
-/// with more chords has as many parts as chords. With bends measured at three places a yarn had a
-/// radius of 0.51 diameters where 0.60 was reported.
+/// with more chords has as many parts as chords. With bends measured at three places, 0.60
+/// diameters were reported for a yarn that had a radius of 0.51.
 pub const BEND_PARTS: u32 = 8;
 
 /// The pulls of an interval at its four control points.
 #[derive(Debug, Clone, Copy)]
 pub struct Pull {
-    /// The pulls at each of the four points. With [`Form::Weighted`]: the sum of contacts'
-    /// displacements, mm, the sum of their weights, the same of bends, and a zero. With
-    /// [`Form::Block`]: the sum of all displacements, mm, and the sum of their directions' squares,
-    /// each with its weight: xx, xy, xz, yy, yz, zz.
+    /// The sums of pulls at each of the four points. In the weighted form these are the
+    /// displacements by contacts (x, y, z, mm) and the weights of contacts, the same two for bends,
+    /// and a zero. In the block form they are all displacements (x, y, z, mm), and the products xx,
+    /// xy, xz, yy, yz, zz of the components of their directions, each times its weight.
     pub slots: [[f32; 9]; 4],
-    /// Half of the length that the interval has too much, along its chord, mm.
+    /// A vector along the interval's chord, as long as half of the interval's excess length, mm.
     pub length: Vec3,
     /// The interval's length, mm.
     pub arc: f32,
     /// The least distance to another yarn, mm.
     pub near: f32,
-    /// The least distance over both yarns' reaches: 1 where they touch.
+    /// The least distance to another yarn, divided by the sum of both yarns' reaches. It is 1 if
+    /// they touch.
     pub clearance: f32,
     /// The least radius of curvature, in the yarn's diameters.
     pub radius: f32,
 }
 
 impl Pull {
-    /// The pull of an interval that nothing is near.
+    /// The pull of an interval before anything is added.
     #[must_use]
     pub const fn none() -> Self {
         Self {
@@ -145,8 +147,8 @@ impl Pull {
         }
     }
 
-    /// Adds the pull between a chord of this interval, the first of `pair`, and a neighbour, the
-    /// second.
+    /// Adds the pull between a chord of this interval and a neighbour. The chord is the first of
+    /// `pair`, and the neighbour the second.
     #[inline]
     pub fn meet(&mut self, plan: &SettlingPlan, pass: &Pass, pair: [Listed<'_>; 2]) {
         let [one, other] = pair;
@@ -170,7 +172,8 @@ impl Pull {
         self.touch(plan, pass, plan.tags()[one.place], &intervals, &contact);
     }
 
-    /// Adds a contact.
+    /// Adds the contact `contact` of the two intervals of `pair`. `tags` are those of the first
+    /// interval's place.
     #[inline]
     fn touch(&mut self, plan: &SettlingPlan, pass: &Pass, tags: u32, pair: &Pair<'_>, contact: &Approach) {
         let [one, other] = pair.intervals;
@@ -235,6 +238,7 @@ impl Pull {
         self.arc = arc;
         self.length = along * ((arc - length) * 0.5);
         if pass.form == Form::Block {
+            // With a weight of length above 1, steps diverge.
             add_block(&mut self.slots[1], self.length, along, 1.0);
             add_block(&mut self.slots[2], -self.length, along, 1.0);
         }
@@ -264,7 +268,7 @@ fn add_block(slot: &mut [f32; 9], way: Vec3, direction: Vec3, weight: f32) {
 }
 
 impl Pass {
-    /// The step along z that plates ask of a point, mm.
+    /// The step along z by which plates move a point, mm.
     #[must_use]
     #[inline]
     pub fn press(&self, plan: &SettlingPlan, place: &Place) -> f32 {
@@ -274,13 +278,13 @@ impl Pass {
     }
 }
 
-/// The pulls that a control point gathers, of four intervals: the one that begins one place after
-/// it, the one at it, and those one and two places before it.
+/// The pulls of the four intervals that a control point belongs to. They begin one place after the
+/// point, at the point, one place before it, and two places before it, in this order.
 #[derive(Debug, Clone, Copy)]
 pub struct Gathered<'a>(pub [Option<&'a Pull>; 4]);
 
 impl Gathered<'_> {
-    /// The step of a control point, mm. `last` is its step before.
+    /// The step of a control point, mm. `last` is the point's step in the pass before.
     #[must_use]
     #[inline]
     pub fn step(&self, plan: &SettlingPlan, pass: &Pass, place: &Place, last: Vec3) -> Vec3 {
@@ -301,7 +305,7 @@ impl Gathered<'_> {
         let step = match pass.form {
             Form::Weighted => {
                 let [cx, cy, cz, contacts, bx, by, bz, bends, _] = sums;
-                // Yarns that are about to cross obey contacts alone.
+                // For yarns that are about to cross, only contacts count.
                 let apart = share((clearance / pass.growth - CROSSING) * CROSSING_SHARE);
                 let bend = Vec3::new(bx, by, bz) * (BEND / bends.max(BENDS_MIN));
                 let mut others = bend + (pulls[1].length - pulls[2].length) + on;
@@ -336,7 +340,7 @@ fn solved([xx, xy, xz, yy, yz, zz]: [f32; 6], right: Vec3) -> Vec3 {
     )
 }
 
-/// Whether a place is a control point that may move.
+/// Whether the place with these `tags` is a control point that may move.
 #[must_use]
 #[inline]
 pub const fn moves(tags: u32) -> bool {

@@ -1,5 +1,5 @@
-//! Places: positions of settling control points in whole units, so that a cloth ten metres out
-//! rests as one at the origin does.
+//! Places: the positions of settling control points in whole units. With whole units, a cloth ten
+//! metres from the origin comes to rest in the same way as one at the origin.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, IVec3, Vec3};
@@ -8,14 +8,15 @@ use crate::{ControlPoint, Halves};
 
 /// The place and size of a settling control point.
 ///
-/// Coordinates are whole multiples of a [`Scale`]'s unit. The difference of two is exact however
-/// far they lie from the origin, and a cloth that is moved by whole units rests in the same bits.
+/// Coordinates are whole multiples of a [`Scale`]'s unit. The difference of two places is exact,
+/// however far they lie from the origin. A cloth that is moved by whole units comes to rest with
+/// the same differences, to the bit.
 ///
 /// **Shape**: three `i32` and two half floats, 16 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Place {
-    /// x, y and z, units from the scale's origin.
+    /// x, y and z, in units from the scale's origin.
     pub at: [i32; 3],
     /// Half the yarn's width and half its height.
     pub halves: Halves,
@@ -36,8 +37,8 @@ impl Place {
         Self { at: (self.units().wrapping_add(units)).to_array(), ..self }
     }
 
-    /// `2 self - other`: the virtual end of an open yarn (the paper's equations 3 and 4). It has
-    /// the thickness of `self`.
+    /// `2 self - other`, the virtual end of an open yarn (the paper's equations 3 and 4). The
+    /// virtual end has the thickness of `self`.
     #[must_use]
     #[inline]
     pub fn reflected(self, other: Self) -> Self {
@@ -45,7 +46,7 @@ impl Place {
     }
 }
 
-/// The unit of places and their origin.
+/// The unit of places, and their origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     unit: f32,
@@ -55,8 +56,8 @@ pub struct Scale {
 /// The finest unit, as a share of the thinnest yarn's diameter: a millionth.
 const FINEST: f32 = 1.0 / (1 << 20) as f32;
 
-/// The coarsest unit, as a share of the thinnest yarn's diameter. It leaves 131,000 diameters
-/// either way.
+/// The coarsest unit, as a share of the thinnest yarn's diameter. With this unit, places reach
+/// 131,000 diameters to either side of the origin.
 const COARSEST: f32 = 1.0 / (1 << 11) as f32;
 
 /// The largest distance of a place from the origin, in units. Virtual ends may lie three times as
@@ -105,13 +106,13 @@ impl Scale {
         self.origin + units.as_dvec3() * f64::from(self.unit)
     }
 
-    /// A vector in mm, rounded to units.
+    /// A vector in mm, converted to units and rounded.
     #[must_use]
     pub fn units(&self, way: DVec3) -> IVec3 {
         (way / f64::from(self.unit)).round().as_ivec3()
     }
 
-    /// A step in mm, rounded to units.
+    /// A step in mm, converted to units and rounded.
     #[must_use]
     #[inline]
     pub fn step(&self, step: Vec3) -> IVec3 {
@@ -119,7 +120,7 @@ impl Scale {
         IVec3::from_array(units.to_array().map(|units| (units + 0.5).floor() as i32))
     }
 
-    /// A vector in units, in mm.
+    /// A vector in units, converted to mm.
     #[must_use]
     #[inline]
     pub fn length(&self, units: IVec3) -> Vec3 {

@@ -1,4 +1,4 @@
-//! The plan: every count and table of a settling, made on the host before anything is launched.
+//! The plan: all counts and tables of a settling, made on the host before anything is launched.
 
 use glam::DVec3;
 
@@ -13,44 +13,48 @@ use crate::{BackendError, Ends};
 /// The least number of chords of an interval.
 const CHORDS_MIN: u32 = 2;
 
-/// The largest mean length of an interval's chords, as a share of the yarn's diameter there.
+/// The largest mean length of an interval's chords, as a share of the smaller diameter at its ends.
 const CHORD_MOST: f32 = 0.6;
 
 /// The most chords of an interval.
 const CHORDS_MAX: f32 = 4096.0;
 
-/// The most chords of all yarns: a number, and a number for each control point. Usual cloth has 3
-/// to 10 per point, cables of 12 over 12 loops 34. Loops with a metre of yarn as thin as 0.1 mm
-/// have 1,390: a settling of 16 of them took a minute.
+/// The number of chords that any yarns may have, beside [`CHORDS_A_POINT`].
 const CHORDS_FREE: u64 = 1 << 16;
+
+/// The number of chords that yarns may have for each control point. Usual cloth has 3 to 10 per
+/// point, and cables of 12 over 12 loops have 34. Loops with a metre of yarn as thin as 0.1 mm have
+/// 1,390, and a settling of 16 such loops took a minute.
 const CHORDS_A_POINT: u64 = 256;
 
-/// The most neighbours that are listed: a number, and a number for each chord. Usual cloth has 1 to
-/// 6 per chord, cables of 12 over 12 loops 32, and cables of 20 over 20, which find no rest, 60.
-/// Underlaps over 511 needles of a cloth of four wales have 1,457.
+/// The number of neighbours that may be listed for any yarns, beside [`NEIGHBOURS_A_CHORD`].
 const NEIGHBOURS_FREE: u64 = 1 << 20;
+
+/// The number of neighbours that may be listed for each chord. Usual cloth has 1 to 6 per chord,
+/// and cables of 12 over 12 loops have 32. Cables of 20 over 20, which do not come to rest, have
+/// 60. Underlaps over 511 needles of a cloth of four wales have 1,457.
 const NEIGHBOURS_A_CHORD: u64 = 32;
 
-/// The margin of the lists, in mean diameters: chords that are further than this from touching are
-/// not listed.
+/// The margin of the lists of neighbours, in mean diameters. Chords that are further than this from
+/// touching are not listed.
 pub const SKIN: f32 = 0.2;
 
-/// The movement of a chord over that of its interval's control points, at most.
+/// The most that a chord moves, divided by the longest move of its interval's control points.
 pub(super) const OVERSHOOT: f32 = 1.25;
 
 /// The counts of a settling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SettlingCounts {
-    /// Control points.
+    /// Number of control points.
     pub points: u64,
-    /// Places: those of control points and those beyond yarns' ends.
+    /// Number of places: those of control points and those beyond yarns' ends.
     pub places: u64,
-    /// Chords.
+    /// Number of chords.
     pub chords: u64,
 }
 
 /// The counts, tables and places of a settling. Slices have [`SettlingCounts::places`] elements
-/// unless they say otherwise.
+/// unless their docs say otherwise.
 #[derive(Debug, Clone)]
 pub struct SettlingPlan {
     pub(crate) scale: Scale,
@@ -74,21 +78,21 @@ pub struct SettlingPlan {
 /// Lengths that all passes need, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spans {
-    /// The mean diameter of all control points.
+    /// The mean of the yarns' diameters at all control points.
     pub diameter: f32,
-    /// The largest half width or half height.
+    /// The largest half width or half height of any control point.
     pub thickest: f32,
-    /// A unit of [`SettlingPlan::along`], mm.
+    /// The unit of [`SettlingPlan::along`], mm.
     pub along: f32,
-    /// The longest chord at the start.
+    /// The length of the longest chord at the start.
     pub longest_chord: f32,
 }
 
 impl SettlingPlan {
-    /// The plan of a settling, which is checked.
+    /// Checks a settling and makes its plan.
     ///
-    /// **Errors**: [`SettlingError`] for ends, repeats, pins or settings that are not sound, and
-    /// for cloths too large.
+    /// **Errors**: [`SettlingError`] for invalid ends, repeats, pins or settings, and for a cloth
+    /// that is too large.
     pub fn new(settling: &Settling<'_>) -> Result<Self, SettlingError> {
         let (layout, points) = (settling.layout(), settling.points());
         let yarns = layout.yarns().len();
@@ -148,7 +152,7 @@ impl SettlingPlan {
     }
 
     /// Checks that this number of neighbours of all chords may be listed. The limit is many times
-    /// that of usual cloth.
+    /// what usual cloth has.
     ///
     /// **Errors**: [`BackendError::Crowded`].
     pub fn allow_neighbours(&self, neighbours: u64) -> Result<(), BackendError> {
@@ -163,7 +167,7 @@ impl SettlingPlan {
         &self.scale
     }
 
-    /// `(1 - tension) / 2` of the spline.
+    /// The factor `(1 - tension) / 2` of the spline's tangents.
     #[must_use]
     pub const fn s(&self) -> f32 {
         self.s
@@ -187,19 +191,19 @@ impl SettlingPlan {
         self.spans
     }
 
-    /// The repeat in x and y, units; 0 for none.
+    /// The repeat in x and y, units, 0 for none.
     #[must_use]
     pub const fn period(&self) -> [i32; 2] {
         self.period
     }
 
-    /// Repeats per mm along x and y; 0 for none.
+    /// Number of repeats per mm along x and y, 0 if nothing repeats.
     #[must_use]
     pub const fn frequency(&self) -> [f32; 2] {
         self.frequency
     }
 
-    /// Every yarn's places.
+    /// The places of each yarn.
     #[must_use]
     pub fn strands(&self) -> &[SettlingYarn] {
         &self.strands
@@ -217,8 +221,8 @@ impl SettlingPlan {
         &self.yarns
     }
 
-    /// The number of the first chord of each place's interval, and of all chords last: one more
-    /// than places.
+    /// The number of the first chord of each place's interval, and the number of all chords last.
+    /// There is one value more than there are places.
     #[must_use]
     pub fn chords(&self) -> &[u32] {
         &self.chords
@@ -230,8 +234,8 @@ impl SettlingPlan {
         &self.lengths
     }
 
-    /// The start and the end of each chord along its yarn, in units of [`Spans::along`]. One
-    /// element per chord.
+    /// The start and the end of each chord along its yarn, in units of [`Spans::along`]. There is
+    /// one element per chord.
     #[must_use]
     pub fn along(&self) -> &[[u32; 2]] {
         &self.along
@@ -243,8 +247,8 @@ impl SettlingPlan {
         &self.places
     }
 
-    /// Writes the places of control points, `points`, to `places`, with those beyond yarns' ends
-    /// between them.
+    /// Writes `points`, the places of control points, to `places`, with the places beyond yarns'
+    /// ends between them.
     pub fn pad(&self, points: impl IntoIterator<Item = Place>, places: &mut [Place]) {
         let mut points = points.into_iter();
         for strand in &self.strands {
@@ -284,7 +288,7 @@ impl SettlingPlan {
         }
     }
 
-    /// The interval that begins at a place.
+    /// The interval that begins at place number `place`.
     #[must_use]
     #[inline]
     pub fn interval(&self, places: &[Place], place: usize) -> Interval {
@@ -292,8 +296,8 @@ impl SettlingPlan {
         Interval::new(&window, &self.scale, self.s)
     }
 
-    /// The weights of an interval's four control points without virtual ends: the weight of a point
-    /// beyond an open yarn's end goes to the points that it is made of.
+    /// The weights of an interval's four control points without virtual ends. The weight of a
+    /// virtual end goes to the two control points that the virtual end is computed from.
     #[must_use]
     #[inline]
     pub fn folded(tags: u32, mut weights: [f32; 4]) -> [f32; 4] {
@@ -338,7 +342,7 @@ impl SettlingPlan {
             .map(|(place, _)| 2.0 * place.halves.width().min(place.halves.height()))
             .fold(f32::INFINITY, f32::min);
         let factor = if let Length::Given(factor) = length { factor } else { 1.0 };
-        // The longest that the interval may become.
+        // The most that an interval's length may grow by.
         let most = if let Length::Free { .. } = length { FREE_MOST } else { factor };
         let mut chords = 0_u64;
         for place in 0..self.places.len() {
@@ -391,7 +395,7 @@ impl SettlingPlan {
         Ok(())
     }
 
-    /// Checks that the repeat is so long that no chord can meet two images of another.
+    /// Checks that the repeat is long enough for no chord to meet two images of another.
     fn check_repeat(&self, repeat: [f32; 2]) -> Result<(), SettlingError> {
         let least = self.least_repeat();
         for (axis, repeat) in ['x', 'y'].into_iter().zip(repeat) {
@@ -403,8 +407,8 @@ impl SettlingPlan {
         Ok(())
     }
 
-    /// The shortest repeat that is accepted, mm: the middles of two neighbouring chords are then
-    /// nearer than half of it.
+    /// The shortest repeat that is accepted, mm. The middles of two neighbouring chords are then
+    /// nearer to one another than half the repeat.
     #[must_use]
     fn least_repeat(&self) -> f32 {
         let Spans { diameter, thickest, longest_chord, .. } = self.spans;

@@ -1,10 +1,10 @@
-//! The problem of a settling: yarns, their boundary, and the conditions of their rest.
+//! The problem that is settled: yarns, their boundary, and the conditions of their rest.
 
 use super::Length;
 use crate::{Boundary, ControlPoint, Layout, Yarns};
 
-/// The problem of yarns that are to come to rest: they nowhere pierce one another, nowhere fold,
-/// and have the length that is asked for.
+/// Yarns that are to come to rest. At rest they nowhere pierce one another, nowhere fold, and have
+/// the length that is asked for.
 ///
 /// ```
 /// use texere_core::settling::{Settling, SettlingPlan};
@@ -28,8 +28,8 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// A problem of free yarns that keep their length and are not pressed. Yarns that settle have a
-    /// [tension](crate::Layout::tension) of at most 0.99.
+    /// A settling of yarns whose ends are free, that keep their length and are not pressed. The
+    /// [tension](crate::Layout::tension) of their splines may be 0.99 at most.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
@@ -42,14 +42,14 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// Sets how the cloth goes on at its edges: it may be a repeat in x, in y or in both.
+    /// Sets how the cloth goes on at its edges. It may be a repeat in x, in y or in both.
     #[must_use]
     pub fn boundary(mut self, boundary: Boundary) -> Self {
         self.boundary = boundary;
         self
     }
 
-    /// Sets the control points that stay in place, by their numbers among all.
+    /// Sets the control points that stay in place, by their numbers among all control points.
     #[must_use]
     pub fn pinned(mut self, points: Vec<u64>) -> Self {
         self.pinned = points;
@@ -63,8 +63,8 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// Presses the cloth between two plates `gap` mm apart, half of it on either side of z = 0,
-    /// while bends are soft.
+    /// Presses the cloth between two plates `gap` mm apart, at equal distances from z = 0, while
+    /// soft bends act.
     #[must_use]
     pub const fn plates(mut self, gap: f32) -> Self {
         self.plates = Some(gap);
@@ -72,7 +72,7 @@ impl<'a> Settling<'a> {
     }
 
     /// Sets the largest number of passes of either form at full thickness, 1 to a million. Forty
-    /// passes in which yarns grow come first.
+    /// passes in which yarns grow come before.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

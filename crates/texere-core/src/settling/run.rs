@@ -1,4 +1,5 @@
-//! The course of a settling: the growth of yarns, the renewal of lists, and the end.
+//! The course of a settling: the growth of yarns, the renewal of the lists of neighbours, and the
+//! end.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -12,30 +13,38 @@ use super::{
 use crate::backend::zeroed;
 use crate::{BackendError, ControlPoint};
 
-/// The share of their thickness that yarns have at first, the number of steps in which they grow,
-/// and the passes of each step.
+/// The share of their thickness that yarns have at first.
 const THIN: f32 = 0.25;
+
+/// The number of steps in which yarns grow to their full thickness.
 const STEPS: u32 = 10;
+
+/// The number of passes of each step of growth.
 const STEP_PASSES: u32 = 4;
 
-/// The shares of the last stage up to which the ease is full, and from which on there is none.
+/// The shares of the passes at full thickness up to which [`Pass::ease`] is 1, and from which on it
+/// is 0.
 const EASES: [f32; 2] = [0.3, 0.6];
 
 /// The random move of points at the start, in diameters. Symmetric yarns could otherwise balance at
-/// a place that is no rest.
+/// places that are not at rest.
 const JITTER: f32 = 0.01;
 
-/// The distance over both reaches from which on yarns count as clear.
+/// The distance, divided by the sum of both reaches, from which on yarns count as clear.
 const CLEAR: f32 = 0.995;
 
-/// The share of [`BEND_RADIUS`] that bends have to keep.
+/// The least radius of curvature at rest, as a share of [`BEND_RADIUS`].
 const BENT: f32 = 0.99;
 
-/// The largest difference of an interval's length from the one asked for, as a share of it.
+/// The largest difference at rest of an interval's length from the length asked for, as a share of
+/// the latter.
 const LENGTH: f32 = 0.01;
 
-/// The weighted form has stalled if this number of passes has not reduced the lack to this share.
+/// The number of passes in which the [lack](Run::lack) must fall to [`STALLED`] of what it was.
+/// Otherwise the weighted form has stalled.
 const STALLS: u32 = 20;
+
+/// The share to which the lack must fall within [`STALLS`] passes.
 const STALLED: f32 = 0.9;
 
 /// The result of a settling.
@@ -43,13 +52,13 @@ const STALLED: f32 = 0.9;
 pub struct Rest {
     /// Whether all conditions of rest are met.
     pub at_rest: bool,
-    /// All passes, with those of the block form.
+    /// Number of all passes, including those of the block form.
     pub passes: u32,
-    /// The passes of the block form.
+    /// Number of passes of the block form.
     pub block_passes: u32,
     /// The number of times that neighbours were listed.
     pub lists: u32,
-    /// The number of neighbours in the last lists, of all chords.
+    /// The number of neighbours of all chords in the last lists.
     pub neighbours: u64,
     /// The measures at the start.
     pub start: SettlingSeen,
@@ -57,11 +66,13 @@ pub struct Rest {
     pub end: SettlingSeen,
 }
 
-/// Settles on a device, and leaves the best places there: best by clearance, then by bends, then by
-/// length. `watch` sees every pass. If it breaks off, the best places until then are left.
+/// Settles yarns on a device, and leaves the best places there. The best are those with the best
+/// clearance, then the best bends, then the best lengths. `watch` is called after every pass. If it
+/// breaks off, the best places so far are left.
 ///
-/// Yarns grow from a quarter of their thickness, and bends are soft at first. The weighted form
-/// goes on until rest or until it stalls. Then the block form follows, with at most as many passes.
+/// Yarns grow from a quarter of their thickness, and bends are soft at first. Passes of the
+/// weighted form are made until the yarns are at rest or the form stalls. Passes of the block form
+/// follow, at most as many as there may be of the weighted form at full thickness.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(
@@ -88,10 +99,11 @@ struct Run<'a, W> {
     watch: W,
     /// Whether `watch` has broken off.
     stopped: bool,
-    /// The growth at which neighbours were listed last, and the sum of the longest moves since, mm.
+    /// The growth at which neighbours were listed last.
     listed: f32,
+    /// The sum of the longest steps since neighbours were listed last, mm.
     moved: f32,
-    /// The lack when a tenth was last taken off it, and the pass in which that was.
+    /// The lack when it last fell by a tenth, and the number of that pass.
     lacked: (f32, u32),
     rest: Rest,
 }
@@ -100,7 +112,8 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     fn whole(mut self) -> Result<Rest, BackendError> {
         let places: Vec<Place> = own_places(self.plan).map(|(place, _)| *place).collect();
         self.settler.upload(&places)?;
-        // The first pass measures the yarns as they are. They come back if nothing better is found.
+        // The first pass measures the yarns as they are. These places are the result if no pass
+        // finds better ones.
         let start = self.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 0.0, momentum: 0.0 })?;
         self.settler.keep()?;
         (self.rest.start, self.rest.end) = (start, start);
@@ -131,7 +144,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         self.ended()
     }
 
-    /// Makes a pass. Lists neighbours again first if some may be missing.
+    /// Makes a pass. If neighbours may be missing from the lists, they are listed again first.
     fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         let spans = self.plan.spans();
         let grown = 2.0 * MARGIN * spans.thickest * (pass.growth - self.listed).max(0.0);
@@ -150,7 +163,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     /// Keeps the places if they are the best so far, and returns whether they are at rest.
     fn weigh(&mut self, seen: &SettlingSeen) -> Result<bool, BackendError> {
         self.rest.at_rest = self.is_rest(seen);
-        // Free lengths do not count.
+        // Free lengths do not count in the comparison.
         let asked =
             |seen: &SettlingSeen| if self.holds() { *seen } else { SettlingSeen { length: 0.0, ..*seen } };
         if self.rest.at_rest || asked(seen).is_better_than(&asked(&self.rest.end)) {
@@ -160,7 +173,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         Ok(self.rest.at_rest)
     }
 
-    /// Whether the lack has hardly changed in the last passes.
+    /// Whether the lack has fallen by less than a tenth in the last [`STALLS`] passes.
     fn has_stalled(&mut self, seen: &SettlingSeen, number: u32) -> bool {
         let lack = self.lack(seen);
         if lack < STALLED * self.lacked.0 {
@@ -173,7 +186,8 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         self.lack(seen) <= 0.0
     }
 
-    /// The lack to rest: the largest of the shares that are lacking.
+    /// What the yarns lack to be at rest: the largest of the shares by which clearance, radius of
+    /// curvature and lengths miss their bounds. At rest it is 0 or less.
     fn lack(&self, seen: &SettlingSeen) -> f32 {
         seen.lack().max(if self.holds() { seen.length - LENGTH } else { f32::NEG_INFINITY })
     }
@@ -189,7 +203,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     }
 }
 
-/// The passes until yarns have their full thickness.
+/// The number of passes until yarns have their full thickness.
 const GROWING: u32 = STEPS * STEP_PASSES;
 
 /// The settings of pass number `number` of the weighted form, if `passes` are made at full
@@ -202,13 +216,13 @@ fn weighted(number: u32, passes: u32) -> Pass {
     Pass { form: Form::Weighted, growth, ease, momentum: 0.8 }
 }
 
-/// The places of control points, with their tags.
+/// The places of all control points, with their tags.
 fn own_places(plan: &SettlingPlan) -> impl Iterator<Item = (&Place, u32)> {
     let all = plan.places().iter().zip(plan.tags().iter().copied());
     all.filter(|(_, tags)| tags & tag::POINT != 0)
 }
 
-/// The places of all control points, each moved a little in a direction of its own.
+/// The places of all control points, each moved a little in its own random direction.
 fn jittered(plan: &SettlingPlan) -> Vec<Place> {
     let scale = plan.scale();
     let moved = own_places(plan).zip(0_u32..).map(|((place, tags), number)| {
@@ -231,8 +245,8 @@ fn hash(seed: u32) -> f32 {
     (bits >> 8) as f32 / (1 << 23) as f32 - 1.0
 }
 
-/// The control points at the present places. `points` are those that the plan was made of: a point
-/// that has not moved is returned unchanged.
+/// The control points at the present places. `points` are the control points that the plan was made
+/// of. A point that has not moved is returned unchanged.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settled(
@@ -247,7 +261,8 @@ pub fn settled(
     Ok(now.map(|((now, start), point)| if now == start { *point } else { plan.scale().point(now) }).collect())
 }
 
-/// The control points at the present places, all by [`Scale::point`](super::Scale::point).
+/// The control points at the present places, all converted by
+/// [`Scale::point`](super::Scale::point).
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub(crate) fn points_of(settler: &mut dyn Settler) -> Result<Vec<ControlPoint>, BackendError> {
@@ -270,10 +285,11 @@ impl Rest {
 }
 
 impl SettlingSeen {
-    /// Whether these measures are better than others: by clearance in steps of 0.001, then by the
-    /// radius of curvature in steps of 0.002 diameters, then by length in steps of 0.0005, and last
-    /// by the lack to rest. A clearance of 0.985, a radius of 0.585 diameters and a length that is
-    /// off by 1 % are enough: more does not count.
+    /// Whether these measures are better than `other` ones. They are compared by clearance in steps
+    /// of 0.001, then by the radius of curvature in steps of 0.002 diameters, then by length in
+    /// steps of 0.0005, and last by what they lack to be at rest. A clearance of 0.985, a radius of
+    /// 0.585 diameters and a length that is off by 1 % are enough. Better values do not count in
+    /// the first three comparisons.
     #[must_use]
     pub fn is_better_than(&self, other: &Self) -> bool {
         self.rank() > other.rank()
@@ -289,16 +305,16 @@ impl SettlingSeen {
         ]
     }
 
-    /// The lack to clear yarns and to bends that are not too tight: the larger share of the two.
+    /// The larger of the shares by which clearance and radius of curvature miss their bounds.
     fn lack(&self) -> f32 {
         (CLEAR - self.clearance).max(BENT - self.radius / BEND_RADIUS)
     }
 
-    /// The measures of no pass.
+    /// The measures before any pass.
     pub const NOTHING: Self =
         Self { step: 0.0, clearance: f32::INFINITY, radius: f32::INFINITY, length: 0.0 };
 
-    /// The measures of two passes or parts of a pass together.
+    /// The measures of two passes, or of two parts of a pass, together.
     #[must_use]
     #[inline]
     pub const fn and(self, other: Self) -> Self {

@@ -10,56 +10,56 @@ use super::{Pass, Place, SettlingPlan};
 use crate::BackendError;
 use crate::backend::zeroed;
 
-/// The measures of a pass, taken before its points were moved.
+/// The measures of a pass. All but `step` are taken before the points move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SettlingSeen {
     /// The longest step of a point in the pass, mm.
     pub step: f32,
-    /// The least distance of two yarns over both reaches: 1 where they touch.
+    /// The least distance of two yarns, divided by the sum of their reaches. It is 1 if they touch.
     pub clearance: f32,
     /// The least radius of curvature, in diameters of the yarn.
     pub radius: f32,
-    /// The largest difference of an interval's length from the one asked for, as a share of it.
+    /// The largest difference of an interval's length from the length asked for, as a share of the
+    /// latter.
     pub length: f32,
 }
 
-/// A settling on one device. [`settle`](super::settle) calls it and keeps these rules:
+/// A settling on one device. [`settle`](super::settle) calls these methods and keeps these rules:
 ///
 /// - `upload` comes first, with as many places as the plan has control points.
-/// - `list` comes before the first pass. It comes again before chords have moved so far, or yarns
-///   have grown so much, that neighbours may be missing.
+/// - `list` comes before the first pass. It is called again before chords have moved so far, or
+///   yarns have grown so much, that neighbours may be missing from the lists.
 ///
-/// **Errors**: all methods return a [`BackendError`] for failures that could not be foreseen, and
-/// for nothing else.
+/// **Errors**: all methods return a [`BackendError`], only for failures that could not be foreseen.
 pub trait Settler: Any + Debug + Send {
     /// The plan of the settler.
     fn plan(&self) -> &Arc<SettlingPlan>;
 
-    /// Takes the places of all control points, with the sizes that the plan has. Sets all steps to
-    /// zero, and lengths to the plan's.
+    /// Sets the places of all control points, with the sizes that the plan has. All steps become
+    /// zero, and the lengths that intervals aim for become those of the plan.
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
 
-    /// Lists every chord's neighbours for yarns of `growth` of their thickness. Returns their
-    /// number in all.
+    /// Lists every chord's neighbours for yarns with the share `growth` of their thickness. Returns
+    /// the number of all neighbours.
     fn list(&mut self, growth: f32) -> Result<u64, BackendError>;
 
-    /// Moves every control point once.
+    /// Moves every control point once, and returns the measures of the pass.
     fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError>;
 
-    /// Keeps the places that the last pass has measured, before it moved them, in place of any kept
-    /// before.
+    /// Keeps the places that the last pass has measured, before it moved them. They replace any
+    /// places kept before.
     fn keep(&mut self) -> Result<(), BackendError>;
 
-    /// Goes back to the kept places, if there are any, and sets all steps to zero. Lengths stay,
-    /// and neighbours have to be listed again before a pass.
+    /// Restores the kept places, if there are any, and sets all steps to zero. The lengths that
+    /// intervals aim for stay. Neighbours have to be listed again before a pass.
     fn recall(&mut self) -> Result<(), BackendError>;
 
-    /// Writes the present places of all control points.
+    /// Writes the present places of all control points into `places`.
     fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError>;
 
     /// The least and the greatest x, y and z of all control points' present places, units.
     ///
-    /// Provided: reads all places.
+    /// The provided method reads all places.
     fn bounds(&mut self) -> Result<[[i32; 3]; 2], BackendError> {
         let mut places: Vec<Place> = zeroed("control points at rest", self.plan().counts().points)?;
         self.read(&mut places)?;

@@ -7,39 +7,40 @@ pub(super) const BEYOND: [u64; 2] = [1, 2];
 
 /// The tags of places.
 pub mod tag {
-    /// A control point's place. Other places lie beyond a yarn's ends.
+    /// The place is that of a control point. Other places lie beyond a yarn's ends.
     pub const POINT: u32 = 1;
-    /// An interval begins here.
+    /// An interval begins at the place.
     pub const INTERVAL: u32 = 2;
-    /// The first interval of an open yarn.
+    /// The place's interval is the first of an open yarn.
     pub const OPENS: u32 = 4;
-    /// The last interval of an open yarn.
+    /// The place's interval is the last of an open yarn.
     pub const ENDS: u32 = 8;
-    /// The place stays fixed.
+    /// The place does not move.
     pub const PINNED: u32 = 16;
 }
 
 /// The places of a yarn, and how it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SettlingYarn {
-    /// Its first control point's place.
+    /// Number of the place of the yarn's first control point.
     pub first: u32,
-    /// Its control points.
+    /// Number of the yarn's control points.
     pub points: u32,
-    /// The ends: how the yarn goes on.
+    /// The yarn's ends, which say how it goes on.
     pub ends: Ends,
-    /// Its length, in units of [`Spans::along`](super::Spans::along).
+    /// The yarn's length, in units of [`Spans::along`](super::Spans::along).
     pub length: u32,
 }
 
 impl SettlingYarn {
-    /// The number of intervals.
+    /// The number of the yarn's intervals.
     #[must_use]
     pub const fn intervals(&self) -> u32 {
         self.ends.intervals(self.points as usize) as u32
     }
 
-    /// The distance, in repeats, at which the yarn goes on. `None` if it is open.
+    /// The number of repeats, along x and y, by which the yarn's next round is moved. It is 0 for a
+    /// closed yarn, and `None` for an open one.
     #[must_use]
     pub const fn shift(&self) -> Option<[i32; 2]> {
         match self.ends {
@@ -49,8 +50,9 @@ impl SettlingYarn {
         }
     }
 
-    /// The place of interval number `interval`, counted from the first one. The number may lie
-    /// before the first or after the last. `None` if the yarn has no such interval.
+    /// Number of the place at which interval number `interval` begins, counted from the yarn's
+    /// first interval. A closed or repeating yarn is counted on beyond its first and last interval.
+    /// `None` if the yarn has no such interval.
     #[must_use]
     pub fn interval(&self, interval: i64) -> Option<usize> {
         let count = i64::from(self.intervals());

@@ -11,128 +11,128 @@ pub enum YarnError {
     /// There are no yarns.
     #[error("no yarns")]
     NoYarns,
-    /// There must be one more offset than yarns.
-    #[error("{offsets} for {yarns}, which need one more than yarns", offsets = counted(*.offsets, "offset"), yarns = counted(*.yarns, "yarn"))]
+    /// The number of offsets is not one more than that of yarns.
+    #[error("{offsets} for {yarns}, but there must be one more than yarns", offsets = counted(*.offsets, "offset"), yarns = counted(*.yarns, "yarn"))]
     OffsetCount {
-        /// Offsets given.
+        /// Number of offsets given.
         offsets: usize,
-        /// Yarns given.
+        /// Number of yarns given.
         yarns: usize,
     },
-    /// Offsets must start at 0 and never fall.
+    /// Offsets that do not start at 0, or that fall.
     #[error("offsets of yarn {yarn} run from {start} to {end}")]
     OffsetOrder {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// Its first offset.
+        /// The offset at which the yarn starts.
         start: u64,
-        /// Its second offset.
+        /// The offset at which the yarn ends.
         end: u64,
     },
-    /// An open yarn needs two control points, a closed one three.
+    /// A yarn with too few control points. An open yarn needs two, and a closed yarn three.
     #[error("yarn {yarn} has {points}, needs {least}{}", if *.closed { " since it is closed" } else { "" }, points = counted(*.points, "control point"))]
     TooFewPoints {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// Control points it has.
+        /// Number of the yarn's control points.
         points: u64,
-        /// Control points it needs.
+        /// The least number that the yarn needs.
         least: u64,
-        /// Whether it is closed.
+        /// Whether the yarn is closed.
         closed: bool,
     },
-    /// The control points don't match the offsets.
-    #[error("{points} where {planned} were planned", points = counted(*.points, "control point"))]
+    /// The number of control points differs from what the offsets say.
+    #[error("{points}, but {planned} were planned", points = counted(*.points, "control point"))]
     PointCount {
-        /// Given.
+        /// Number of control points given.
         points: u64,
-        /// Planned.
+        /// Number of control points by the offsets.
         planned: u64,
     },
-    /// There must be one source per control point.
+    /// The number of sources differs from that of control points.
     #[error("{sources} for {points}", sources = counted(*.sources, "source"), points = counted(*.points, "control point"))]
     SourceCount {
-        /// Given.
+        /// Number of sources given.
         sources: usize,
-        /// Needed.
+        /// Number of control points.
         points: usize,
     },
-    /// There must be one up direction per control point.
+    /// The number of up directions differs from that of control points.
     #[error("{ups} for {points}", ups = counted(*.ups, "up direction"), points = counted(*.points, "control point"))]
     UpCount {
-        /// Given.
+        /// Number of up directions given.
         ups: usize,
-        /// Needed.
+        /// Number of control points.
         points: usize,
     },
-    /// An up direction must not be zero, infinite or NaN.
+    /// An up direction that is zero, infinite or NaN.
     #[error("the up direction of point {point} of yarn {yarn} is {up:?}, which points nowhere")]
     Up {
-        /// The yarn, from 0.
+        /// Number of the yarn.
         yarn: usize,
-        /// The point of the yarn, from 0.
+        /// Number of the point within the yarn.
         point: usize,
-        /// Given.
+        /// The vector that was given.
         up: [f32; 3],
     },
-    /// Tension must lie in [0, 1).
+    /// A tension outside [0, 1).
     #[error("tension is {tension}, outside 0 to below 1")]
     Tension {
-        /// Given.
+        /// The tension that was given.
         tension: f32,
     },
-    /// All yarns of a cloth have splines of one tension.
+    /// Yarns of different tensions. All yarns of a cloth must have splines of one tension.
     #[error("yarns of tension {given} beside yarns of tension {tension}")]
     OtherTension {
-        /// Theirs.
+        /// The tension of the yarns that were given.
         given: f32,
-        /// That of the others.
+        /// The tension of the other yarns.
         tension: f32,
     },
     /// There is no yarn of this number.
     #[error("no yarn {yarn}; there are {yarns}")]
     UnknownYarn {
-        /// The number asked for.
+        /// The number that was asked for.
         yarn: usize,
-        /// The number that exist.
+        /// Number of yarns.
         yarns: usize,
     },
     /// A yarn refers to a material that is missing.
     #[error("yarn {yarn} is of material {material}, but there are {materials}")]
     UnknownMaterial {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// Its material.
+        /// The yarn's material.
         material: u32,
-        /// The number that exist.
+        /// Number of materials.
         materials: usize,
     },
     /// A yarn refers to a section that is missing.
     #[error("yarn {yarn} has section {section}, but there are {sections}")]
     UnknownSection {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// Its section.
+        /// The yarn's section.
         section: u32,
-        /// The number that exist.
+        /// Number of sections.
         sections: usize,
     },
     /// A section with invalid parameters.
     #[error("section {section} is not sound")]
     Section {
-        /// Its number.
+        /// Number of the section.
         section: usize,
-        /// Why.
+        /// The section's error.
         source: SectionError,
     },
     /// A twist that is not finite or too large.
     #[error("yarn {yarn} has a twist of {twist} rad/mm, beyond ±{limit}")]
     Twist {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// Its twist, rad/mm.
+        /// The yarn's twist, rad/mm.
         twist: f32,
-        /// The largest accepted.
+        /// The largest twist that is accepted, rad/mm.
         limit: f32,
     },
     /// A linear density that is not finite, 0 or below.
@@ -146,53 +146,53 @@ pub enum YarnError {
     /// A hairiness that is NaN, below 0 or too large.
     #[error("material {material} has a hairiness of {hairiness}, which is not between 0 and {limit}")]
     Hairiness {
-        /// The material.
+        /// Number of the material.
         material: usize,
-        /// Its hairiness, Uster's H.
+        /// The material's hairiness, Uster's H.
         hairiness: f32,
-        /// The largest accepted.
+        /// The largest hairiness that is accepted.
         limit: f32,
     },
-    /// A control point with NaN or infinity in it.
+    /// A control point with a component that is NaN or infinite.
     #[error("{field} of point {point} of yarn {yarn} is {value}")]
     NotFinite {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// The point.
+        /// Number of the point within the yarn.
         point: usize,
-        /// The component.
+        /// The component's name.
         field: &'static str,
-        /// Its value.
+        /// The component's value.
         value: f32,
     },
     /// A control point too far from the origin.
     #[error("{field} of point {point} of yarn {yarn} is {value} mm, beyond ±{limit} mm")]
     TooFar {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// The point.
+        /// Number of the point within the yarn.
         point: usize,
-        /// The component.
+        /// The component's name.
         field: &'static str,
-        /// Its value, mm.
+        /// The component's value, mm.
         value: f32,
-        /// The largest accepted, mm.
+        /// The largest value that is accepted, mm.
         limit: f32,
     },
     /// A half width or half height that is too small, negative or too large.
     #[error("{field} of point {point} of yarn {yarn} is {size} mm, outside {low} to {high} mm")]
     Size {
-        /// The yarn.
+        /// Number of the yarn.
         yarn: usize,
-        /// The point.
+        /// Number of the point within the yarn.
         point: usize,
-        /// Half width or half height.
+        /// `half width` or `half height`.
         field: &'static str,
-        /// Its value, mm. Infinite if it is more than a half float holds.
+        /// The size, mm. It is infinite if it is more than a half float holds.
         size: f32,
-        /// The least accepted, mm.
+        /// The least size that is accepted, mm.
         low: f32,
-        /// The largest accepted, mm.
+        /// The largest size that is accepted, mm.
         high: f32,
     },
 }

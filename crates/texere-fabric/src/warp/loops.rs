@@ -7,7 +7,7 @@ use texere_core::backend::room_for;
 
 use super::{Bar, Lap, LapKind, PlacedLap};
 
-/// The rank of a loop among the loops on its needle. They are ordered by bar from the front, and
+/// The rank of a loop among the loops on its needle. Loops are ordered by bar from the front, and
 /// within a bar by guide.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Share {

@@ -16,9 +16,9 @@ pub(super) const STEP: f32 = 1.6;
 /// The loops on the needle of one bed in one course.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hanging {
-    /// Whether any loop hangs there.
+    /// Whether any loop hangs on the needle.
     any: bool,
-    /// Whether a loop is made there in this course.
+    /// Whether a loop is made on the needle in this course.
     made: bool,
 }
 

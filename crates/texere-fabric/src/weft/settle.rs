@@ -10,7 +10,8 @@ use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, settle};
 
-/// Range of the factor by which settling may change the length of a yarn.
+/// Range of the factor by which settling may change the length of a yarn: the range of
+/// [`Length::Given`].
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
 impl Knitted {

@@ -1,4 +1,5 @@
-//! Measures the clearance of the paper's 3/1 twill, three diameters from thread to thread:
+//! Measures the clearance of the 3/1 twill of the paper that texere implements (README.md), with
+//! three diameters from thread to thread:
 //!
 //! ```text
 //! cargo run --release -p texere-fabric --example clearance -- 1630 1500 round

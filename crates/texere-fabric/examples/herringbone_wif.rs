@@ -8,18 +8,18 @@ use std::fmt::Write;
 
 use texere_fabric::{Draft, Shedding};
 
-/// Ends and picks of the cloth: a square of a little more than 19 cm.
+/// Number of ends, and of picks. The cloth is a square of a little more than 19 cm.
 const THREADS: usize = 192;
 
 /// Ends between two reversals of the twill.
 const STRIPE: usize = 16;
 
-/// The warp's colours, stripe by stripe: charcoal 1, grey 2, rust 3.
+/// The colours of the warp, stripe by stripe: 1 is charcoal, 2 is grey, 3 is rust.
 const COLOURS: [usize; 6] = [1, 1, 1, 3, 2, 2];
 
-/// A 2/2 twill that reverses every [`STRIPE`] ends. At each reversal the end that follows is on the
-/// shaft that is down when the one before is up: the clean cut that tells a herringbone from a
-/// point twill, whose floats grow longer there.
+/// A 2/2 twill that reverses every [`STRIPE`] ends. At each reversal, the shaft of the next end is
+/// down when the shaft of the end before is up. This clean cut distinguishes a herringbone from a
+/// pointed twill, whose floats are longer at the reversal.
 pub(crate) fn draft() -> Draft {
     let forth = [1, 2, 3, 4];
     let back = [2, 1, 4, 3];
@@ -72,8 +72,8 @@ pub(crate) fn wif() -> Result<String, std::fmt::Error> {
     wif += "\n[COLOR PALETTE]\nEntries=4\nRange=0,255\n";
     wif += "\n[COLOR TABLE]\n1=58,61,66\n2=151,153,150\n3=168,76,43\n4=232,226,212\n";
     wif += "\n[WEAVING]\nShafts=4\nTreadles=4\nRising Shed=true\n";
-    // 1 mm from thread to thread and 0.45 mm thick: room enough for the threads that cross to pass
-    // between.
+    // Threads are 0.45 mm thick and 1 mm apart, so that crossing threads have room to pass between
+    // them.
     for (set, colour) in [("WARP", 1), ("WEFT", 4)] {
         writeln!(wif, "\n[{set}]\nThreads={THREADS}\nColor={colour}\nUnits=Centimeters")?;
         writeln!(wif, "Spacing=0.1\nThickness=0.045")?;

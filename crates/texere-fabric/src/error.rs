@@ -10,7 +10,7 @@ use crate::woven::WovenError;
 use crate::yarn_check::ThreadError;
 
 /// A structure that is refused, or whose yarns can't be made or measured. Each kind of structure
-/// has an error of its own for what only it can have wrong.
+/// has an error of its own for faults that only this kind can have.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FabricError {

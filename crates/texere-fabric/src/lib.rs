@@ -1,4 +1,5 @@
-//! Fabric structures: how threads interlace, and from there the control points of every yarn.
+//! Fabric structures: how threads interlace, and the control points of every yarn that follow from
+//! it.
 //!
 //! ```text
 //! Draft ──┐
@@ -8,14 +9,16 @@
 //!
 //! A [`Drawdown`] says at each crossing whether the warp lies on top. It comes from a weaver's
 //! [`Draft`], from a [`Weave`] in its usual notation, or straight from a function. A [`Woven`]
-//! cloth adds what each thread is like and where it lies, and makes [`texere_core::Yarns`] of all.
+//! cloth adds what each thread is like and where it lies, and makes [`texere_core::Yarns`] of all
+//! threads.
 //!
 //! A [`Structure`] is the fabric of any design: a [`WovenDesign`], a weft knit ([`weft::Knitted`])
 //! or a warp knit ([`warp::WarpKnitted`]). It says what is wrong with the fabric
 //! ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
-//! These yarns are about where they belong. [`settle`] lets yarns come to rest on a device,
-//! [`Structure::settle`] the yarns of a structure. A [`Repeat`] settles once and is copied.
+//! The yarns of a structure are placed about where they belong, but may pierce one another.
+//! [`settle`] lets any yarns come to rest on a device, and [`Structure::settle`] those of a
+//! structure. A [`Repeat`] settles once and is copied.
 //!
 //! [`Measures`] are what designers ask for: yarn consumption, crimp, cover, weight, thickness.
 //! [`diameter_mm`] gives the diameter of a yarn of known weight. [`texere_contact`] measures yarns

@@ -1,7 +1,8 @@
-//! Signs that look like a hyphen or a slash and are none. Word processors put them in its place.
+//! Characters that look like a hyphen or a slash, but are others. Word processors put them in the
+//! place of a hyphen or a slash.
 
-/// The name, with its number in Unicode, of the first sign of a text that looks like a hyphen and
-/// is none.
+/// The name and the Unicode number of the first character of a text that looks like a hyphen but is
+/// another character.
 ///
 /// ```
 /// assert_eq!(texere_fabric::hyphen_look_alike("1\u{2013}0"), Some("an en dash (U+2013)"));
@@ -12,8 +13,8 @@ pub fn hyphen_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(hyphen)
 }
 
-/// The name, with its number in Unicode, of the first sign of a text that looks like a slash and is
-/// none.
+/// The name and the Unicode number of the first character of a text that looks like a slash but is
+/// another character.
 pub(crate) fn slash_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(slash)
 }

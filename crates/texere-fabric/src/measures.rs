@@ -12,11 +12,12 @@ use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
 use crate::{BySet, FabricError, Thread, Woven, tex_from_cotton_count};
 
-/// Steps at which each interval's height is measured. The spline's height is a cubic: its turning
-/// points are met to 1/64 of an interval, and its height to the square of that.
+/// Number of steps in each control interval at which the height is measured. The spline's height is
+/// a cubic. A step lies within 1/64 of an interval of each turning point, and the error of the
+/// height there grows with the square of that distance.
 const SAMPLES: u32 = 32;
 
-/// A cotton yarn of count Ne 1 is 1/28 inch thick.
+/// Number of cotton yarns of count Ne 1 that lie side by side in an inch.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
 /// 1937.
@@ -39,69 +40,68 @@ const PEIRCE: f64 = 28.0;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measures {
-    /// Length of yarn of each material, mm, in the materials' order. Ends that hang out of a knit
-    /// do not count.
+    /// Length of yarn of each material, mm, in the order of the materials. Yarn beyond the edges of
+    /// a knit does not count.
     pub length_mm: Vec<f64>,
-    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. None of a knit. Turns
-    /// at a selvedge count as weft: in a cloth whose weft turns this is what the mill has to wind,
-    /// not the wave of a pick alone.
+    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. None for a knit. Turns
+    /// at a selvedge count as weft. The crimp of a weft that turns therefore tells how much yarn
+    /// the mill has to wind, and is more than the crimp of a pick without its turns.
     ///
-    /// **Source**: BS 2863 and ISO 7211-3 define it so.
-    ///
-    /// None of a knit.
+    /// **Source**: BS 2863 and ISO 7211-3 define crimp in this way.
     pub crimp: Option<BySet<f64>>,
-    /// The cover of woven cloth. None of a knit.
+    /// The cover of woven cloth. None for a knit.
     pub cover: Option<Cover>,
-    /// Measures of a knit. None of woven cloth.
+    /// Measures of a knit. None for woven cloth.
     pub knit: Option<KnitMeasures>,
-    /// Weight, g/m²: length × tex over the cloth's area. None unless every material that is used
-    /// has a tex.
+    /// Weight, g/m²: length × tex over the cloth's area. None if a material that is used has no
+    /// tex.
     pub areal_weight: Option<f64>,
     /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the
     /// highest.
     pub thickness_mm: f64,
 }
 
-/// Measures of a knit beside its weight and thickness.
+/// Measures that only a knit has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnitMeasures {
     /// Loops of the whole cloth.
     pub loops: u64,
     /// Wales and courses of the whole cloth.
     pub size: [u32; 2],
-    /// Length of yarn in a loop, mm: all yarn, floats too, over all loops.
+    /// Mean length of yarn in a loop, mm: the length of all yarn, floats included, over the number
+    /// of loops.
     pub loop_length_mm: f64,
     /// Loops to the square centimetre.
     pub stitch_density: f64,
-    /// The tightness factor: √tex over the loop length in cm. None unless all yarns that are used
-    /// have one and the same tex.
+    /// The tightness factor: √tex over the loop length in cm. None if the yarns that are used do
+    /// not all have the same tex.
     ///
     /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11
-    /// to 17, 14 to 15 as a rule.
+    /// to 17, usually 14 to 15.
     pub tightness: Option<f64>,
 }
 
 /// The share of the cloth that its threads cover, seen from the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
-    /// Peirce's cover factors: threads to the inch over √Ne, that is 28
-    /// times the share of width that round cotton yarns of the threads' weight take. It needs the
-    /// tex of every material that is used.
+    /// Peirce's cover factors: threads to the inch over √Ne. That is 28 times the share of the
+    /// width that round cotton yarns of the same weight would cover. None if a material that is
+    /// used has no tex.
     ///
-    /// **Source**: Peirce 1937 (K = n/√N; at 28 cotton threads lie side by side).
+    /// **Source**: Peirce 1937 (K = n/√N; with K = 28 cotton threads touch side by side).
     pub factor: Option<BySet<f64>>,
-    /// Peirce's K₁ + K₂ - K₁ K₂ / 28.
+    /// Peirce's cover factor of the cloth, K₁ + K₂ - K₁ K₂ / 28. None if [`Cover::factor`] is none.
     pub cloth_factor: Option<f64>,
-    /// Share of the width that ends take, and of the length that picks take: widths of sections
-    /// over spacings, 1 at most.
+    /// Share of the width that ends cover, and share of the length that picks cover: widths of
+    /// sections over spacings, 1 at most.
     pub fraction: BySet<f64>,
-    /// Share of the area that either set covers: c₁ + c₂ - c₁ c₂.
+    /// Share of the area that the two sets cover together: c₁ + c₂ - c₁ c₂.
     pub cloth: f64,
 }
 
 impl Measures {
-    /// Measures of a knit of `loops`, of `size` wales and courses and `size_mm` width and height.
-    /// `own` is the part of each yarn that is the cloth's.
+    /// Measures of a knit with `loops` loops, `size` wales and courses, and a width and height of
+    /// `size_mm`. `own` gives the part of each yarn that counts for the cloth.
     pub(crate) fn of_knit(
         yarns: &Yarns,
         own: impl Fn(usize) -> Own + Sync,
@@ -130,13 +130,14 @@ impl Measures {
         }
     }
 
-    /// Measures a woven `cloth` and its `yarns`, as they are woven or at rest. Whole repeats are
-    /// measured, as they lie among others, so that one repeat has the numbers of many. Values that
-    /// depend on tex are measured in repeats of the weave and of the yarns' tex, or in the whole
-    /// cloth where that is no longer.
+    /// Measures a woven `cloth` and its `yarns`, which may be as woven or at rest. Whole repeats
+    /// are measured, as if more repeats lay around them, so that a cloth of one repeat has the same
+    /// numbers as a cloth of many. Values that depend on tex are measured in whole repeats of the
+    /// weave together with the tex of its yarns. If such a repeat is longer than the cloth, the
+    /// whole cloth is measured.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
-    /// the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not the
+    /// cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         let ratios = Sample::new(cloth, yarns)?.ratios();
@@ -171,10 +172,11 @@ impl Measures {
 }
 
 impl Cover {
-    /// The cover of `cloth` by `yarns`, from their mean widths and its threads' spacings.
+    /// The cover of `cloth`, from the mean widths of `yarns` and the spacings of the cloth's
+    /// threads.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
-    /// the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not the
+    /// cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         Ok(Self::of(cloth, yarns, cloth.whole(), cloth.whole_by_weight()))
@@ -188,8 +190,8 @@ impl Cover {
         let turns = |threads: &[Thread], section: usize| {
             threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
         };
-        // Widths of a level section, and in the mean of all directions. A twisted thread shows one
-        // side after the other.
+        // For each section, half its width when it lies level, and its mean half width over all
+        // directions. A twisted thread shows one side after another.
         let widths: Vec<[f32; 2]> = (0..)
             .zip(cloth.sections())
             .map(|(number, section)| {
@@ -209,7 +211,7 @@ impl Cover {
             taken[set] += 2.0 * f64::from(wide) * mean_half_width(points);
         }
         let fraction = [0, 1].map(|set| f64::min(taken[set] / sets[set].1, 1.0));
-        // n / √N is added up thread by thread, since each has its own count.
+        // n / √N is added up thread by thread, because each thread has its own count.
         let factors =
             [(cloth.warp(), by_weight[0]), (cloth.weft(), by_weight[1])].map(|(set, (count, across))| {
                 let threads = &set[..count];
@@ -230,7 +232,7 @@ impl Cover {
     }
 }
 
-/// Mean half width of a yarn over its length, mm. Chords stand for intervals.
+/// Mean half width of a yarn over its length, mm. The length of an interval is taken as its chord.
 fn mean_half_width(points: &[ControlPoint]) -> f64 {
     let add = |[sum, length]: [f64; 2], pair: &[ControlPoint]| {
         let chord = f64::from(pair[0].position().distance(pair[1].position()));
@@ -256,7 +258,7 @@ pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     sums
 }
 
-/// Weight (g) of lengths (mm) of materials. None where a material that is used has no tex.
+/// Weight (g) of the given lengths (mm) of materials. None if a material that is used has no tex.
 #[must_use]
 pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
     let used = lengths_mm.iter().zip(materials).filter(|(length, _)| **length > 0.0);
@@ -266,13 +268,14 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
 
 /// Thickness from the lowest point of the yarns' surfaces to the highest, mm. Upright sections
 /// reach half their height above and below the centreline. A twisted section turns through every
-/// direction, and counts with its furthest reach.
+/// direction, so its furthest reach counts.
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns) -> f64 {
     thickness_within(yarns, |_| 0..usize::MAX)
 }
 
-/// Thickness of the intervals that begin at the control points `own` of each yarn.
+/// Thickness of a part of each yarn, mm. `own` gives the numbers of the control points at which the
+/// intervals of the part begin.
 fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
     let s = tangent_factor(yarns.tension());
@@ -287,8 +290,8 @@ fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -
         let own = own(yarn);
         for first in own.start..own.end.min(intervals) {
             let four = neighbours(points, what.closed, first);
-            // Nothing lies beyond the Bézier polygon. Most intervals can't be the lowest or the
-            // highest.
+            // The spline does not go beyond its Bézier polygon. Most intervals are skipped, because
+            // by their polygon they can be neither the lowest nor the highest.
             let heights = bezier(&four.map(|point| point.z), s);
             let thickest = bezier(&four.map(|point| point.half_height()), s).into_iter().fold(0.0, f32::max);
             let lowest = heights.into_iter().fold(f32::INFINITY, f32::min) - thickest * below;
@@ -299,8 +302,8 @@ fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -
             let segment = Segment::new(&four, s);
             for k in 0..=SAMPLES {
                 let sample = segment.sample(k as f32 / SAMPLES as f32);
-                // A section stands at right angles to the centreline. Where that climbs, the
-                // section reaches less far up.
+                // A section stands at right angles to the centreline. Where the centreline climbs,
+                // the section reaches less far up.
                 let level = sample.tangent.truncate().length() * sample.half_height;
                 extent[0] = extent[0].min(f64::from(sample.centre.z - level * below));
                 extent[1] = extent[1].max(f64::from(sample.centre.z + level * above));
@@ -320,7 +323,7 @@ fn bezier([before, start, end, after]: &[f32; 4], s: f32) -> [f32; 4] {
     [*start, start + (end - before) * s / 3.0, end - (after - start) * s / 3.0, *end]
 }
 
-/// The tex of all materials that are used, if it is one.
+/// The tex of the materials that are used, if they all have the same.
 fn tex(length_mm: &[f64], materials: &[Material]) -> Option<f64> {
     let used = materials.iter().zip(length_mm).filter(|(_, length)| **length > 0.0);
     let mut tex = used.map(|(material, _)| material.tex.map(f64::from));

@@ -1,23 +1,24 @@
-//! The part of a yarn that is the cloth's own.
+//! The part of a yarn that counts for the cloth.
 
 use std::ops::Range;
 
 use texere_contact::{part_length_mm, round_length_mm};
 use texere_core::{ControlPoint, Yarns};
 
-/// The part of a yarn that is the cloth's. What lies beyond depends on where a sample is cut off.
+/// The part of a yarn that counts for the cloth. The rest of the yarn lies beyond the cloth, and
+/// depends on where a sample is cut off.
 #[derive(Debug, Clone)]
 pub(crate) struct Own {
-    /// The range of its control points.
+    /// The range of the part's control points.
     pub(crate) points: Range<usize>,
-    /// The vector (x and y, mm) from this round to the next, of a yarn that goes on for ever. The
-    /// last point then leads to the first of the next round.
+    /// For a yarn that repeats without end, the vector (x and y, mm) from this round of the yarn to
+    /// the next one. After the last point of the part comes the first point of the next round.
     pub(crate) onward: Option<[f64; 2]>,
 }
 
 impl Own {
-    /// The part of a yarn that goes on for ever: all its points without `before` at its beginning
-    /// and `beyond` at its end.
+    /// The part of a yarn that repeats without end: all its points except `before` points at its
+    /// beginning and `beyond` points at its end.
     pub(crate) fn round(yarns: &Yarns, yarn: usize, [before, beyond]: [u32; 2], onward: [f64; 2]) -> Self {
         let count = yarns.yarn_points(yarn).map_or(0, <[ControlPoint]>::len);
         let points = before as usize..count.saturating_sub(beyond as usize);
@@ -27,13 +28,14 @@ impl Own {
         Self { points, onward: Some(onward) }
     }
 
-    /// The intervals of the part. Where the yarn ends none begins at its last point.
+    /// The intervals of the part, by the numbers of their first points. If the yarn ends, no
+    /// interval begins at its last point.
     pub(crate) fn intervals(&self) -> Range<usize> {
         let Range { start, end } = self.points;
         start..end.saturating_sub(usize::from(self.onward.is_none()))
     }
 
-    /// Its length, mm.
+    /// Length of the part, mm.
     pub(crate) fn length_mm(&self, yarns: &Yarns, yarn: usize) -> f64 {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         match self.onward {

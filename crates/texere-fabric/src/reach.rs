@@ -2,7 +2,7 @@
 
 use texere_core::{Section, SectionPoint};
 
-/// Points at which a section is measured.
+/// Number of points of the outline at which a section is measured.
 const POINTS: u32 = 1024;
 
 /// The relative error of sizes computed in `f32`.
@@ -11,14 +11,14 @@ const ROUNDING: f32 = 1e-5;
 /// Reach of a section from the centreline, in halves of the yarn's width and height.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
-    /// To either side, untwisted.
+    /// Reach to either side, untwisted.
     pub(crate) width: f32,
-    /// Down and up, untwisted.
+    /// Reach down and reach up, untwisted.
     pub(crate) heights: [f32; 2],
-    /// In the furthest direction. Twist turns it to every side.
+    /// Reach in the furthest direction. Twist turns this direction to every side.
     pub(crate) furthest: f32,
-    /// The factor by which the ellipse of this width and height has to grow to hold the section: 1
-    /// but for boxy sections.
+    /// The factor by which the ellipse of this width and height has to grow to hold the section. It
+    /// is 1 except for boxy sections.
     boxiness: f32,
 }
 
@@ -29,7 +29,7 @@ impl Reach {
         let width = most(&|point| point.x.abs());
         let heights = [most(&|point| -point.y), most(&|point| point.y)];
         let height = heights[0].max(heights[1]);
-        // Rounding makes no ellipse boxy, and no circle wider than it is.
+        // Rounding must not make an ellipse boxy, nor a circle wider than it is.
         let above = |size: f32, least: f32| if size > least * (1.0 + ROUNDING) { size } else { least };
         Self {
             width,

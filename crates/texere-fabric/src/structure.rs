@@ -37,7 +37,7 @@ pub enum Structure {
 }
 
 impl Structure {
-    /// The woven design, with what only weaving has, such as a draft. None of a knit.
+    /// The woven design, with what only weaving has, such as a draft. None for a knit.
     #[must_use]
     pub const fn woven(&self) -> Option<&WovenDesign> {
         match self {
@@ -46,7 +46,7 @@ impl Structure {
         }
     }
 
-    /// The weft knit, with what only weft knits have, such as stitches. None of any other fabric.
+    /// The weft knit, with what only weft knits have, such as stitches. None for any other fabric.
     #[must_use]
     pub const fn knitted(&self) -> Option<&Knitted> {
         match self {
@@ -55,7 +55,8 @@ impl Structure {
         }
     }
 
-    /// The warp knit, with what only warp knits have, such as guide bars. None of any other fabric.
+    /// The warp knit, with what only warp knits have, such as guide bars. None for any other
+    /// fabric.
     #[must_use]
     pub const fn warp_knitted(&self) -> Option<&WarpKnitted> {
         match self {
@@ -66,8 +67,8 @@ impl Structure {
 
     /// The yarns of the fabric.
     ///
-    /// **Errors**: [`FabricError`] where they can't be made: see
-    /// [`Woven::yarns`](crate::Woven::yarns) and [`Knitted::yarns`].
+    /// **Errors**: the errors of [`Woven::yarns`](crate::Woven::yarns), [`Knitted::yarns`] or
+    /// [`WarpKnitted::yarns`].
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().yarns(),
@@ -76,10 +77,10 @@ impl Structure {
         }
     }
 
-    /// The piece that settles by contact, and the number of its copies in the fabric. A knit has
-    /// one repeat (see [`Knitted::repeat`] and [`WarpKnitted::repeat`]), or the whole fabric where
-    /// it has none. Woven cloth settles by its crossings instead: its piece is the whole cloth, cut
-    /// off at its edges and held there, for use with [`settle`](crate::settle).
+    /// The piece that settles by contact, and the number of its copies in the fabric. The piece of
+    /// a knit is one repeat (see [`Knitted::repeat`] and [`WarpKnitted::repeat`]), or the whole
+    /// fabric if it does not repeat. Woven cloth settles by its crossings instead. Its piece is the
+    /// whole cloth, cut off at its edges and held there, for use with [`settle`](crate::settle).
     ///
     /// **Errors**: the errors of [`Structure::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
@@ -90,8 +91,9 @@ impl Structure {
         }
     }
 
-    /// The fabric's yarns, made of those of its `repeat`, settled or not. Copies lie side by side
-    /// and are cut off as [`Structure::settle`] cuts them.
+    /// The fabric's yarns, made of copies of the yarns of its `repeat`. `yarns` are the repeat's
+    /// yarns, settled or not. The copies lie side by side and are cut off as [`Structure::settle`]
+    /// cuts them.
     ///
     /// **Errors**: the errors of [`Repeat::placed`].
     pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
@@ -102,8 +104,8 @@ impl Structure {
         }
     }
 
-    /// `finish` with the structure's own choice of lengths for [`Structure::repeat`], where
-    /// `finish` makes none: see [`Knitted::finish_of`] and [`WarpKnitted::finish_of`].
+    /// `finish` with the structure's own choice of lengths for [`Structure::repeat`], if `finish`
+    /// makes none: see [`Knitted::finish_of`] and [`WarpKnitted::finish_of`].
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         match self {
@@ -115,10 +117,10 @@ impl Structure {
 
     /// Lets the fabric come to rest: woven cloth by its crossings
     /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
-    /// [`WarpKnitted::settle`]). `tension` is that of the splines of all yarns, from 0 to below 1.
+    /// [`WarpKnitted::settle`]). `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
-    /// **Errors**: the errors of the method called for each kind; [`FinishError::Woven`] where
-    /// `finish` asks a length, a press or a course of woven cloth.
+    /// **Errors**: the errors of the method that is called. For woven cloth this is
+    /// [`FinishError::Woven`] if `finish` asks for a length, a press or a course.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -152,12 +154,13 @@ impl Structure {
         }
     }
 
-    /// Stretches woven cloth along one set of its threads, all of which keep their length: see
-    /// [`Woven::stretched`](crate::Woven::stretched). Returns `finish` with the tensions that go
-    /// with the stretch, for [`Structure::settle`]. A knit stays as it is.
+    /// Stretches woven cloth along one set of its threads: see
+    /// [`Woven::stretched`](crate::Woven::stretched). All threads keep their lengths. Returns
+    /// `finish` with the tensions of the stretched cloth, for [`Structure::settle`]. A knit is not
+    /// changed.
     ///
-    /// **Errors**: the errors of [`Woven::stretched`](crate::Woven::stretched); the cloth is then
-    /// as it was.
+    /// **Errors**: the errors of [`Woven::stretched`](crate::Woven::stretched). After an error the
+    /// cloth is unchanged.
     pub fn stretch(
         &mut self,
         finish: &Finish,
@@ -173,8 +176,8 @@ impl Structure {
     }
 
     /// A place on one of the structure's yarns in a designer's terms: by thread and crossing, or by
-    /// wale and course. `yarns` are the structure's own, settled or not. The time grows with the
-    /// stitches of a knit's repeat.
+    /// wale and course. `yarns` are the structure's own, settled or not. For a weft knit the call
+    /// takes time in proportion to the stitches of its repeat.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -194,7 +197,7 @@ impl Structure {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** for a place on a yarn past the last one.
     #[must_use]
     pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
         match self {
@@ -220,8 +223,8 @@ impl Structure {
 
     /// Gives every yarn the same section. A woven design relieves its jammed threads again.
     ///
-    /// **Errors**: [`FabricError`] where the section is not sound, or threads can't be thinned so
-    /// far; the structure is then as it was.
+    /// **Errors**: [`FabricError`] if the section's numbers are not valid, or if relief would make
+    /// threads too thin. After an error the structure is unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         match self {
             Self::Woven(design) => design.set_section(section),
@@ -230,8 +233,8 @@ impl Structure {
         }
     }
 
-    /// What a designer should know of the fabric before its yarns settle. [`Finished::warnings`]
-    /// has what shows once they are at rest.
+    /// Warnings about the fabric before its yarns settle. [`Finished::warnings`] has those that
+    /// show only when the yarns are at rest.
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
@@ -240,11 +243,11 @@ impl Structure {
         }
     }
 
-    /// Yarn consumption, weight and thickness, with crimp and cover of woven cloth and loops of a
-    /// knit. `yarns` are the structure's own.
+    /// Yarn consumption, weight and thickness, the crimp and cover of woven cloth, and the loops of
+    /// a knit. `yarns` are the structure's own.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not
-    /// the structure's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not
+    /// those of the woven cloth.
     pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns),
@@ -253,7 +256,7 @@ impl Structure {
         }
     }
 
-    /// How near yarns come to one another and how tightly they bend, at places in a designer's
+    /// How near yarns come to one another and how tightly they bend, with places in a designer's
     /// terms: see [`Woven::clearance`](crate::Woven::clearance).
     ///
     /// **Errors**: the errors of
@@ -270,8 +273,8 @@ impl Structure {
         }
     }
 
-    /// Threads of woven cloth that lie too close together as they are woven. None where all have
-    /// room, and none of a knit.
+    /// Threads of woven cloth that lie too close together as they are woven. None if all threads
+    /// have room, and none for a knit.
     #[must_use]
     pub fn jams(&self) -> Option<Jams> {
         match self {
@@ -311,9 +314,9 @@ impl Structure {
         }
     }
 
-    /// Faults of the fabric once it has settled to `finished`. Jams are not looked for: threads
-    /// that lack room show it in their clearance. Contacts of a ratio below `touching` pierce;
-    /// [`Finished::verdict`] takes [`CLEAR`](texere_contact::CLEAR).
+    /// Faults of the fabric once it has settled to `finished`. Jams are not looked for, because
+    /// threads that lack room already show it in their clearance. Contacts with a ratio below
+    /// `touching` count as piercing. [`Finished::verdict`] uses [`CLEAR`](texere_contact::CLEAR).
     ///
     /// **Errors**: the errors of [`Structure::clearance`].
     pub fn diagnose_finished(
@@ -328,8 +331,8 @@ impl Structure {
         Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
     }
 
-    /// Single changes that help against the faults of `diagnosis`, each of them tried: see
-    /// [`WovenDesign::cures`]. Knits have none.
+    /// Single changes of a woven design that help against the faults of `diagnosis`. Each change
+    /// has been tried: see [`WovenDesign::cures`]. For knits the list is empty.
     pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
         match self {
             Self::Woven(design) => design.cures(diagnosis, progress),

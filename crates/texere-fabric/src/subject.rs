@@ -9,8 +9,8 @@ use crate::{FabricError, FinishError, ThreadError, WovenError};
 // No match has an arm for all other variants, as none has in the core.
 
 impl FabricError {
-    /// The part of the cloth that the error is about. None where no design is at fault: memory, a
-    /// cancelled call, and calls that don't fit the cloth.
+    /// The part of the cloth that the error is about. None if no design is at fault: for a lack of
+    /// memory, a cancelled call, and a call that doesn't fit the cloth.
     ///
     /// ```
     /// use texere_core::{Origin, Subject};
@@ -35,7 +35,7 @@ impl FabricError {
 }
 
 impl WovenError {
-    /// The part of the cloth that the error is about. None of calls that don't fit the cloth.
+    /// The part of the cloth that the error is about. None for a call that doesn't fit the cloth.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match *self {
@@ -116,8 +116,8 @@ impl ThreadError {
 }
 
 impl FinishError {
-    /// The part of the cloth that the error is about: the subject of the error that it holds. None
-    /// of devices, and of what no design asks for.
+    /// The part of the cloth that the error is about: for most variants, the subject of the error
+    /// that they hold. None if a device is at fault, and for a request that no design can make.
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         match self {

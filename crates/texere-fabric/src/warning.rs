@@ -1,40 +1,42 @@
-//! Warnings about a cloth that can be made all the same.
+//! Warnings about a cloth that can be made, but looks unintended.
 
 use std::fmt;
 
 use texere_core::Origin;
 
-/// Something that looks unintended. Each kind comes at most once for the ends and once for the
-/// picks.
+/// Something in a cloth that looks unintended. Each kind of warning about threads is given at most
+/// once for the ends and once for the picks.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FabricWarning {
-    /// Threads that lie closer to the thread before them than both are thick. Side by side they
-    /// pierce one another.
+    /// Threads that lie closer to the thread before them than half the widths of both together. The
+    /// two pierce one another side by side.
     Crowded {
-        /// Number of such threads.
+        /// Number of threads that lack room.
         count: usize,
-        /// The first of them.
+        /// The first thread that lacks room.
         first: Origin,
-        /// The one that lacks the largest share of its room.
+        /// The worst thread: the one that lacks the largest share of its room.
         worst: Origin,
-        /// Half the widths of the worst one and its neighbour together, mm.
+        /// Half the widths of the worst thread and of the thread before it together, mm.
         needed_mm: f64,
-        /// The worst one's spacing, mm.
+        /// The worst thread's distance to the thread before it, mm.
         spacing_mm: f64,
     },
-    /// Threads too close to the thread before them for crossing threads to pass in between. Warp
-    /// and weft pierce one another. [`Woven::relieve`](crate::Woven::relieve) can help.
+    /// Threads that lie so close to the thread before them that crossing threads can't pass between
+    /// the two. Warp and weft pierce one another. [`Woven::relieve`](crate::Woven::relieve) can
+    /// help.
     Jammed {
-        /// Number of such threads.
+        /// Number of threads that lack room.
         count: usize,
-        /// The first of them.
+        /// The first thread that lacks room.
         first: Origin,
-        /// The one that lacks the largest share of its room.
+        /// The worst thread: the one that lacks the largest share of its room.
         worst: Origin,
-        /// The least distance to the thread before at which the worst one is clear, mm.
+        /// The least distance from the worst thread to the thread before it at which crossing
+        /// threads pass, mm.
         needed_mm: f64,
-        /// The worst one's distance to the thread before, mm.
+        /// The worst thread's distance to the thread before it, mm.
         pitch_mm: f64,
     },
     /// A pressed knit that is thicker than the distance of the plates.

@@ -3,7 +3,7 @@
 use texere_core::{Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, SectionError, TWIST_LIMIT, Yarn};
 use thiserror::Error;
 
-/// A thread, of any structure, that is refused.
+/// A thread that is refused, in any structure.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ThreadError {
@@ -14,9 +14,9 @@ pub enum ThreadError {
         thread: Origin,
         /// Its radius, mm.
         radius_mm: f32,
-        /// Thinnest taken, mm.
+        /// The least radius allowed, mm.
         low: f32,
-        /// Thickest taken, mm.
+        /// The largest radius allowed, mm.
         high: f32,
     },
     /// A twist that is not finite or too steep.
@@ -26,7 +26,7 @@ pub enum ThreadError {
         thread: Origin,
         /// Its twist, rad/mm.
         twist: f32,
-        /// The steepest taken, rad/mm.
+        /// The largest twist allowed in either direction, rad/mm.
         limit: f32,
     },
     /// A thread refers to a material that is missing.
@@ -34,9 +34,9 @@ pub enum ThreadError {
     UnknownMaterial {
         /// The thread.
         thread: Origin,
-        /// Its material, from 0.
+        /// The number of its material, counted from 0.
         material: u32,
-        /// How many there are.
+        /// The number of materials.
         materials: usize,
     },
     /// A thread refers to a section that is missing.
@@ -44,17 +44,17 @@ pub enum ThreadError {
     UnknownSection {
         /// The thread.
         thread: Origin,
-        /// Its section, from 0.
+        /// The number of its section, counted from 0.
         section: u32,
-        /// How many there are.
+        /// The number of sections.
         sections: usize,
     },
-    /// A section whose numbers are not sound.
+    /// A section whose numbers are not valid.
     #[error("section {section} is not sound")]
     Section {
-        /// Which one, from 0.
+        /// The number of the section, counted from 0.
         section: usize,
-        /// Why.
+        /// What is wrong with the section's numbers.
         source: SectionError,
     },
 }

@@ -1,7 +1,8 @@
-//! Diameters of yarns of known weight and back; twist by the metre.
+//! Diameters of yarns of known weight, weights of yarns of known diameter, and twist by the metre.
 //!
-//! A yarn's *count* says how heavy a length of it is. Its diameter follows from how densely its
-//! fibres lie. Density here is that of the yarn with the air in it, not that of the fibre.
+//! A yarn's *count* says how much a length of the yarn weighs. The diameter of the yarn then
+//! follows from its density. Density here is that of the yarn with the air in it, not that of the
+//! fibre.
 
 use std::f64::consts::{PI, TAU};
 
@@ -29,8 +30,8 @@ pub fn diameter_mm(tex: f64, density: f64) -> f64 {
     (4.0 * tex / (1000.0 * PI * density)).sqrt()
 }
 
-/// Linear density (tex, g/km) of a round yarn of `diameter_mm` and `density` (g/cm³): the inverse
-/// of [`diameter_mm`].
+/// Linear density (tex, g/km) of a round yarn of `diameter_mm` and `density` (g/cm³). It is the
+/// inverse of [`diameter_mm`].
 ///
 /// ```
 /// use texere_fabric::{COTTON_DENSITY, diameter_mm, tex_from_diameter};
@@ -73,8 +74,8 @@ pub fn tex_from_denier(denier: f64) -> f64 {
     denier / 9.0
 }
 
-/// Twist (rad per mm, the unit of yarns and threads) of a number of turns per metre, the unit of
-/// mills and design files.
+/// Twist in rad per mm, the unit of yarns and threads, from turns per metre, the unit of mills and
+/// design files.
 ///
 /// ```
 /// use texere_fabric::{Thread, twist_from_turns_per_m};

@@ -1,4 +1,4 @@
-//! Threads must not pierce one another: their distances by brute force, in each shape.
+//! Threads must not pierce one another: distances between threads by brute force, for each shape.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -11,8 +11,8 @@ use texere_fabric::{Crimp, Drawdown, Shape, Thread, Woven};
 use cloths::{cloth, jam, random_bits, random_weave, weave, weaves};
 use oracle::{pierce, round_clearance};
 
-/// Samples per interval. At the widest pitch of these tests they lie 1/8 of a diameter apart. A
-/// nearest approach may then be missed by 2e-3 of a diameter at most.
+/// Samples per interval. At the widest pitch of these tests they lie 1/8 of a diameter apart. The
+/// nearest approach is then at most 2e-3 of a diameter less than the nearest samples.
 const SAMPLES: usize = 32;
 
 #[test]
@@ -46,7 +46,8 @@ fn round_threads_stay_clear_with_and_without_selvedge() {
 
 #[test]
 fn unequal_threads_stay_clear_at_every_crimp() {
-    // Picks of 0.6 ends. (share, pitch over the least one)
+    // Picks are 0.6 times as thick as ends. Each pair has the share of the crimp and the pitch over
+    // the least pitch.
     for (share, ratio) in [(0.5f32, 1.01), (0.35, 1.045), (0.65, 1.045), (0.2, 1.17), (0.8, 1.17)] {
         for (name, drawdown) in weaves() {
             let pitch = |share, diameter: f64| (ratio * jam(share) * 0.32).max(diameter);
@@ -62,8 +63,8 @@ fn unequal_threads_stay_clear_at_every_crimp() {
 
 #[test]
 fn threads_of_all_sizes_and_spacings_stay_clear() {
-    // Threads are thick and thin by turns, and wide apart where the drawdown's bits are set. All
-    // have the room that the thickest need.
+    // Thick and thin threads, at close and wide spacings, follow one another at random. All have
+    // the room that the thickest need.
     for seed in 1..=3 {
         let mut bits = random_bits(seed + 100);
         let mut threads = || -> Vec<Thread> {

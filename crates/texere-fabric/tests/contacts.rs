@@ -36,11 +36,11 @@ fn cloth(section: Section) -> Yarns {
     cloth.yarns().unwrap()
 }
 
-/// Yarns of random points in a box of 4 mm. They are even, or each point has its own thickness.
+/// Yarns of random points in a box of 4 mm. They are of even thickness, or each point has its own.
 /// They come near one another, pierce, and bend sharply.
 fn tangles() -> impl Strategy<Value = Yarns> {
-    // The lower bound is a power of two: proptest 1.12 fails an assertion of its own, rarely, where
-    // one has digits finer than the upper bound.
+    // The lower bound is a power of two. With a lower bound of finer digits than the upper one,
+    // proptest 1.12 rarely fails an assertion of its own.
     let point = [0.0..4.0f32, 0.0..4.0f32, 0.0..4.0f32, 0.125..0.25f32];
     let yarn = (any::<bool>(), any::<bool>(), prop::collection::vec(point, 3..7));
     prop::collection::vec(yarn, 2..6).prop_map(|each| {
@@ -55,8 +55,8 @@ fn tangles() -> impl Strategy<Value = Yarns> {
     })
 }
 
-/// Even yarns of many points, each a few radii from the one before. Most intervals that come near
-/// pass by one another.
+/// Yarns of even thickness and many points, each a few radii from the one before. Most intervals
+/// that come near one another pass by without a contact.
 fn even_tangles() -> impl Strategy<Value = Yarns> {
     let step = [-0.4..0.4f32, -0.4..0.4f32, -0.4..0.4f32];
     let yarn = (any::<bool>(), [0.0..1.0f32, 0.0..1.0f32, 0.0..1.0f32], prop::collection::vec(step, 8..20));
@@ -82,8 +82,8 @@ proptest! {
         let brute = refined_clearance(&tangle, 60);
         match between {
             Some(contact) => {
-                // Nothing is nearer than the contact that is reported, and it is where the report
-                // says. Brute force may find less.
+                // Brute force finds nothing nearer than the contact that is reported, and the
+                // contact has its ratio at the places of the report.
                 prop_assert!(contact.ratio < brute + CLEARANCE_ACCURACY, "{} but {brute}", contact.ratio);
                 let there = contact.places.map(|place| {
                     let points = tangle.yarn_points(place.yarn).unwrap();
@@ -100,8 +100,8 @@ proptest! {
 
     #[test]
     fn no_contact_is_lost_where_even_yarns_pass_by(tangle in even_tangles()) {
-        // A thousandth is the smallest step of a size. It makes a yarn uneven, so that no pair is
-        // left out beforehand.
+        // A thousandth is about the smallest step between two sizes. It makes a yarn uneven, so
+        // that no pair of intervals is left out beforehand.
         let mut uneven = tangle.clone();
         for yarn in 0..tangle.layout().yarns().len() {
             let mut points = tangle.yarn_points(yarn).unwrap().to_vec();
@@ -110,8 +110,8 @@ proptest! {
             uneven.set_points(yarn, &points).unwrap();
         }
         let [left_out, whole] = [&tangle, &uneven].map(|yarns| clearance(yarns, &Settings::default()).unwrap());
-        // For each two yarns, the worst contact is compared with the ends of the ways downhill from
-        // the other tangle's contacts.
+        // For each pair of yarns, the worst contact is compared with the ends of the ways downhill
+        // from the contacts of the other tangle.
         for (tangle, own, others) in [(&tangle, &left_out, &whole), (&uneven, &whole, &left_out)] {
             if own.worst.len().max(others.worst.len()) == CONTACTS_LISTED {
                 continue;
@@ -153,7 +153,8 @@ fn every_crossing_of_a_cloth_is_a_contact() {
     let (warp, weft) = (vec![thread; 20], vec![thread; 16]);
     let mut cloth =
         Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
-    // A thread that is steep between its crossings comes near the crossing threads a second time.
+    // With this shape, threads that are steep between their crossings come near the crossing
+    // threads a second time.
     cloth.set_shape(Shape::Crossing);
     let yarns = cloth.yarns().unwrap();
     let report = clearance(&yarns, &Settings::default()).unwrap();
@@ -189,7 +190,8 @@ fn a_planted_piercing_is_found_at_its_place() {
 
 #[test]
 fn a_yarn_that_comes_back_to_itself_is_found() {
-    // A hairpin 1 mm wide whose legs run 0.15 mm apart at their ends: its radius is 0.1.
+    // A hairpin 1 mm wide whose legs are 0.15 mm apart at their ends. The radius of the yarn is 0.1
+    // mm.
     let points = vec![
         [0.0, 0.0, 0.0, 0.1],
         [3.0, -0.5, 0.0, 0.1],
@@ -205,8 +207,8 @@ fn a_yarn_that_comes_back_to_itself_is_found() {
 
 #[test]
 fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
-    // A circle of 96 points and radius 2, the yarn 0.5: the radius of curvature is four times the
-    // yarn's.
+    // A circle of 96 points with a radius of 2 mm, and a yarn with a radius of 0.5 mm. The radius
+    // of curvature is four times the radius of the yarn.
     let ring = |radius: f32| -> Vec<[f32; 4]> {
         let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
         (0..96).map(|k| [2.0 * angle(k).cos(), 2.0 * angle(k).sin(), 0.0, radius]).collect()
@@ -220,7 +222,7 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
-/// A section beside its axis folds only where it reaches into the bend. In a counter-clockwise ring
+/// A section beside its axis folds only if it reaches into the bend. In a counter-clockwise ring
 /// the section's side points to the middle.
 #[test]
 fn a_polygon_on_the_outer_side_of_a_bend_does_not_fold() {
@@ -257,7 +259,7 @@ fn a_yarn_that_turns_straight_back_has_no_bend_left() {
     let points = vec![[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1], [0.5, 0.0, 0.0, 0.1], [3.0, 0.0, 0.0, 0.1]];
     let report = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
     assert_eq!(report.curvature_min, 0.0);
-    // Straight on, however unevenly, there is no bend.
+    // A yarn that goes straight on has no bend, however uneven its points are.
     let points = vec![[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1], [1.5, 0.0, 0.0, 0.1], [3.0, 0.0, 0.0, 0.1]];
     let report = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
     assert_eq!((report.curvature_min, report.curvature_at), (f64::INFINITY, None));
@@ -265,7 +267,8 @@ fn a_yarn_that_turns_straight_back_has_no_bend_left() {
 
 #[test]
 fn flat_yarns_are_measured_by_their_surfaces() {
-    // Straight, crossing and side by side: half heights and half widths add up.
+    // Straight yarns touch at the sum of their half heights if they cross, and of their half widths
+    // if they lie side by side.
     let flat = ellipse(4.0);
     let crossing = |z: f32| {
         let along = vec![[-3.0, 0.0, 0.0, 0.25], [3.0, 0.0, 0.0, 0.25]];
@@ -279,8 +282,8 @@ fn flat_yarns_are_measured_by_their_surfaces() {
     assert!((report.min - 0.9).abs() < 1e-3, "{}", report.min);
 }
 
-/// Round sections that are flattened, also by different amounts along the yarn, are measured as
-/// flat ones are.
+/// Round sections that are flattened, also by different amounts along the yarn, are measured by
+/// their surfaces as flat sections are.
 #[test]
 fn flattened_yarns_are_measured_by_their_surfaces() {
     let lay =
@@ -290,21 +293,22 @@ fn flattened_yarns_are_measured_by_their_surfaces() {
         yarns.yarn(Yarn::default(), &lay(one)).yarn(Yarn::default(), &lay(other));
         clearance(&yarns.build().unwrap(), &Settings::default()).unwrap().min
     };
-    // Crossing: half heights add up. Side by side: half widths do.
+    // If yarns cross, half heights add up. If they lie side by side, half widths do.
     let along = [[-3.0, 0.0, 0.0, 0.5, 0.125], [3.0, 0.0, 0.0, 0.5, 0.125]];
     let crossing = measured(along, [[0.4, -3.0, 0.2625, 0.5, 0.125], [0.4, 3.0, 0.2625, 0.5, 0.125]]);
     assert!((crossing - 1.05).abs() < 1e-4, "{crossing}");
     let beside = measured(along, [[-3.0, 0.9, 0.0, 0.5, 0.125], [3.0, 0.9, 0.0, 0.5, 0.125]]);
     assert!((beside - 0.9).abs() < 1e-3, "{beside}");
-    // A yarn becomes round from one end to the other. Half way along, the other yarn meets the mean
-    // of both sections.
+    // One yarn is flat at one end and round at the other. The other yarn crosses it half way, at
+    // the mean of both sections.
     let changing = [[-3.0, 0.0, 0.0, 0.5, 0.125], [3.0, 0.0, 0.0, 0.25, 0.25]];
     let middle = measured(changing, [[0.0, -3.0, 0.25, 0.5, 0.125], [0.0, 3.0, 0.25, 0.5, 0.125]]);
     let slope = 0.125 / 6.0;
     assert!((middle - 0.25 / (0.1875 + 0.125)).abs() < slope, "{middle}");
 }
 
-/// Two equal ellipses touch where the distance of their centres is twice the reach of one.
+/// Two equal ellipses touch if the distance of their centres is twice the reach of one in that
+/// direction.
 #[test]
 fn flattened_yarns_beside_and_above_one_another() {
     let [half_width, half_height] = [0.25f32, 0.125];
@@ -325,8 +329,8 @@ fn flattened_yarns_beside_and_above_one_another() {
     }
 }
 
-/// A plied yarn that grows thicker, in a coil that comes near itself. The order of its points makes
-/// no difference.
+/// A plied yarn that grows thicker, in a coil that comes near itself, has the same clearance if its
+/// points are reversed.
 #[test]
 fn a_plied_yarn_meets_itself_from_either_end() {
     let coil = |reversed: bool| {
@@ -349,7 +353,8 @@ fn a_plied_yarn_meets_itself_from_either_end() {
     assert!((one.min - other.min).abs() < 3e-3, "{} and {}", one.min, other.min);
 }
 
-/// More rings than a mesh may have, for a yarn whose roll has to be worked out at each ring.
+/// A yarn whose roll has to be worked out at each ring, and that has more rings than a mesh may
+/// have.
 #[test]
 fn a_yarn_of_too_many_rings_is_refused() {
     let points: Vec<_> = (0..5_000_000).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect();
@@ -409,7 +414,7 @@ fn cloth_of(aspect: f32) -> Yarns {
 
 #[test]
 fn yarns_of_one_place_and_of_all_sizes_are_measured() {
-    // All points alike; a point far away; radii at both limits.
+    // One yarn has equal points, two are very long, and radii are at both limits.
     let still = vec![[1.0, 1.0, 1.0, 0.1]; 4];
     let far = vec![[-1e9, 0.0, 0.0, 1e-4], [1e9, 0.0, 0.0, 1e-4]];
     let thick = vec![[0.0, 0.0, 0.0, 3e4], [0.0, 1e9, 0.0, 3e4]];
@@ -418,8 +423,8 @@ fn yarns_of_one_place_and_of_all_sizes_are_measured() {
     assert!(report.min < 1e-3 && !report.min.is_nan());
 }
 
-/// Two neighbouring ends that bend around different picks. Their tangent tubes have no single place
-/// to touch, and the yarns are far apart.
+/// Two neighbouring ends bend around different picks. Straight tubes along their tangents would
+/// touch at more than one place, but the yarns are far apart.
 #[test]
 fn neighbours_that_wave_otherwise_do_not_touch() {
     let ends: [&[[f32; 5]]; 2] = [
@@ -448,13 +453,13 @@ fn neighbours_that_wave_otherwise_do_not_touch() {
             .collect();
         yarns.yarn(Yarn::default(), &points);
     }
-    // 0.22 mm from middle to middle, and half widths of 0.10 mm at most.
+    // Their middles are 0.22 mm apart, and their half widths are at most 0.10 mm.
     let found = clearance(&yarns.build().unwrap(), &Settings::default()).unwrap();
     assert!(found.min > 1.05, "{:?}", found.worst);
 }
 
-/// A pick that touches an end beside one of its control points: the tubes touch on one side of the
-/// point, the surfaces on the other.
+/// A pick touches an end beside one of its control points. Straight tubes along the tangents touch
+/// on one side of the point, the surfaces on the other.
 #[test]
 fn a_touch_beside_a_control_point_is_found() {
     let threads: [&[[f32; 5]]; 2] = [
@@ -491,12 +496,13 @@ fn a_touch_beside_a_control_point_is_found() {
             .collect();
         yarns.yarn(Yarn::default(), &points);
     }
-    // By dense sampling, the surfaces touch at 0.9846.
+    // By dense sampling, the ratio of the surfaces is 0.9846.
     let found = clearance(&yarns.build().unwrap(), &Settings::default()).unwrap();
     assert!((found.min - 0.9846).abs() < 2e-3, "{:?}", found.worst);
 }
 
-/// The nearest approach of two yarns lies beside a less near one, in one valley of their distance.
+/// The nearest approach of two yarns lies beside another approach that is less near. Both are
+/// minima of the distance in the same long valley.
 #[test]
 fn the_nearer_of_two_approaches_in_a_valley_is_found() {
     let one = vec![
@@ -554,8 +560,8 @@ fn a_contact_just_before_a_knot_is_found() {
     assert!(found.min < 0.162, "{}", found.min);
 }
 
-/// Two yarns cross where each has a control point, and are symmetric about it. One of the four
-/// pairs of intervals has the contact, however numbers are rounded.
+/// Two yarns cross where each has a control point, and are symmetric about this point. Exactly one
+/// of the four pairs of intervals there has the contact, however numbers are rounded.
 #[test]
 fn a_crossing_on_a_control_point_is_one_contact() {
     let mut state = 1_u64;
@@ -568,8 +574,8 @@ fn a_crossing_on_a_control_point_is_one_contact() {
         let out = |point: [f32; 3]| {
             [[-point[0], -point[1], point[2], 0.125], [point[0], point[1], point[2], 0.125]]
         };
-        // The first yarn falls to both sides, and the other rises or falls. They cross at any angle
-        // that is not flat.
+        // The first yarn falls to both sides of the crossing. The other one rises or falls. The
+        // angle between both is not small.
         let turn = random(0.6, 2.5);
         let [near, far] = [random(0.3, 0.7), random(0.8, 1.5)];
         let height = random(0.1, 0.24);
@@ -584,7 +590,8 @@ fn a_crossing_on_a_control_point_is_one_contact() {
         let middle = f64::from(height) / 0.25;
         let is_there = |place: &YarnPlace| place.position[0].hypot(place.position[1]) < 1e-4;
         let at_knot = found.worst.iter().filter(|contact| contact.places.iter().all(is_there)).count();
-        // If yarns are nearer beside the control points, they meet elsewhere.
+        // If the yarns are nearer to one another beside the control points, their contact lies
+        // elsewhere.
         let round_about = (0..64).map(|k| {
             let (sin, cos) = (TAU * f64::from(k) / 64.0).sin_cos();
             place(&both, 0, 2.0 + 0.05 * cos).0.distance(place(&both, 1, 2.0 + 0.05 * sin).0) / 0.25

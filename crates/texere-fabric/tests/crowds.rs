@@ -1,4 +1,4 @@
-//! The work of the clearance report: it is counted, grows with the number of control points, and is
+//! The work of the clearance report is counted, grows with the number of control points, and is
 //! bounded for any yarns. Places with far too much yarn are reported as crowds.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
@@ -19,8 +19,8 @@ use texere_fabric::{Shape, Thread};
 use cloths::{cloth, weave, weaves};
 use oracle::round_clearance;
 
-/// The most pairs per control point in cloth whose yarns are clear of one another. A small cloth in
-/// one cell of the grid takes most.
+/// The most pairs per control point in cloth whose yarns are clear of one another. A small cloth
+/// that lies in one cell of the grid takes most pairs.
 const SANE: u64 = 128;
 
 /// Plain cloth of `size` ends and picks, 0.75 mm apart.
@@ -54,7 +54,7 @@ fn bounded(yarns: &Yarns) -> Clearance {
 fn clear_cloth_takes_few_pairs_and_is_no_crowd() {
     for (name, drawdown) in weaves() {
         for shape in [Shape::Round, Shape::Crossing] {
-            // Pitches from a little over the least one.
+            // Pitches from a little more than the least pitch on.
             for pitch in [1.8, 2.5, 4.0, 6.0] {
                 let threads = [Thread::new(pitch * 0.2, 0.1); 2];
                 let yarns = cloth(shape, drawdown.clone(), threads, Section::Circle).yarns().unwrap();
@@ -89,7 +89,7 @@ fn work_grows_with_the_cloth_however_thick_its_yarns() {
 #[test]
 fn yarns_thicker_than_several_pitches_are_told_with_place_and_thickness() {
     for shape in [Shape::Round, Shape::Crossing] {
-        // Threads of twice the pitch, of four times, and far too thick.
+        // Threads twice and four times as thick as the pitch, and far thicker.
         for diameter in [1.5f32, 3.0, 1000.0] {
             let yarns = plain(shape, 24, diameter);
             let found = bounded(&yarns);
@@ -123,7 +123,7 @@ fn one_crowd_does_not_hide_the_rest() {
         let at = |t: f32| [x + along[0] * t, y + along[1] * t, 0.0, 0.125];
         (false, (0..4).map(|k| at(k as f32)).collect::<Vec<_>>())
     };
-    // A hundred yarns in one place, and far away two whose ratio is three quarters.
+    // A hundred yarns lie in one place, and far away two yarns whose ratio is three quarters.
     let crowded = (0..100).map(|k| yarn(0.0, 0.001 * k as f32, [0.1, 0.0]));
     let pair = [yarn(50.0, 50.0, [1.0, 0.0]), yarn(50.0, 50.1875, [1.0, 0.0])];
     let found = bounded(&yarns(crowded.chain(pair)));
@@ -156,15 +156,15 @@ fn a_fine_cloth_within_a_coarse_one_is_measured_like_each_of_them() {
 
 #[test]
 fn straight_yarns_of_two_points_meet_as_often_as_they_cross() {
-    // A layer of 700 threads on one of 800. Each crossing is a contact, and no thread is near the
-    // one beside it.
+    // A layer of 700 threads lies on a layer of 800. Each crossing is a contact, and no thread is
+    // near the thread beside it.
     let wefts = (0..700).map(|k| (false, vec![[0.0, k as f32, 0.0, 0.125], [800.0, k as f32, 0.0, 0.125]]));
     let warps =
         (0..800).map(|k| (false, vec![[k as f32, 0.0, 0.2375, 0.125], [k as f32, 700.0, 0.2375, 0.125]]));
     let found = bounded(&yarns(wefts.chain(warps)));
     assert_eq!((found.crowd, found.contacts), (None, 700 * 800));
     assert!((found.min - 0.95).abs() < 1e-6);
-    // More threads side by side than one thread is compared with. That is a crowd, too.
+    // More threads lie side by side than a thread is compared with. They are a crowd, too.
     let many = (0..2 * CLEARANCE_BESIDE).map(|k| {
         let at = k as f32 * 0.01;
         (false, vec![[at, at, at, 0.001], [at + 99.0, at + 100.0, at + 101.0, 0.001]])
@@ -175,7 +175,7 @@ fn straight_yarns_of_two_points_meet_as_often_as_they_cross() {
 
 #[test]
 fn a_yarn_coiled_on_itself_ends() {
-    // 100,000 turns in one place, as thick as they would be and as thin as possible.
+    // 100,000 turns in one place, of a usual yarn and of the thinnest possible one.
     for radius in [0.1, 1e-4] {
         let turn = |k: usize| ((k as f32 * TAU / 8.0).cos(), (k as f32 * TAU / 8.0).sin());
         let coil = (0..800_000).map(|k| (turn(k % 8).0, turn(k % 8).1)).map(|(x, y)| [x, y, 0.0, radius]);
@@ -186,8 +186,8 @@ fn a_yarn_coiled_on_itself_ends() {
 
 #[test]
 fn points_in_one_place_end() {
-    // Too many turns for a walk along the yarn, point by point, from one to another; and a few
-    // beside them.
+    // Too many points lie in one place for a walk along the yarn from each point to each other one,
+    // and a few lie beside them.
     for count in [200, 300, 1000, 1500, 200_000] {
         let still = std::iter::repeat_n([1.0, 1.0, 1.0, 0.1], count);
         let beside = (0..250).map(|k| [1.0 + 1e-3 * k as f32, 1.0, 1.0, 0.1]);
@@ -209,7 +209,7 @@ fn progress_is_told_and_heard() {
     .unwrap();
     assert_eq!(found, clearance(&yarns, &Settings::default()).unwrap());
     assert!(told.is_sorted() && told.len() > 10 && told.last() == Some(&1.0), "{told:?}");
-    // Progress comes in small steps, or a user would take the program for hanging.
+    // Progress comes in small steps, because a user would otherwise believe that the program hangs.
     assert!(told.windows(2).all(|pair| pair[1] - pair[0] < 0.3), "{told:?}");
     let mut last = 0.0;
     let stopped = clearance_with_progress(&yarns, &Settings::default(), |done| {
@@ -220,7 +220,7 @@ fn progress_is_told_and_heard() {
     assert!(last < 0.7, "{last}");
 }
 
-/// Numbers at the limits of what yarns take, and between.
+/// Numbers at the limits that yarns allow, and between them.
 fn extreme() -> impl Strategy<Value = f32> {
     prop_oneof![Just(0.0f32), Just(1e9), Just(-1e9), Just(1e-6), -1.0..1.0f32, -1e6..1e6f32]
 }
@@ -271,8 +271,8 @@ proptest! {
     }
 }
 
-/// Two lines 1.10019 times 0.04 mm apart. That is 1.09995 times two radii of 0.02 mm, as half
-/// floats have them.
+/// Two lines 1.10019 times 0.04 mm apart. The distance is 1.09995 times two radii of 0.02 mm, once
+/// these are rounded to half floats.
 #[test]
 fn a_radius_counts_as_the_points_hold_it() {
     let pair = [
@@ -286,13 +286,13 @@ fn a_radius_counts_as_the_points_hold_it() {
     assert!((found.min - apart / touching()).abs() < 1e-5, "{}", found.min);
 }
 
-/// Thin straight yarns, whose contacts are those of their middle lines.
+/// Thin straight yarns, whose contacts lie where their middle lines are nearest.
 fn straight(ends: &[[[f32; 3]; 2]]) -> Yarns {
     yarns(ends.iter().map(|ends| (false, ends.iter().map(|[x, y, z]| [*x, *y, *z, THIN]).collect())))
 }
 
-/// The radius of [`straight`] yarns, mm, before points round it to a half float, by 2 parts in
-/// 10,000.
+/// The radius of [`straight`] yarns, mm. Points round it to a half float, which changes it by 2
+/// parts in 10,000.
 const THIN: f32 = 0.02;
 
 /// Distance between the middle lines of two touching [`straight`] yarns, mm, by the radii that
@@ -301,8 +301,8 @@ fn touching() -> f64 {
     2.0 * f64::from(ControlPoint::new(0.0, 0.0, 0.0, THIN).half_width())
 }
 
-/// Least distance between two straight lines of finite length. The distance is convex along the
-/// one, which a search by thirds uses.
+/// Least distance between two straight lines of finite length. The distance is convex along one of
+/// the lines, so that a search by thirds gives its minimum.
 fn segments_apart(one: &[[f32; 3]; 2], other: &[[f32; 3]; 2]) -> f64 {
     let [a, b] = one.map(|point| glam::Vec3::from(point).as_dvec3());
     let [p, q] = other.map(|point| glam::Vec3::from(point).as_dvec3());

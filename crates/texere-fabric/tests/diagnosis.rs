@@ -1,4 +1,4 @@
-//! Faults are named as a weaver names them, and cures do cure.
+//! Faults are named by thread and crossing, and cures leave the faults that they say.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
@@ -9,7 +9,7 @@ use texere_fabric::{
     WovenDesign,
 };
 
-/// Yarns of 0.3 mm at these spacings of ends and picks.
+/// Cloth with yarns of 0.3 mm at the given spacings of ends and picks.
 fn cloth(weave: &str, [ends, picks]: [f64; 2]) -> Woven {
     let drawdown = Weave::parse(weave).unwrap().drawdown(20, 16).unwrap();
     let (warp, weft) = (vec![Thread::new(ends, 0.15); 20], vec![Thread::new(picks, 0.15); 16]);
@@ -41,7 +41,7 @@ fn faults_are_named_by_thread_and_crossing() {
     );
     let jams = faults.jams.unwrap();
     assert_eq!((jams.ends, jams.picks, jams.threads[0].thread), (19, 0, Origin::End(2)));
-    // A contact of an end and a pick lies at their crossing or at the one beside it.
+    // A contact of an end and a pick lies at their crossing or at the crossing beside it.
     let contact = faults.pierces[0];
     let [Origin::End(end), Origin::Pick(pick)] = contact.places.map(|place| place.thread) else {
         panic!("{contact:?}")

@@ -1,12 +1,12 @@
-//! Drafts against the definition, written out in the slow way.
+//! Drafts against their definition, in plain and slow code.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use proptest::prelude::*;
 use texere_fabric::{Draft, FabricError, Shedding, WovenError};
 
-/// Whether the warp is up, by the draft's definition: the end's shaft is among the lifted ones, or
-/// with a sinking shed it is not.
+/// Whether the warp is up, by the draft's definition: with a rising shed one of the end's shafts is
+/// lifted, with a sinking shed none is.
 fn up(draft: &Draft, end: usize, pick: usize) -> bool {
     let lifted: Vec<u32> = match &draft.shedding {
         Shedding::LiftPlan(lifts) => lifts[pick].clone(),
@@ -36,7 +36,7 @@ fn shedding() -> impl Strategy<Value = Shedding> {
 proptest! {
     #[test]
     fn drawdown_follows_the_definition(
-        // Wide enough for shafts with many ends and with few.
+        // Enough ends for shafts with many ends and shafts with few.
         threading in lists(6, 1..200),
         shedding in shedding(),
         rising_shed: bool,

@@ -1,4 +1,4 @@
-//! Meshes of polygonal tubes that turn inside out: where a tube bends more tightly than its section
+//! Meshes of polygonal tubes turn inside out where a tube bends more tightly than its section
 //! reaches inwards, for sections of any shape.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -8,11 +8,11 @@ use texere_core::{ControlPoint, Section, Settings, Yarn, Yarns};
 /// Half the width of the yarn, mm.
 const RADIUS: f32 = 0.1;
 
-/// An L whose notch holds the axis.
+/// An L whose notch contains the axis.
 const L: &[[f32; 2]] = &[[-1.0, -1.0], [1.0, -1.0], [1.0, -0.5], [-0.5, -0.5], [-0.5, 1.0], [-1.0, 1.0]];
 /// A triangle beside the axis.
 const ASIDE: &[[f32; 2]] = &[[2.0, -0.5], [3.0, -0.5], [2.5, 0.5]];
-/// A beam with a T's head: its outline goes back beneath the head.
+/// A T, whose outline goes back beneath its head.
 const T: &[[f32; 2]] =
     &[[-0.2, -1.0], [0.2, -1.0], [0.2, 0.6], [1.0, 0.6], [1.0, 1.0], [-1.0, 1.0], [-1.0, 0.6], [-0.2, 0.6]];
 
@@ -30,7 +30,8 @@ fn moved(outline: &[[f32; 2]], by: [f32; 2]) -> Vec<[f32; 2]> {
     outline.iter().map(|corner| [corner[0] + by[0], corner[1] + by[1]]).collect()
 }
 
-/// A yarn of this section along a third of a circle about the z axis, to the left or to the right.
+/// The mesh's quality of a yarn with this section along a third of a circle about the z axis, to
+/// the left or to the right.
 fn bent(outline: &[[f32; 2]], bend_mm: f32, left: bool, twist: f32) -> Drawn {
     let side = if left { 1.0 } else { -1.0 };
     let point = |number: u8| {
@@ -65,8 +66,8 @@ fn sound_polygons_of_a_gently_bent_yarn_face_outwards() {
     }
 }
 
-/// A section that reaches to one side of the axis only. Bent to that side, it turns inside out
-/// where it reaches beyond the centre of the bend. Bent to the other side, it never does.
+/// A section that reaches to one side of the axis only. Bent to that side, the tube turns inside
+/// out if the section reaches beyond the centre of the bend. Bent to the other side, it never does.
 #[test]
 fn a_bend_tighter_than_the_section_reaches_is_inside_out() {
     // Triangles from 2 to 3 radii beside the axis.

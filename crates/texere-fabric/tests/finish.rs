@@ -56,7 +56,7 @@ fn threads_that_are_too_near_come_to_rest() {
     assert!(settled.course.is_empty());
 }
 
-/// Only positions have changed, and the yarns' ends have not moved.
+/// Settling changes only positions, and the yarns' ends do not move.
 #[test]
 fn the_yarns_are_the_same_ones_and_held_at_their_ends() {
     let structure = plain(1.7);
@@ -77,7 +77,7 @@ fn the_yarns_are_the_same_ones_and_held_at_their_ends() {
     assert_eq!(structure.place(after, &worst).thread, settled.origin(&worst));
 }
 
-/// A backend whose settler turns the first end over when its positions are read.
+/// A backend whose settler mirrors the first end when positions are read.
 #[derive(Debug)]
 struct Flipping(ParallelBackend);
 
@@ -225,7 +225,7 @@ fn copies_join_what_goes_on() {
         |yarn| laid.yarn_points(yarn).unwrap().iter().map(|point| [point.x, point.y]).collect::<Vec<_>>();
     let picks = of(Origin::Pick(1));
     assert_eq!(places(picks[1]), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x| [x, 1.5]));
-    // It begins at the top.
+    // The thread that runs down begins at the top.
     let ends = of(Origin::End(1));
     assert_eq!(places(ends[2]), [2.0, 1.75, 1.25, 1.0, 0.75, 0.25].map(|y| [4.5, y]));
     assert_eq!(laid.sources().unwrap()[laid.range(ends[2]).unwrap()], [2, 3, 4, 2, 3, 4]);
@@ -244,13 +244,13 @@ fn copies_that_can_not_be_are_refused() {
     assert!(matches!(one.placed(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
 }
 
-/// A settled repeat makes settled cloth: copies of a plain weave's repeat have its clearance at
-/// their seams.
+/// Copies of a settled repeat make settled cloth: the seams between copies of a plain weave's
+/// repeat are as clear as the repeat.
 #[test]
 fn a_settled_repeat_fits_its_copies() {
     let mut yarns = Yarns::builder();
     let mut ends = Vec::new();
-    // Four ends and four picks 1.7 diameters apart, as straight steps. That is far from rest.
+    // Four ends and four picks 1.7 diameters apart, in straight steps. They are far from rest.
     for along in [true, false] {
         for number in 0..4 {
             let side = |crossing: u8| {

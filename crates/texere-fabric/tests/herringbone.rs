@@ -1,4 +1,4 @@
-//! The file of the herringbone in `designs/` is the one that its example draws, and it is a
+//! The file of the herringbone in `designs/` equals the one that its example writes, and shows a
 //! herringbone.
 
 #[allow(dead_code, reason = "its main is not called here")]

@@ -1,4 +1,4 @@
-//! Weft-knitted cloth: counts, copies, sizes, whole pieces, measures and refusals.
+//! Weft-knitted cloth: counts, copies, sizes, cloth that does not repeat, measures and refusals.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use std::ops::ControlFlow;
@@ -13,7 +13,7 @@ use texere_fabric::weft::{
 };
 use texere_fabric::{FabricError, Finish, Finished, Structure};
 
-/// A yarn of 0.2 mm and 30 tex.
+/// A knit with yarns of 0.2 mm and 30 tex.
 fn knit(stitches: Stitches, copies: [u32; 2]) -> Result<Knitted, FabricError> {
     let material = Material { tex: Some(30.0), ..Material::default() };
     let yarns = vec![KnitYarn::new(0.1); 2];
@@ -24,7 +24,7 @@ fn chart(text: &str) -> Stitches {
     Machine::default().knit(&Chart::parse(text, Beds::One).unwrap().program().unwrap()).unwrap().stitches
 }
 
-/// Plain jersey by one carrier to and fro.
+/// Plain jersey that one carrier knits to and fro.
 fn flat(needles: i32, courses: u32) -> Stitches {
     let mut operations = Vec::new();
     let mut add = |instruction| {
@@ -78,7 +78,8 @@ fn repeats_are_laid_as_they_are_charted() {
     }
 }
 
-/// Every needle that a yarn comes to has equally many control points, for a loop as for a float.
+/// With [`Cells::Even`], every needle that a yarn comes to has equally many control points, for a
+/// loop or for a float.
 #[test]
 fn even_cells_have_twelve_points_each() {
     let floats = chart("kmkk\nkkkm\nktkk\npkkk");
@@ -90,8 +91,8 @@ fn even_cells_have_twelve_points_each() {
     }
 }
 
-/// A whole piece turns at its edges. Its pinned points stay in place: the ends, the first feet and
-/// the heads on needles.
+/// The yarn of a cloth that does not repeat turns at its edges. The pinned points stay in place:
+/// the ends, the first feet and the heads on needles.
 #[test]
 fn a_whole_piece_settles_with_its_edges_held() {
     let knit = knit(flat(6, 6), [1, 1]).unwrap();
@@ -119,7 +120,7 @@ fn a_whole_piece_settles_with_its_edges_held() {
     assert_eq!(piece.yarns.sources().unwrap()[0], 2);
 }
 
-/// One repeat settles, and its copies are as clear as the repeat, up to the cut edges.
+/// One repeat settles. Its copies are as clear as the repeat, also at the cut edges.
 #[test]
 fn copies_of_a_repeat_that_settled_are_clear() {
     let gauge = Gauge { loop_length_mm: Some(3.9), ..Gauge::new(1.0, 0.75) };
@@ -140,7 +141,7 @@ fn copies_of_a_repeat_that_settled_are_clear() {
     assert!((loops.loop_length_mm / 3.9 - 1.0).abs() < 0.05, "{loops:?}");
     assert!((loops.stitch_density - 100.0 / 0.75).abs() < 1e-9);
     assert!((loops.tightness.unwrap() - 30f64.sqrt() / (loops.loop_length_mm / 10.0)).abs() < 1e-9);
-    // Stitches to the cm² × loop length × tex / 100, in g/m².
+    // The weight is stitches to the cm² × loop length × tex / 100, in g/m².
     let weight = loops.stitch_density * loops.loop_length_mm * 30.0 / 100.0;
     assert!((measures.areal_weight.unwrap() / weight - 1.0).abs() < 1e-9);
     assert!(measures.crimp.is_none() && measures.cover.is_none());
@@ -209,9 +210,9 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     };
     let right = |needle| Instruction::Knit(Direction::Right, Needle::front(needle));
     let left = |needle| Instruction::Knit(Direction::Left, Needle::front(needle));
-    // Floats past all needles.
+    // Yarns that float past all needles.
     let floats = (0..400).map(|each| (if each % 2 == 0 { right(65536) } else { left(-65536) }, 1)).collect();
-    // A yarn that comes back thousands of courses later, many times.
+    // A yarn that comes back many times, thousands of courses later.
     let mut rises = vec![(right(5), 1), (left(0), 1)];
     rises.extend((0..20_000).map(|_| (right(0), 2)));
     rises.extend((0..400).flat_map(|_| [(right(0), 1), (left(5), 1)]));
@@ -226,8 +227,8 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
 }
 
-/// Loops with lengths of their own get the sum of these, along splines of any tension. A loop
-/// without one counts with the length of the gauge.
+/// Loops with lengths of their own together get the sum of these lengths, along splines of any
+/// tension. A loop without a length counts with the length of the gauge.
 #[test]
 fn loops_ask_for_their_lengths() {
     let given = |lengths: [Option<f32>; 2], gauge: Option<f64>, tension: f32| {

@@ -1,4 +1,4 @@
-//! Layers of cloth against all sets of threads that can be lifted off the others.
+//! Layers of cloth against all sets of threads that can be lifted off the rest.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -54,8 +54,8 @@ fn layers_are_what_can_be_lifted_off() {
         for upto in 1..layers.len() {
             assert!(all.contains(&sum(upto)), "{layers:?} {all:?}");
         }
-        // Any other set that can be lifted off is part of one layer, and has only ends or only
-        // picks. Ends and picks of a layer hang together.
+        // Any other set that can be lifted off is a number of whole layers and a part of the next
+        // layer, which has only ends or only picks. Ends and picks of one layer hang together.
         for size in &all {
             let within = |upto: usize| {
                 let layer = layers[upto];
@@ -87,7 +87,7 @@ fn weaves_hang_together_and_double_cloth_does_not() {
     // One back end that is lifted over a face pick stitches the layers together.
     double.set(1, 0, true).unwrap();
     assert_eq!(sizes(&double), [[24, 36]]);
-    // A pick that no end passes over lies on the cloth.
+    // A pick that no end passes over lies loose on the cloth.
     let loose = Drawdown::from_fn(6, 6, |end, pick| pick != 2 && plain(end, pick)).unwrap();
     assert_eq!(sizes(&loose), [[0, 1], [6, 5]]);
 }

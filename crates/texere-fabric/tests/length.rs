@@ -1,4 +1,4 @@
-//! Lengths against closed forms and against chords.
+//! Lengths of yarns against closed forms and against sums of chords.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -17,7 +17,7 @@ fn one_yarn(closed: bool, points: &[ControlPoint]) -> Yarns {
 
 #[test]
 fn a_straight_yarn_is_as_long_as_its_ends_are_apart() {
-    // Uneven spacing, in the direction (2, 3, 6) / 7, far from the origin.
+    // Points are unevenly spaced in the direction (2, 3, 6) / 7, far from the origin.
     let points = [0.0f32, 7.0, 21.0, 35.0, 42.0, 70.0]
         .map(|at| ControlPoint::new(1024.0 + at / 7.0 * 2.0, at / 7.0 * 3.0, at / 7.0 * 6.0, 0.1));
     for tension in [0.0, 0.5, 0.9] {
@@ -46,8 +46,8 @@ fn a_dense_circle_is_tau_radii_long() {
 
 #[test]
 fn a_square_yarn_has_the_length_of_its_chords() {
-    // Corners bend sharply within an interval. A rule of few points is worst there. The yarns are
-    // open and closed, with two tensions.
+    // Corners bend sharply within an interval, where an integration rule of few points is least
+    // exact. The yarns are open and closed, with two tensions.
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 1.0], [4.0, 4.0, 0.0], [0.0, 4.0, 1.0], [1.0, 1.0, 2.0]]
         .map(|[x, y, z]| ControlPoint::new(x, y, z, 0.1));
     for (closed, tension) in [(false, 0.0f32), (true, 0.0), (false, 0.4), (true, 0.4)] {
@@ -102,8 +102,8 @@ fn crimp_lengthens_the_yarns_of_a_cloth() {
 
 #[test]
 fn a_yarn_of_many_intervals_adds_up_over_tasks() {
-    // All intervals of a zigzag are alike, except the first and the last. Twice the yarn has twice
-    // the length between these.
+    // All intervals of a zigzag are alike, except the first and the last. A zigzag with twice as
+    // many intervals has twice the length between these two.
     let zigzag = |count: usize| -> Vec<_> {
         (0..count).map(|k| ControlPoint::new(k as f32, (k % 2) as f32, 0.0, 0.1)).collect()
     };

@@ -1,4 +1,4 @@
-//! Levels of threads: threads that lie above others of their own set.
+//! Levels of threads: threads that lie above other threads of their own set.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -30,7 +30,7 @@ fn highest(drawdown: &Drawdown) -> [u32; 2] {
 fn threads_of_most_weaves_lie_side_by_side() {
     for notation in SINGLE {
         let weave = Weave::parse(notation).unwrap();
-        // A whole number of repeats, and a number that is not whole.
+        // First a whole number of repeats, then a number that is not whole.
         for [ends, picks] in [[64, 64], [61, 67]] {
             assert_eq!(highest(&weave.drawdown(ends, picks).unwrap()), [0; 2], "{notation}");
         }
@@ -61,7 +61,7 @@ fn threads_without_any_order_lie_side_by_side() {
     }
 }
 
-/// Threads of known levels, each level a weave of its own, are found at these levels.
+/// Threads are given levels, and each level is a weave of its own. The same levels are then found.
 #[test]
 fn layers_are_found_in_any_order() {
     let weaves: [fn(usize, usize) -> bool; 3] = [
@@ -69,8 +69,8 @@ fn layers_are_found_in_any_order() {
         |end, pick| (end + 640 - pick) % 4 < 2,
         |end, pick| !(end + 640 - 3 * (pick % 8)).is_multiple_of(8),
     ];
-    // Levels of a repeat's threads: by turns, two on the face for one on the back, in pairs, and
-    // three layers.
+    // Levels of a repeat's threads: alternating, two or three on the face for one on the back, in
+    // pairs, and three layers.
     for order in [&[1, 0][..], &[0, 1], &[1, 1, 0], &[1, 1, 1, 0], &[1, 1, 0, 0], &[2, 1, 0], &[0, 2, 1]] {
         for weave in weaves {
             let layer = |thread: usize| order[thread % order.len()];

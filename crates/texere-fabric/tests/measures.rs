@@ -18,7 +18,7 @@ fn cloth(tex: [Option<f32>; 2]) -> Woven {
     open_cloth(tex, 0.4)
 }
 
-/// The cloth with ends further apart.
+/// The cloth of [`cloth`] with other spacings of its ends.
 fn open_cloth(tex: [Option<f32>; 2], spacing_mm: f64) -> Woven {
     let (warp, weft) = (Thread::new(spacing_mm, 0.1), Thread { material: 1, ..Thread::new(0.5, 0.12) });
     let drawdown = Weave::parse("plain").unwrap().drawdown(100, 80).unwrap();
@@ -39,8 +39,8 @@ fn straight_ends_have_no_crimp_and_the_weft_has_it_all() {
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
     let BySet { warp, weft } = measures(&cloth).crimp.unwrap();
     assert!(warp.abs() < 1e-6, "{warp}");
-    // Peirce: h = 4/3 p √c. The wave is twice 0.22 mm high, its pitch 1 mm: c = (0.75 × 0.44)² =
-    // 0.109.
+    // Peirce has h = 4/3 p √c. The wave is 0.44 mm high over half its length, 1 mm, so that c =
+    // (0.75 × 0.44)² = 0.109.
     assert!((weft / 0.109 - 1.0).abs() < 0.1, "{weft}");
 }
 
@@ -48,11 +48,11 @@ fn straight_ends_have_no_crimp_and_the_weft_has_it_all() {
 fn weight_is_length_times_tex_over_area() {
     let cloth = cloth([Some(20.0), Some(30.0)]);
     let measures = measures(&cloth);
-    // 0.1 × [25 × (1 + c₁) × 20 + 20 × (1 + c₂) × 30] g/m².
+    // The weight is 0.1 × [25 × (1 + c₁) × 20 + 20 × (1 + c₂) × 30] g/m².
     let BySet { warp, weft } = measures.crimp.unwrap();
     let by_hand = 0.1 * (25.0 * (1.0 + warp) * 20.0 + 20.0 * (1.0 + weft) * 30.0);
     assert!((measures.areal_weight.unwrap() / by_hand - 1.0).abs() < 1e-9);
-    // 100 ends of 40 mm, 80 picks of 40 mm.
+    // There are 100 ends of 40 mm and 80 picks of 40 mm.
     assert!((measures.length_mm[0] / (4000.0 * (1.0 + warp)) - 1.0).abs() < 1e-9);
     assert!((measures.length_mm[1] / (3200.0 * (1.0 + weft)) - 1.0).abs() < 1e-9);
 }
@@ -76,7 +76,8 @@ fn cover_is_peirces() {
         (cover.fraction.warp / 0.5 - 1.0).abs() < 2.5e-4 && (cover.fraction.weft / 0.48 - 1.0).abs() < 2.5e-4
     );
     assert!((cover.cloth / 0.74 - 1.0).abs() < 2.5e-4);
-    // 63.5 ends an inch of Ne 30: 63.5/√30 = 11.593; 50.8 picks of Ne 20: 50.8/√20 = 11.359.
+    // 63.5 ends to the inch of Ne 30 give 63.5/√30 = 11.593. 50.8 picks to the inch of Ne 20 give
+    // 50.8/√20 = 11.359.
     let BySet { warp, weft } = cover.factor.unwrap();
     assert!((warp - 11.593).abs() < 1e-3 && (weft - 11.359).abs() < 1e-3, "{warp}, {weft}");
     // 11.593 + 11.359 - 11.593 × 11.359 / 28 = 18.249.
@@ -95,12 +96,13 @@ fn threads_wider_than_their_spacing_cover_everything() {
 
 #[test]
 fn thickness_is_from_surface_to_surface() {
-    // Plain cloth, 0.2 and 0.24 mm thick, half the crimp each: centrelines at ±0.11, the picks
-    // reach 0.12 further.
+    // Plain cloth of threads 0.2 and 0.24 mm thick, with half the crimp each. Centrelines lie at
+    // ±0.11 mm, and the picks reach 0.12 mm further.
     let mut cloth = cloth([None; 2]);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
     assert!((measures(&cloth).thickness_mm - 2.0 * (0.11 + 0.12)).abs() < 2e-3);
-    // Ends are straight in the middle of the cloth. The picks alone reach out, 0.22 to each side.
+    // Ends are straight and lie in the middle of the cloth. Only the picks swing out, by 0.22 mm to
+    // each side.
     let mut cloth = open_cloth([None; 2], 1.0);
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
     let thickness = measures(&cloth).thickness_mm;
@@ -133,7 +135,7 @@ fn a_selvedge_costs_yarn() {
     cloth.set_selvedge(true);
     let turning = measures(&cloth);
     assert_eq!(turning.crimp.unwrap().warp, cut.crimp.unwrap().warp);
-    // 79 turns round half circles of 0.25 mm radius.
+    // There are 79 turns, each a half circle with a radius of 0.25 mm.
     let more = turning.length_mm[1] - cut.length_mm[1];
     assert!((more / (79.0 * 0.25 * std::f64::consts::PI) - 1.0).abs() < 0.2, "{more}");
 }

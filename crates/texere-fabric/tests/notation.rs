@@ -1,4 +1,4 @@
-//! Weave notation against matrices drawn by hand, and what it refuses.
+//! Weave notation against matrices drawn by hand, and refusals of wrong notation.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -34,7 +34,7 @@ fn twills() {
     draws("2/2(1)", (4, 4), &["#..##..#", "..##..##", ".##..##.", "##..##.."]);
     draws("2/2(-1)", (4, 4), &[".##..##.", "..##..##", "#..##..#", "##..##.."]);
     draws("2/1*1/2", (6, 6), &["#.#..#", ".#..##", "#..##.", "..##.#", ".##.#.", "##.#.."]);
-    // Elongated: every other pick of the same twill.
+    // An elongated twill: every other pick of 4/3.
     draws(
         "4/3(2)",
         (7, 7),
@@ -45,7 +45,8 @@ fn twills() {
 
 #[test]
 fn right_hand_twills_climb_to_the_right() {
-    // Z twill: each pick is the one below, one end further to the right. S twill: to the left.
+    // In a Z twill each pick is the pick below it, moved one end to the right. In an S twill it is
+    // moved one end to the left.
     let (z, s) = (Weave::parse("3/1").unwrap(), Weave::parse("3/1(-1)").unwrap());
     for pick in 0..8 {
         for end in 0..8 {
@@ -74,7 +75,7 @@ fn satins() {
     ] {
         assert_eq!(Weave::parse(short).unwrap(), Weave::parse(long).unwrap());
     }
-    // Every legal satin puts one binding point on each end, never beside another.
+    // Every satin that can be woven has one binding point on each end, and never two side by side.
     for ends in [5, 7, 8, 9, 10, 11, 12, 13] {
         let sateen = Weave::parse(&format!("sateen {ends}")).unwrap();
         for end in 0..ends {
@@ -111,21 +112,24 @@ fn matts_by_name() {
 
 #[test]
 fn herringbones() {
-    // Drawn from the threadings in the comments, by the shafts that each pick lifts: 12, 23, 34,
-    // 41. This threading is 123412 432143.
+    // Each weave is drawn from a threading. The picks lift the shafts 1 and 2, 2 and 3, 3 and 4, 4
+    // and 1. This threading is 123412 432143.
     draws("herringbone 2/2(6)", (12, 4), &["#..##.#..##.", "..##..##..##", ".##..#.##..#", "##..##..##.."]);
-    // 1234 2143.
+    // The threading is 1234 2143.
     draws("herringbone 2/2(4)", (8, 4), &["#..#.##.", "..##..##", ".##.#..#", "##..##.."]);
-    // 12 43, the broken twill of denim, lifted by 123, 234, 341, 412.
+    // The threading is 12 43, the broken twill of denim. The picks lift the shafts 123, 234, 341
+    // and 412.
     draws("herringbone 3/1(2)", (4, 4), &["###.", "#.##", ".###", "##.#"]);
-    // 123 132: three ends have no half, so that cuts come one and two ends on. Lifted by 12, 23,
-    // 31.
+    // The threading is 123 132. Half of three ends is no whole number, so that the twill goes on
+    // one end further after one cut and two ends further after the other. The picks lift the shafts
+    // 12, 23 and 31.
     draws("herringbone 2/1(3)", (6, 3), &["#.###.", ".##.##", "##.#.#"]);
 }
 
 #[test]
 fn pointed_twills() {
-    // 1234 32, lifted by 12, 23, 34, 41; and 12341 432, lifted by 1, 2, 3, 4.
+    // The first threading is 1234 32, and picks lift the shafts 12, 23, 34 and 41. The second is
+    // 12341 432, and picks lift the shafts 1, 2, 3 and 4.
     draws("pointed 2/2(4)", (6, 4), &["#..#..", "..###.", ".##.##", "##...#"]);
     draws("pointed 1/3(5)", (8, 4), &["...#.#..", "..#...#.", ".#.....#", "#...#..."]);
 }
@@ -137,8 +141,8 @@ fn honeycomb() {
         (8, 8),
         &[".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."],
     );
-    // Its longest floats, as the Britannica describes them: five of warp and seven of weft, around
-    // a plain hollow.
+    // The longest floats are those of the description in the Britannica: five of warp and seven of
+    // weft, around a hollow of plain weave.
     let weave = Weave::parse("honeycomb").unwrap();
     let longest = |up: bool, along_pick: bool| {
         let float = |thread: usize| {
@@ -155,8 +159,8 @@ fn honeycomb() {
 fn crepe() {
     let weave = Weave::parse("crepe").unwrap();
     assert_eq!(weave.repeat(), (8, 8));
-    // Every third end of the twill; no end floats over three picks, no pick over more than three
-    // ends.
+    // The ends are every third end of the twill. No end floats over more than two picks, and no
+    // pick over more than three ends.
     let twill = Weave::parse("2/2*1/1*1/1").unwrap();
     for pick in 0..8 {
         for end in 0..8 {
@@ -287,7 +291,8 @@ fn what_can_not_be_woven_is_refused() {
         let error = Weave::parse(&text).unwrap_err();
         assert_eq!(error, WovenError::NoSatin { text, position: 7, ends });
     }
-    // With a move of 2 the odd ends of 3/1 never go down; with a move of 4 no end ever changes.
+    // With a move of 2 the odd ends of 3/1 never go down. With a move of 4 no end ever changes
+    // sides.
     for (text, step, end) in [("3/1(2)", 2, 1), ("3/1(4)", 4, 1), ("1/1*3/1(2)", 2, 1), ("2/2(-4)", -4, 1)] {
         let error = Weave::parse(text).unwrap_err();
         let position = text.find('(').unwrap() + 2;
@@ -369,8 +374,8 @@ fn an_unknown_name_is_told_which_there_are() {
     }
 }
 
-/// In an irregular satin of 6 each pick binds one end and each end one pick, none beside that of
-/// the pick before.
+/// In an irregular satin of 6 each pick binds one end, and each end is bound by one pick. No pick
+/// binds an end beside the end of the pick before.
 #[test]
 fn an_irregular_satin_is_drawn_by_its_binding_points() {
     for (ends, order) in [(6, "1 3 5 2 6 4"), (4, "1 2 4 3")] {

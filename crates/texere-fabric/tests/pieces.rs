@@ -1,5 +1,5 @@
-//! Pieces, loose yarns and empty needles of knits: worked by hand, and against loops painted one by
-//! one.
+//! Pieces, loose yarns and empty needles of knits, against counts by hand and against loops that
+//! are painted one by one.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -38,11 +38,11 @@ fn pillars_are_joined_by_what_crosses_them_alone() {
     assert_eq!(found(vec![pillar()], 2, 2, [3, 5]), (6, 0, vec![]));
     assert_eq!(found(vec![bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![pillar(), bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
-    // The inlay passes behind the loops of pillars and in front of the yarn between them. Behind a
-    // front bar it is held; in front of all bars it is not.
+    // The inlay passes behind the loops of pillars and in front of the yarn between them. It is
+    // held if it lies behind the pillars' bar, and not held if it lies in front of it.
     assert_eq!(found(vec![pillar(), bar("0-0/3-3//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![bar("0-0/3-3//", FULL), pillar()], 4, 6, [1, 1]), (8, 4, vec![]));
-    // An inlay that stays in its space is held by underlaps that pass it, and joins nothing else.
+    // An inlay that stays in its space is held by underlaps that pass it, and joins no other yarns.
     assert_eq!(found(vec![bar("1-0/1-2//", FULL), bar("0-0//", FULL)], 4, 2, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![pillar(), bar("0-0//", FULL)], 4, 2, [1, 1]), (8, 4, vec![]));
 }
@@ -69,7 +69,7 @@ fn a_knit_is_told_as_woven_cloth_is() {
         "{said}"
     );
 
-    // A double cloth, and a pick without a lift.
+    // A double cloth, and a pick over which no end is lifted.
     let double = Drawdown::from_fn(8, 9, |end, pick| match (end % 2, pick % 2) {
         (_, _) if pick == 8 => false,
         (0, 0) | (1, 1) => (end / 2 + pick / 2) % 2 == 0,
@@ -92,7 +92,8 @@ fn woven(notation: &str) -> Woven {
     Woven::new(drawdown, threads.clone(), threads, vec![Material::default()], vec![Section::Circle]).unwrap()
 }
 
-/// Front or back needles that each carrier knits in each of four courses, to the right.
+/// The pieces of a knit of four courses, knitted to the right. `carriers` has the needles on which
+/// each carrier knits.
 fn knit(carriers: &[&[Needle]], repeat: Option<u32>, copies: [u32; 2]) -> Pieces {
     let mut operations = Vec::new();
     for (number, _) in carriers.iter().enumerate() {
@@ -127,8 +128,8 @@ fn knit(carriers: &[&[Needle]], repeat: Option<u32>, copies: [u32; 2]) -> Pieces
 fn weft_knits_fall_into_what_no_loop_joins() {
     let [front, back] = [Needle::front, Needle::back];
     let said = |pieces: Pieces| (pieces.count, pieces.loose, pieces.empty_listed);
-    // Two carriers side by side, with a needle between them that neither knits. Then one carrier
-    // knits it, too.
+    // First two carriers knit side by side, with a needle between them on which neither knits. Then
+    // they have one needle in common.
     assert_eq!(said(knit(&[&[front(0), front(1)], &[front(3), front(4)]], None, [1, 1])), (2, 0, vec![2]));
     assert_eq!(said(knit(&[&[front(0), front(1)], &[front(1), front(2)]], None, [1, 1])), (1, 0, vec![]));
     // Two carriers that each knit one side of a tube make two pieces. A rib by both is one cloth.
@@ -137,14 +138,14 @@ fn weft_knits_fall_into_what_no_loop_joins() {
     assert_eq!(said(knit(&sides, Some(2), [3, 3])), (2, 0, vec![]));
     let both: [&[Needle]; 2] = [&[front(0), back(0)], &[front(0), back(0)]];
     assert_eq!(said(knit(&both, Some(1), [4, 4])), (1, 0, vec![]));
-    // Interlock is two ribs whose yarns pass one another between the beds, and one piece. Ribs side
-    // by side are two pieces.
+    // Interlock is two ribs whose yarns pass one another between the beds, and is one piece. Ribs
+    // side by side are two pieces.
     let ribs: [&[Needle]; 2] = [&[front(0), back(1)], &[back(0), front(1)]];
     assert_eq!(said(knit(&ribs, Some(2), [3, 3])), (1, 0, vec![]));
     assert_eq!(said(knit(&ribs, None, [1, 1])), (1, 0, vec![]));
     let beside: [&[Needle]; 2] = [&[front(0), back(1)], &[front(2), back(3)]];
     assert_eq!(said(knit(&beside, None, [1, 1])), (2, 0, vec![]));
-    // One repeat and many of them, which knit every other needle.
+    // Several copies of a repeat in which every other needle knits.
     assert_eq!(said(knit(&[&[front(0), front(2)]], Some(4), [2, 2])), (1, 0, vec![1, 3, 5, 7]));
 }
 

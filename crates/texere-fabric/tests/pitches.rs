@@ -1,7 +1,7 @@
 //! Threads that bend around one another stay clear at every pitch, by the clearance report.
 //!
-//! `contacts.rs` holds the report against brute force, and `clearance.rs` does so with some of
-//! these cloths.
+//! `contacts.rs` compares the report with brute force. `clearance.rs` measures some of these cloths
+//! by brute force.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -13,10 +13,10 @@ use texere_fabric::{Crimp, Drawdown, FabricWarning, Relief, Shape, Thread, Weave
 
 use cloths::{cloth, jam, weaves};
 
-/// The furthest pitch, in diameters of the thicker threads.
+/// The largest pitch, in diameters of the thicker threads.
 const FURTHEST: f64 = 6.0;
 
-/// Radii of an end and a pick, mm, and their half widths and half heights in radii.
+/// Radii of an end and a pick, mm, and the half width and half height of their section in radii.
 struct Pair {
     radius: [f32; 2],
     section: Section,
@@ -58,7 +58,8 @@ impl Pair {
     }
 }
 
-/// Pitches from `least` times the least pitch, in growing steps.
+/// Checks that threads stay clear at pitches from `least` times the least pitch on, in growing
+/// steps.
 fn stays_clear(pair: &Pair, share: f32, least: f64) {
     for (name, drawdown) in weaves() {
         for growth in [1.0, 1.03, 1.06, 1.1, 1.15, 1.2, 1.3, 1.45, 1.6, 1.8, 2.1, 2.5, 3.0, 3.5] {
@@ -73,7 +74,7 @@ fn stays_clear(pair: &Pair, share: f32, least: f64) {
 #[test]
 fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
     for (name, drawdown) in weaves() {
-        // Pitches from 1.74 diameters: the least pitch and a little more.
+        // Pitches from 1.74 diameters, which is a little more than the least pitch.
         for step in (174..=600).step_by(6) {
             let pitch = f64::from(step) / 100.0;
             let thread = Thread::new(pitch * 0.2, 0.1);
@@ -88,8 +89,8 @@ fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
 
 #[test]
 fn a_figure_in_twill_stays_clear_with_one_point_a_crossing() {
-    // The paper's figure 7a in small: warp-faced twill on weft-faced, three diameters from thread
-    // to thread.
+    // A small version of figure 7a of the paper that texere implements (README.md): a figure of
+    // warp-faced twill on weft-faced twill, with three diameters from thread to thread.
     let [figure, ground] = ["3/1", "1/3"].map(|name| Weave::parse(name).unwrap());
     let inside = |end: usize, pick: usize| (end as f64 - 50.0).hypot(pick as f64 - 40.0) < 30.0;
     let up = |end, pick| if inside(end, pick) { figure.up(end, pick) } else { ground.up(end, pick) };

@@ -1,4 +1,4 @@
-//! Places on yarns.
+//! The place on a yarn that is nearest to a point.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

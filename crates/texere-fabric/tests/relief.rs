@@ -19,15 +19,15 @@ fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
     cloth
 }
 
-/// Ends and picks 0.2 mm thick at these pitches, in diameters.
+/// Cloth of ends and picks 0.2 mm thick, at the given pitches in diameters.
 fn dense(weave: &str, ends: f64, picks: f64) -> Woven {
     cloth(weave, [Thread::new(ends * 0.2, 0.1), Thread::new(picks * 0.2, 0.1)], Section::Circle)
 }
 
 #[test]
 fn the_least_pitch_is_peirces() {
-    // Two sets of round threads alike: √3 diameters, whatever the weave. A pick of 0.6 ends: 1.386
-    // ends both ways.
+    // Two sets of round threads alike need √3 diameters, whatever the weave. If a pick is 0.6 times
+    // as thick as an end, both sets need 1.386 diameters of an end.
     let report = dense("3/1", 3.0, 1.5).relieve(Relief::Report).unwrap();
     for set in report.before.into_array() {
         assert!((set.pitch_min_mm / 0.2 - 3f64.sqrt()).abs() < 1e-6, "{set:?}");
@@ -42,7 +42,7 @@ fn the_least_pitch_is_peirces() {
         assert!((set.pitch_min_mm / 0.2 - 1.3856).abs() < 1e-4, "{set:?}");
     }
 
-    // An ellipse twice as wide as high: 1.3 widths.
+    // Ellipses twice as wide as high need 1.3 times their width.
     let ellipse = Section::Ellipse { aspect: 2.0 };
     let report = cloth("plain", [Thread::new(1.0, 0.1); 2], ellipse).relieve(Relief::Report).unwrap();
     assert!((report.before.warp.pitch_min_mm / (0.2 * 2f64.sqrt()) - 1.299).abs() < 1e-3);
@@ -50,7 +50,8 @@ fn the_least_pitch_is_peirces() {
 
 #[test]
 fn nothing_between_two_threads_jams_nothing() {
-    // Two pairs, 0.35 mm apart. Doubled ends touch: no pick passes between them.
+    // Two pairs of ends, 0.35 mm apart. The ends of a pair touch, because no pick passes between
+    // them.
     let drawdown = Weave::parse("2/2(2+2)").unwrap().drawdown(4, 4).unwrap();
     let set: Vec<_> = [0.05, 0.35, 0.35, 0.05].map(|spacing| Thread::new(spacing, 0.1)).into();
     let mut cloth =
@@ -60,7 +61,8 @@ fn nothing_between_two_threads_jams_nothing() {
 
 #[test]
 fn crimp_goes_where_the_cloth_is_dense() {
-    // Cloth with dense warp: the ends bend, the picks straighten, and no thread changes.
+    // In cloth with a dense warp the ends bend more, the picks straighten, and no thread changes
+    // its size.
     let mut cloth = dense("plain", 1.5, 2.4);
     let (threads, report) = (cloth.clone(), cloth.relieve(Relief::Flatten).unwrap());
     assert_eq!(report.before.map(|set| set.jammed).into_array(), [7, 0]);
@@ -72,7 +74,7 @@ fn crimp_goes_where_the_cloth_is_dense() {
 
 #[test]
 fn flattening_keeps_the_area_and_clears_the_surfaces() {
-    // A share of the crimp that is given stays. Picks have to grow flatter to pass between the
+    // A share of the crimp that is given stays. Picks have to become flatter to pass between the
     // ends.
     let mut cloth = dense("plain", 1.6, 3.0);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
@@ -96,7 +98,8 @@ fn what_can_not_be_flattened_is_told() {
     assert_eq!(report.after.map(|set| set.jammed).into_array().into_iter().max(), Some(7));
 }
 
-/// Plies, and all that turns with the twist, stay unchanged inside the flattened outline.
+/// Plies, and sections that turn with the twist, are not changed. They stay inside the flattened
+/// outline.
 #[test]
 fn plies_are_flattened_as_they_are() {
     let plies = Section::Lobed { plies: 2 };
@@ -120,7 +123,7 @@ fn shrinking_makes_everything_fit() {
         assert!((cloth.warp()[3].radius_mm / 0.1 - report.scaled).abs() < 1e-6);
         let clearance = oracle::round_clearance(&cloth.yarns().unwrap(), 32);
         assert!((0.99..1.1).contains(&clearance), "{ends}, {picks}: {clearance}");
-        // A second time there is nothing left to do.
+        // A second relief changes nothing.
         assert_eq!(cloth.relieve(Relief::Shrink).unwrap().scaled, 1.0);
     }
 }
@@ -137,7 +140,8 @@ fn threads_too_thin_to_shrink_are_left_alone() {
     assert_eq!(cloth, before);
 }
 
-/// Other lifts jam other threads. Relief then begins again from the cloth that was given.
+/// Other lifts jam other threads. After a change of a lift, relief starts from the cloth that was
+/// given.
 #[test]
 fn a_design_with_another_lift_is_one_that_was_given_so() {
     let given = dense("plain", 1.2, 1.2);

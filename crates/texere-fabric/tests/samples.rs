@@ -19,7 +19,7 @@ fn materials() -> Vec<Material> {
     [20.0, 30.0].map(|tex| Material { tex: Some(tex), ..Material::default() }).to_vec()
 }
 
-/// Cloth of a weave, whose ends and picks take these spacings and materials in turn.
+/// Cloth of a weave. Its ends and picks take the given spacings and materials in turn.
 fn woven(notation: &str, size: [usize; 2], spacing: &[f64], materials_of: &[u32]) -> Woven {
     let thread = |number: usize| Thread {
         material: materials_of[number % materials_of.len()],
@@ -35,7 +35,7 @@ fn close(one: f64, other: f64, within: f64) -> bool {
     (one / other - 1.0).abs() < within
 }
 
-/// Weight, cover, crimp, and threads per cm.
+/// Weight, 1 + crimp of warp and weft, 1 + cover, and ends and picks per cm.
 fn numbers(cloth: &Woven, measures: &Measures) -> [f64; 6] {
     let BySet { warp, weft } = measures.crimp.unwrap();
     let BySet { warp: ends, weft: picks } = cloth.setts().map(|sett| sett.per_cm);
@@ -86,7 +86,7 @@ fn straight_threads_weigh_what_they_are() {
 
 #[test]
 fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
-    // Ends of 20 and 30 tex by turns. Three ends are one repeat and a thread.
+    // Ends of 20 and 30 tex alternate. Three ends are one repeat and a thread.
     let [one, more] = [2, 3].map(|ends| {
         let cloth = woven("plain", [ends, 4], &[0.8], &[0, 1]);
         Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
@@ -96,7 +96,8 @@ fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
     assert!(close(one, more, 1e-5), "{one} {more}");
 }
 
-/// Straight ends that take these yarns in turn, 2 per mm, below straight picks of 20 tex, 1 per mm.
+/// Straight ends, 2 per mm, below straight picks of 20 tex, 1 per mm. The ends take the yarns of
+/// `order` in turn.
 fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
     let materials = [20.0].iter().chain(tex).map(|tex| Material { tex: Some(*tex), ..Material::default() });
     let warp =
@@ -114,8 +115,9 @@ fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
 
 #[test]
 fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat() {
-    // The mean tex of an end, 2 ends to the mm, beside the picks. Peirce's cover factor: ends to
-    // the inch over √Ne, with Ne = 590.5 / tex.
+    // Each case has the mean tex of the ends and the cover factor of the warp. Peirce's cover
+    // factor is ends to the inch over √Ne, with Ne = 590.5 / tex; 2 ends to the mm are 50.8 to the
+    // inch.
     let factor = |tex: f64| 50.8 * (tex / 590.5).sqrt();
     let orders: [(&[u32], f64, f64); 3] = [
         (&[0, 1, 2], 40.0, (factor(10.0) + factor(30.0) + factor(80.0)) / 3.0),
@@ -135,8 +137,8 @@ fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat(
 
 #[test]
 fn flat_threads_among_round_ones_are_part_of_the_repeat() {
-    // Threads of one radius. Every third one is three times as wide as high: it rises less than the
-    // others, and passes lower.
+    // All threads have one radius. Every third one is three times as wide as high, so that it rises
+    // less than the others, and threads that cross it rise less.
     let cloth = |size: usize| {
         let thread = |number: usize| Thread {
             flatness: if number.is_multiple_of(3) { 3.0 } else { 1.0 },
@@ -168,7 +170,7 @@ proptest! {
             let [warp, weft] = size.map(|size| (0..size).map(thread).collect());
             Woven::new(drawdown, warp, weft, tex.clone(), vec![Section::Circle]).unwrap()
         };
-        // All cloths but the first have a few threads more than whole repeats.
+        // The second cloth has a few threads more than whole repeats.
         let [one, many] = [[repeat; 2], times.map(|times| times * repeat + times - 1)].map(cloth).map(|cloth| {
             Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
         });
@@ -248,7 +250,7 @@ fn knits_have_the_same_numbers_small_and_large() {
 
 #[test]
 fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
-    // An inlay has two points a course. Its repeat has fewer points than it goes on by beyond the
+    // An inlay has two points a course. Its repeat has fewer points than the yarn has beyond the
     // cloth.
     let net = |copies: [u32; 2]| {
         let bars = ["1-0/0-1//", "0-0/1-1//", "0-0//"]
@@ -269,8 +271,8 @@ fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
 
 #[test]
 fn stripes_of_a_knit_count_by_their_own_courses() {
-    // Two courses of 20 tex and one of 30. The loops are alike, so that all together weigh as loops
-    // of the mean, 70/3 tex.
+    // Two courses of 20 tex and one of 30 tex. The loops are alike, so that together they weigh as
+    // much as loops of the mean, 70/3 tex.
     let knit = |yarns: Vec<u32>, copies: [u32; 2]| {
         let chart = Chart::parse("k", Beds::One).unwrap().with_yarns(&yarns).unwrap();
         let program = chart.program().unwrap();
@@ -299,7 +301,8 @@ fn a_jersey_has_the_loops_that_were_asked_for() {
     let measures = structure.measures(settled.yarns()).unwrap();
     let knit = measures.knit.unwrap();
     assert!(close(knit.loop_length_mm, 3.5, 0.01), "{}", knit.loop_length_mm);
-    // √tex over the loop in cm; loops to the m² times their length times tex.
+    // Tightness is √tex over the loop length in cm. Weight is loops to the m² times their length
+    // times tex.
     assert!(close(knit.tightness.unwrap(), 20_f64.sqrt() / (0.1 * knit.loop_length_mm), 1e-9));
     let per_m2 = 1e6 / (3.5 / 4.2 * 3.5 / 5.5);
     assert!(close(measures.areal_weight.unwrap(), per_m2 * knit.loop_length_mm * 20e-6, 1e-9));

@@ -1,11 +1,11 @@
-//! The greatest sett against worked examples of the textbooks.
+//! The greatest sett against worked examples from textbooks.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 use texere_core::{Material, Section};
 use texere_fabric::{BySet, Drawdown, Thread, Woven};
 
-/// A twill from its numbers up, down and so on. Each pick is moved by one end.
+/// A twill from its floats, up and down in turn. Each pick is moved by one end.
 fn cloth(floats: &[usize], per_inch: f64, diameters_per_inch: f64) -> Woven {
     let thread = Thread::new(25.4 / per_inch, (0.5 * 25.4 / diameters_per_inch) as f32);
     let repeat: Vec<bool> =
@@ -29,9 +29,9 @@ fn ashenhursts_example_of_two_ply_cotton() {
     assert!((twill - 52.0 * 4.0 / 6.0).abs() < 1e-3 && (34.0..35.0).contains(&twill), "{twill}");
 }
 
-/// J. T. Taylor, "Cotton weaving and designing", 6th edition, "The firmness of cloth": from 103
-/// threads of a plain cloth to 137 1/3 of a 2/2 twill, and from 137 of that to a twill of 5 up, 2
-/// down, 1 up, 2 down by 40 + 16 to 40 + 20.
+/// J. T. Taylor, "Cotton weaving and designing", 6th edition, "The firmness of cloth": a plain
+/// cloth of 103 threads is as firm as a 2/2 twill of 137 1/3 threads. The threads of a 2/2 twill
+/// and of a twill of 5 up, 2 down, 1 up, 2 down are as 40 + 16 to 40 + 20.
 #[test]
 fn taylors_examples_of_cloths_as_firm() {
     let plain = greatest_per_inch(&cloth(&[1, 1], 20.0, 206.0));
@@ -53,8 +53,8 @@ fn plain(end: usize, pick: usize) -> bool {
 }
 
 /// "Fabric geometry", "Square cloth - jammed structure",
-/// <http://business.vsnl.com/balasubramanian/YarnCloth.html>: θ = 60°, p/D = 0.866 with D the sum
-/// of both diameters.
+/// <http://business.vsnl.com/balasubramanian/YarnCloth.html>: θ = 60° and p/D = 0.866, where D is
+/// the sum of both diameters.
 #[test]
 fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     let thread = Thread::new(0.866 * 0.4, 0.1);
@@ -65,7 +65,8 @@ fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     assert_eq!(square(|end, pick| (end + 8 - pick) % 4 < 2, thread, thread), [None; 2]);
 }
 
-/// Peirce's two angles, of threads of unequal thickness and then of flat ones: cos θ₁ + cos θ₂ = 1.
+/// Peirce's two angles, for threads of unequal thickness and then for flat threads: cos θ₁ + cos θ₂
+/// = 1.
 #[test]
 fn each_set_jams_by_the_other_ones_sett() {
     for flatness in [1.0_f32, 1.6] {
@@ -76,7 +77,7 @@ fn each_set_jams_by_the_other_ones_sett() {
                 [radius * f64::from(flatness).sqrt(), radius / f64::from(flatness).sqrt()]
             });
             let both = 2.0 * (halves[0][1] + halves[1][1]);
-            // A jammed set's pitch is D sin θ of the other set's angle.
+            // The pitch of a jammed set is D sin θ, with θ of the other set.
             let pitches =
                 [0, 1].map(|set: usize| both * angles[set].sin() + 2.0 * (halves[set][0] - halves[set][1]));
             let threads =
@@ -86,7 +87,7 @@ fn each_set_jams_by_the_other_ones_sett() {
             }
         }
     }
-    // Between picks far apart ends may lie side by side.
+    // If picks are far apart, ends may lie side by side.
     let [ends, _] = square(plain, Thread::new(0.3, 0.1), Thread::new(2.0, 0.1));
     assert!((ends.unwrap() - 50.0).abs() < 1e-3, "{ends:?}");
 }
@@ -109,8 +110,8 @@ fn threads_of_other_sets_take_their_own_room() {
     let doubled = vec![thin; 6];
     let cloth =
         Woven::new(ribs, doubled, vec![thick; 6], vec![Material::default()], vec![Section::Circle]).unwrap();
-    // With six ends the third pair equals the first, so that nothing changes over the repeat's
-    // seam.
+    // With six ends the third pair equals the first, so that nothing changes sides at the edge of
+    // the repeat.
     let BySet { warp: ends, weft: picks } = cloth.setts();
     assert!((ends.interlacings - 0.5).abs() < 1e-9 && (picks.interlacings - 1.0).abs() < 1e-9, "{ends:?}");
 }

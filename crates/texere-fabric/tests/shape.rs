@@ -41,7 +41,7 @@ fn places(threads: &[Thread]) -> Vec<f64> {
         .collect()
 }
 
-/// Whether a yarn has a control point of height `z` at `along` on the axis `of`.
+/// Whether a yarn has a control point at the place `at` (x and y, mm) with the height `z`.
 fn passes(yarns: &Yarns, yarn: usize, at: [f64; 2], z: f64) -> bool {
     yarns.yarn_points(yarn).unwrap().iter().any(|point| {
         (f64::from(point.x) - at[0]).abs() < 1e-5
@@ -121,9 +121,9 @@ proptest! {
 
 #[test]
 fn a_long_float_beside_a_close_pitch_is_stepped_through() {
-    // An end with empty room beside it: 5.2 mm to both neighbours, after ends 0.4 mm apart. The
-    // spline's time is uniform. No interval may be more than five times as long as its neighbours,
-    // or the thread would turn back on itself.
+    // An end with empty room beside it, 5.2 mm to both neighbours, among ends 0.4 mm apart. The
+    // spline's parameter runs evenly over all intervals, long or short. If an interval were more
+    // than five times as long as its neighbour, the thread would turn back on itself.
     let (close, far) = (Thread::new(0.4, 0.1), Thread::new(10.0, 0.1));
     let warp = vec![close, close, far, close, close];
     let up = [true, false, false, true, true];
@@ -166,7 +166,7 @@ fn the_weft_turns_outside_the_edge_ends() {
     assert!((rightmost - (1.75 + 0.2 + 0.25)).abs() < 1e-6, "{rightmost}");
     let leftmost = points.iter().fold(9.0f32, |least, point| least.min(point.x));
     assert!((leftmost - (0.25 - 0.2 - 0.25)).abs() < 1e-6, "{leftmost}");
-    // Pick 4, even, runs to the left.
+    // Pick 4 has an even number, and runs to the left.
     assert_eq!(yarns.yarn_points(5).unwrap()[0].x, 2.0);
 }
 

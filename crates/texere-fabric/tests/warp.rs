@@ -24,8 +24,8 @@ fn knit(bars: Vec<Bar>, size: [u32; 2], copies: [u32; 2]) -> Result<WarpKnitted,
     WarpKnitted::new(bars, Gauge::new(1.0, 0.75), size[0], size[1], yarns, materials, sections, copies)
 }
 
-/// For guide 0, course by course: the needle of its loop, whether the lap is open, and the underlap
-/// after it.
+/// For guide 0, course by course: the needle of the loop, whether the lap is open, and the underlap
+/// after the lap.
 fn laps(name: &str) -> Vec<(i32, bool, i32)> {
     let chain = Chain::named(name).unwrap();
     let lap = |course: usize| (chain.lap(course).needle(), chain.is_open(course), chain.underlap(course));
@@ -37,8 +37,8 @@ fn lappings_are_what_their_names_say() {
     assert_eq!(laps("pillar"), [(0, true, 0), (0, true, 0)]);
     assert_eq!(laps("closed pillar"), [(0, false, -1), (0, false, -1)]);
     for (name, needles) in [("tricot", 1), ("cord", 2), ("satin", 3), ("velvet", 4)] {
-        // The loop lies on needle 0, and then further on by the lapping's number. The underlap of a
-        // closed lap goes back beyond its own needle.
+        // The first loop lies on needle 0, the second one further on by the number of needles of
+        // the lapping. The underlap of a closed lap goes back past its own needle.
         assert_eq!(laps(name), [(0, false, needles), (needles, false, -needles)], "{name}");
         let open = format!("open {name}");
         assert_eq!(laps(&open), [(0, true, needles), (needles, true, -needles)], "{open}");
@@ -128,7 +128,8 @@ fn wrong_notation_is_refused_with_its_column() {
     assert_eq!(chain("(1-0/1-2)x2048//").courses(), CHAIN_COURSES);
 }
 
-/// Displaced laps of a Jacquard bar with the chain 1-0/1-2: thick, thin, mesh and both.
+/// Displaced laps of a Jacquard bar with the chain 1-0/1-2. The colours displace no lap, the
+/// second, the first, and both.
 #[test]
 fn jacquards_displace_single_guides() {
     let palette =
@@ -153,8 +154,8 @@ fn jacquards_displace_single_guides() {
     assert!(Displacements::new([4, 1], vec![vec![[0, 1]], vec![]], |_, _| 0).is_none());
 }
 
-/// Origins and sources count guides and courses of the whole cloth. Every copy is the repeat,
-/// moved.
+/// Origins and sources count guides and courses of the whole cloth. Every copy equals the repeat,
+/// moved to its place.
 #[test]
 fn copies_have_names_of_their_own() {
     let threaded = Threading::of(vec![Some(0), None]);
@@ -189,14 +190,15 @@ fn copies_have_names_of_their_own() {
     assert!(moved && points(2).len() == points(12).len());
 }
 
-/// With [`Cells::Even`] a yarn has 9 control points a course, as figure 7c of the paper has facets.
+/// With [`Cells::Even`] a yarn has 9 control points for each course. The facets are then as many as
+/// in figure 7c of the paper that texere implements (README.md).
 #[test]
 fn even_cells_are_nine_points_a_course() {
     let bars = vec![Bar::new(chain("1-0/1-2")), Bar::new(chain("1-2/1-0"))];
     let cloth = knit(bars, [4, 4], [1, 175]).unwrap().with_cells(Cells::Even);
     let yarns = cloth.yarns().unwrap();
     assert!(yarns.layout().offsets().windows(2).all(|bounds| bounds[1] - bounds[0] == 9 * 700));
-    // Six sides and a point between two control points: 24 facets to an interval.
+    // With six sides and one ring between two control points, an interval has 24 facets.
     let facets = 2520.0 * 24.0 * (9.0 * 700.0 - 1.0);
     assert!((facets / 381.71e6_f64 - 1.0).abs() < 0.01);
 }
@@ -208,7 +210,8 @@ fn run_ins_are_asked_for_and_measured() {
     let repeat = held.repeat().unwrap();
     assert_eq!(held.finish_of(&repeat, &Finish::default()).length, Some(Length::Held));
     let found = held.run_ins(&held.yarns().unwrap());
-    // The longer underlaps of the front bar take more yarn, and both together are the repeat's.
+    // The longer underlaps of the front bar take more yarn. Both bars together have the length of
+    // the repeat.
     assert!(found[0].reached_mm > found[1].reached_mm && found[0].miss().is_none());
     let whole = (found[0].reached_mm + found[1].reached_mm) * 4.0 * 4.0 / 480.0;
     assert!((whole / repeat.piece.length_mm() - 1.0).abs() < 1e-5, "{whole}");
@@ -222,12 +225,12 @@ fn run_ins_are_asked_for_and_measured() {
     assert!(made.iter().all(|run_in| run_in.miss().unwrap().abs() < 1e-3), "{made:?}");
     let repeat = higher.repeat().unwrap();
     assert_eq!(higher.finish_of(&repeat, &Finish::default()).length, Some(Length::Held));
-    // The bars still have it at rest.
+    // The bars still have their run-ins at rest.
     let settled =
         higher.settle(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()));
     let rested = higher.run_ins(&settled.unwrap().yarns);
     assert!(rested.iter().all(|run_in| run_in.miss().unwrap().abs() < 0.02), "{rested:?}");
-    // Length beyond that is given to all yarns.
+    // If a run-in is beyond what heights can give, all yarns get the length that is missing.
     let longer = asked([1.2, 1.2]);
     let repeat = longer.repeat().unwrap();
     let Some(Length::Given(factor)) = longer.finish_of(&repeat, &Finish::default()).length else {
@@ -285,7 +288,7 @@ fn what_is_no_cloth_is_refused() {
         limit: 2,
     });
     assert_eq!(refused(vec![bar(), wide], four, one), lap);
-    // Displaced to the other side it goes round one needle.
+    // Displaced to the other side, the lap goes round one needle.
     let narrow = Displacements::new([1, 1], vec![vec![[0, 1], [0, 0]]], |_, _| 0);
     let narrow = Bar { jacquard: narrow, ..Bar::new(chain("2-0/1-2//")) };
     knit(vec![narrow], four, one).unwrap().yarns().unwrap();
@@ -335,7 +338,7 @@ proptest! {
         prop_assert_eq!(Chain::parse(&chain.to_string(), 1).unwrap(), chain);
     }
 
-    /// A guide always comes back, and every lap is open, closed or an inlay by the rule.
+    /// A guide always comes back to its first space.
     #[test]
     fn guides_come_back(chain in any_chain()) {
         let ways = (0..chain.courses()).map(|course| chain.lap(course).overlap() + chain.underlap(course));
@@ -364,7 +367,8 @@ fn pillar() -> Chain {
     Chain::named("pillar").unwrap()
 }
 
-/// A guide far beyond the cloth laps at its number, up to the limits of a lap's spaces.
+/// A guide with a number far beyond the cloth laps at that number. Spaces are clamped to the limits
+/// of a lap.
 #[test]
 fn a_guide_of_any_number_laps_to_the_high_numbers() {
     let bar = |offset| Bar { offset, ..Bar::new(Chain::parse("1-0/1-2//", 1).unwrap()) };

@@ -1,4 +1,4 @@
-//! Properties of every cloth, for any weave and any threads, and refusals.
+//! Properties that hold for cloth of any weave and any threads, and refusals.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -25,7 +25,7 @@ fn threads() -> impl Strategy<Value = Vec<Thread>> {
     prop::collection::vec(thread, 1..14)
 }
 
-/// Cloths of one control point a crossing; tests of the other shape are in `shape.rs`.
+/// Cloths with one control point at each crossing. Tests of the other shape are in `shape.rs`.
 fn cloths() -> impl Strategy<Value = Woven> {
     (threads(), threads()).prop_flat_map(|(warp, weft)| {
         prop::collection::vec(any::<bool>(), warp.len() * weft.len()).prop_map(move |up| {
@@ -76,8 +76,8 @@ proptest! {
                 }
                 let (upper, lower) = if cloth.drawdown().up(end, pick) { (warp, weft) } else { (weft, warp) };
                 prop_assert!(upper.z > 0.0 && lower.z < 0.0);
-                // Far enough apart for both sections: an ellipse of aspect 2 is 1/√2 of its radius
-                // high, and √2 where twist turns it on edge.
+                // The two are far enough apart for both sections. Half the height of an ellipse of
+                // aspect 2 is 1/√2 of the yarn's radius, or √2 if twist turns it on edge.
                 let height = |thread: &Thread| match (thread.section, thread.twist) {
                     (1, 0.0) => thread.radius_mm * 0.5f32.sqrt(),
                     (1, _) => thread.radius_mm * 2.0f32.sqrt(),
@@ -148,7 +148,7 @@ proptest! {
     }
 }
 
-/// Six columns of 1 mm and six of 2 mm: 18 mm, and all ends 1.5 mm apart.
+/// Six columns of 1 mm and six of 2 mm are 18 mm wide together, and all ends lie 1.5 mm apart.
 #[test]
 fn thick_and_thin_ends_lie_in_the_middle_of_their_columns() {
     let warp: Vec<_> = [Thread::new(1.0, 0.25), Thread::new(2.0, 0.6)].into_iter().cycle().take(12).collect();
@@ -157,7 +157,7 @@ fn thick_and_thin_ends_lie_in_the_middle_of_their_columns() {
     let middles: Vec<_> = (0..12).map(|end| 0.5 + 1.5 * f64::from(end)).collect();
     assert_eq!(cloth.middles_mm().warp, middles);
     assert!(cloth.pitches().warp.iter().all(|gap| gap.pitch_mm == 1.5));
-    // Side by side the two need half their diameters together, 0.85 mm, and room for the weft
+    // Two neighbouring ends need half their diameters together, 0.85 mm, and room for the weft
     // between them.
     assert_eq!(cloth.warnings(), []);
 }
@@ -170,7 +170,7 @@ const THREAD: Thread = Thread::new(1.0, 0.2);
 
 #[test]
 fn the_papers_cloth_has_the_papers_count() {
-    // 300 ends and 150 picks: 150 + 2 control points an end, 300 + 2 a pick.
+    // 300 ends have 150 + 2 control points each, and 150 picks have 300 + 2 each.
     let mut cloth = woven(plain(300, 150), vec![THREAD; 300], vec![THREAD; 150]).unwrap();
     cloth.set_shape(Shape::Crossing);
     assert_eq!(cloth.point_count(), 300 * 152 + 150 * 302);
@@ -234,7 +234,8 @@ fn what_is_wrong_with_the_whole_is_named() {
     let error = Woven::new(plain(1, 1), vec![THREAD], vec![THREAD], vec![Material::default()], sections);
     assert!(matches!(error, Err(FabricError::Thread(ThreadError::Section { section: 1, .. }))));
 
-    // 2^32 crossings make a drawdown, but twice as many control points.
+    // 2^32 crossings are allowed in a drawdown, but a cloth of them would have twice as many
+    // control points.
     let (ends, picks) = (65_536, 65_536);
     let error = woven(Drawdown::new(ends, picks).unwrap(), vec![THREAD; ends], vec![THREAD; picks]);
     assert!(
@@ -258,8 +259,8 @@ fn cloth_at_the_edge_of_what_is_taken_gives_sound_yarns() {
 
 #[test]
 fn threads_in_one_place_give_sound_yarns() {
-    // A nanometre vanishes in single precision a kilometre from the edge: ends 2 to 5 lie where end
-    // 1 does.
+    // A kilometre from the edge, a nanometre is lost in single precision, so that ends 2 to 5 lie
+    // at the same place.
     let mut warp = vec![Thread::new(1e-6, 0.1); 6];
     (warp[0].spacing_mm, warp[5].spacing_mm) = (1e6, 1e6);
     let weft = vec![Thread::new(1.0, 0.1); 3];
@@ -286,7 +287,8 @@ fn a_section_that_is_not_sound_changes_nothing() {
 
 #[test]
 fn threads_that_just_fit_are_not_warned_of() {
-    // Threads spaced by twice their thickness: the closest at which crossing threads pass.
+    // The threads are spaced by twice their thickness, which is about the closest at which crossing
+    // threads pass.
     let thread = Thread::new(0.3, 0.075);
     assert_eq!(woven(plain(6, 6), vec![thread; 6], vec![thread; 6]).unwrap().warnings(), []);
 }
@@ -300,7 +302,7 @@ fn one_warning_stands_for_all_threads_alike() {
     let warnings = woven(plain(1000, 5), warp, vec![Thread::new(10.0, 0.1); 5]).unwrap().warnings();
     let crowded: Vec<_> =
         warnings.iter().filter(|warning| matches!(warning, FabricWarning::Crowded { .. })).collect();
-    // End 100 pierces the ends on both its sides, end 501 likewise; each pair counts for its second
+    // End 100 and end 501 each pierce the ends on both sides. Each pair counts for its second
     // thread.
     assert_eq!(crowded.len(), 1);
     assert_eq!(
@@ -308,7 +310,7 @@ fn one_warning_stands_for_all_threads_alike() {
         "threads pierce their neighbours: end 100 and 3 more; worst is end 501, which needs 1.6000 mm and has 1.0000 mm"
     );
 
-    // Wide sections lie flat, and crowd their neighbours where round ones do not.
+    // Wide sections lie flat, and pierce their neighbours at a spacing at which round ones do not.
     let flat = Thread { section: 1, ..Thread::new(1.0, 0.4) };
     let warnings = woven(plain(4, 4), vec![flat; 4], vec![Thread::new(10.0, 0.1); 4]).unwrap().warnings();
     assert!(
@@ -316,7 +318,7 @@ fn one_warning_stands_for_all_threads_alike() {
         "{warnings:?}"
     );
 
-    // Real cloth is mostly denser than round threads can be woven.
+    // Most real cloth is denser than cloth of round threads can be.
     let denim = Thread::new(0.3, 0.1);
     let warnings = woven(plain(4, 4), vec![denim; 4], vec![Thread::new(0.6, 0.1); 4]).unwrap().warnings();
     assert_eq!(warnings.len(), 1);

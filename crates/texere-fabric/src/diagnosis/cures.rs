@@ -1,4 +1,5 @@
-//! Cures for a cloth. Each cure is one change, with which the worst places are measured again.
+//! Cures for a cloth. Each cure is one change. To try it, the worst places of the changed cloth are
+//! measured.
 
 use std::ops::{ControlFlow, Range};
 
@@ -8,20 +9,21 @@ use super::faults::{ClothFault, Diagnosis, Faults};
 use super::places::Crossing;
 use crate::{BySet, Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
 
-/// Threads to each side of a worst place that are measured with it: more than the longest floats of
-/// common weaves.
+/// Number of threads to each side of a worst place that are measured with it. It is more than the
+/// longest floats of common weaves.
 const AROUND: usize = 12;
 
-/// Factor between the spacings that are tried, and number of spacings. They begin where nothing
-/// jams and end at three times that (1.05 to the power of 22 is 2.9).
+/// Factor from each spacing that is tried to the next one.
 const WIDER: f64 = 1.05;
+/// Number of spacings that are tried. They begin at the least spacing at which nothing jams and end
+/// at nearly three times that (1.05 to the power of 22 is 2.9).
 const WIDER_TIMES: i32 = 22;
 
-/// Flatnesses that are tried for all yarns: width over height.
+/// Flatnesses (width over height) that are tried for all yarns.
 const FLATNESSES: [f32; 7] = [1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0];
 
-/// Warp's shares of the crimp that are tried, in steps of [`SHARE_STEP`]: 0.2 to 0.8, the range of
-/// [`Woven::relieve`].
+/// The warp's shares of the crimp that are tried, in steps of [`SHARE_STEP`]: 0.2 to 0.8, the range
+/// of [`Woven::relieve`].
 const SHARES: Range<u8> = 4..17;
 const SHARE_STEP: f32 = 0.05;
 
@@ -32,9 +34,9 @@ pub struct Cure {
     pub remedy: Remedy,
     /// The least clearance with the change, at the places that were the worst.
     pub clearance: f64,
-    /// The tightest bend there: its radius over how far the section reaches into it.
+    /// The tightest bend at these places: its radius over how far the section reaches into it.
     pub curvature: f64,
-    /// Faults that it does not cure.
+    /// Faults that the change does not cure.
     pub leaves: Vec<ClothFault>,
 }
 
@@ -46,9 +48,9 @@ pub enum Remedy {
     Shape(Shape),
     /// Another share of the crimp for the warp, see [`Crimp::WarpShare`].
     WarpShare {
-        /// The share now.
+        /// The warp's share before the change.
         before: f32,
-        /// The share that cures.
+        /// The warp's share with the change.
         after: f32,
     },
     /// Relief, see [`Woven::relieve`].
@@ -145,7 +147,8 @@ fn worst_crossings(faults: &Faults) -> Vec<Crossing> {
     let mut places: Vec<_> =
         [crowded, pierced, folded, jammed, wrung, turned].into_iter().flatten().collect();
     if places.is_empty() {
-        // The worst places are turns of the weft, which are all alike.
+        // The worst places are turns of the weft. These are all alike, so the first crossing stands
+        // for them.
         places.push(Crossing { end: 1, pick: 1 });
     }
     places
@@ -159,8 +162,8 @@ type Sample = [Range<usize>; 2];
 fn samples(cloth: &Woven, places: &[Crossing]) -> Vec<Sample> {
     let around = |at: u32, count: usize| {
         let at = at as usize;
-        // The first pick keeps its parity, so that picks turn back at the same sides as in the
-        // cloth.
+        // The first pick of the sample has an even number, so that picks turn back on the same
+        // sides as in the cloth.
         let first = at.saturating_sub(AROUND) / 2 * 2;
         first..(at + AROUND).min(count)
     };
@@ -235,8 +238,8 @@ impl Trial<'_> {
         Some(self.better(&changed)?.by(Remedy::Relief { relief, report, thickest_mm }))
     }
 
-    /// Circular sections, where a thread has another one; else the least flatness that cures, for
-    /// all yarns.
+    /// Circular sections for all threads, if a thread has another section. Otherwise the least
+    /// flatness of all threads that cures.
     fn flatter(&self) -> Option<Cure> {
         let mut changed = self.cloth.clone();
         if self.cloth.sections().iter().any(|section| *section != Section::Circle) {
@@ -249,10 +252,10 @@ impl Trial<'_> {
         })
     }
 
-    /// The least spacing that cures; and the greatest diameters that do, which make the same cloth
-    /// at a smaller scale.
+    /// The least spacing that cures, and the largest diameters that cure. Both give the same cloth
+    /// at different scales.
     fn room(&self) -> Vec<Cure> {
-        // Pitches show where threads jam, so that no closer spacing need be tried.
+        // Pitches tell the least spacing at which no thread jams. No closer spacing is tried.
         let jammed = self.faults.jams.iter().filter_map(|jams| jams.threads.first());
         let least = jammed.map(|jam| jam.passing_mm / jam.pitch_mm).fold(1.0, f64::max);
         let first = (least.ln() / WIDER.ln()).ceil().max(1.0) as i32;

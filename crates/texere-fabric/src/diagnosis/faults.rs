@@ -16,7 +16,7 @@ const JAMS_LISTED: usize = 100;
 /// The diagnosis of a cloth: its measured clearance, and its faults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// Contacts with a lower ratio than this pierce.
+    /// The ratio of contact below which two threads count as piercing one another.
     pub touching: f64,
     /// How near threads come to one another, and how tightly they bend, with places.
     pub clearance: ClothClearance,
@@ -29,18 +29,19 @@ pub struct Diagnosis {
 pub struct Faults {
     /// The worst place that is too crowded for contacts to be measured.
     pub crowded: Option<ThreadCrowd>,
-    /// Contacts that pierce, worst first; [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED) of
-    /// them at most.
+    /// Contacts that pierce, worst first, at most
+    /// [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED).
     pub pierces: Vec<ThreadContact>,
     /// The tightest bend, if its radius is less than the section reaches into it.
     pub folds: Option<ThreadBend>,
     /// Threads that lie too close together.
     pub jams: Option<Jams>,
-    /// The pieces of a cloth that does not hang together.
+    /// The pieces of the cloth, if it does not hang together.
     pub apart: Option<Pieces>,
-    /// The mesh's narrowest place, if it is [wrung](WRUNG) between two rings there.
+    /// The mesh's narrowest place, if the mesh is [wrung](WRUNG) there: narrowed because two
+    /// neighbouring rings are turned against one another.
     pub wrung: Option<ThreadDrawn>,
-    /// The mesh's triangles that face inwards.
+    /// The triangles of the mesh that face inwards, if there are any.
     pub inside_out: Option<ThreadDrawn>,
 }
 
@@ -54,11 +55,12 @@ pub enum ClothFault {
     Pierces,
     /// A bend is so tight that the tube folds into itself.
     Folds,
-    /// Threads lie closer together than those that cross them can pass.
+    /// Threads lie so close together that crossing threads can't pass between them.
     Jams,
-    /// The cloth is of several pieces, or has loose yarns.
+    /// The cloth consists of several pieces, or has loose yarns.
     FallsApart,
-    /// A mesh with the settings of the diagnosis is wrung between two rings.
+    /// A mesh with the settings of the diagnosis is wrung: narrowed because two neighbouring rings
+    /// are turned against one another.
     Wrung,
     /// Triangles of a mesh with the settings of the diagnosis face inwards.
     InsideOut,
@@ -86,7 +88,7 @@ pub struct Jams {
     pub ends: usize,
     /// Number of jammed picks.
     pub picks: usize,
-    /// The worst of them, worst first; 100 at most.
+    /// The worst jammed threads, worst first, at most 100.
     pub threads: Vec<Pitch>,
 }
 
@@ -131,11 +133,11 @@ impl Faults {
 }
 
 impl Woven {
-    /// Diagnoses the cloth. It measures the clearance at the default tension, and compares pitches
-    /// with the pitches that threads need.
+    /// Diagnoses the cloth: measures its clearance at the default tension, and compares the pitches
+    /// of threads with the pitches that they need.
     ///
-    /// Contacts with a ratio below `touching` pierce. Splines through threads that just touch come
-    /// to 0.985. `progress` gets the share that is done, as in
+    /// Contacts with a ratio below `touching` count as piercing. Splines through threads that just
+    /// touch have a ratio of 0.985. `progress` gets the share that is done, as in
     /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
     ///
     /// **Errors**: the errors of [`Woven::yarns`] and of [`Woven::clearance`].

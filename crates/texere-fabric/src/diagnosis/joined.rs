@@ -1,10 +1,10 @@
 //! Pieces of an endless cloth: yarns of one repeat that hold one another, within the repeat or
 //! across its edges.
 //!
-//! The idea is simple: union-find. Each yarn points to another yarn of its piece, and along these
+//! The method is union-find. Each yarn points to another yarn of its piece, and along these
 //! pointers to the root of the piece. A pointer also keeps the copy of the repeat in which the
-//! other yarn lies. A root keeps all ways from copy to copy that lead back to the same piece. They
-//! form a lattice, from which pieces of any number of copies are counted.
+//! other yarn lies. A root keeps all ways from copy to copy that lead back to the same piece. These
+//! ways form a lattice, from which the pieces in any number of copies are counted.
 
 /// Number of copies along x and y from one yarn to another.
 type Shift = [i64; 2];
@@ -12,8 +12,8 @@ type Shift = [i64; 2];
 /// The yarns of one repeat of an endless cloth, joined to one another.
 #[derive(Debug)]
 pub(crate) struct Joined {
-    /// For each yarn, the yarn that it points to, and the copy in which that yarn lies relative to
-    /// it. A root points to itself.
+    /// For each yarn, the yarn that it points to, and the copy in which the other yarn lies
+    /// relative to the first. A root points to itself.
     parents: Vec<(usize, Shift)>,
     /// For each root, the copies in which the same piece comes back.
     returns: Vec<Lattice>,
@@ -25,7 +25,7 @@ pub(crate) struct Joined {
 #[derive(Debug)]
 pub(crate) struct Part {
     pub(crate) yarns: Vec<usize>,
-    /// The lowest and the highest copy in which its yarns lie, along x and y.
+    /// The lowest and the highest copy in which the piece's yarns lie, along x and y.
     spread: [[i64; 2]; 2],
     returns: Lattice,
 }
@@ -111,8 +111,8 @@ impl Joined {
 }
 
 impl Part {
-    /// Number of pieces of this kind in `copies` copies of the repeat. Pieces at the edges lack the
-    /// yarns that would lie beyond.
+    /// Number of pieces of this kind in `copies` copies of the repeat. A piece at an edge lacks the
+    /// yarns that would lie beyond the edge.
     pub(crate) fn count(&self, copies: [u32; 2]) -> u64 {
         let yarns = copies.map(u64::from).iter().product::<u64>().saturating_mul(self.yarns.len() as u64);
         let copies =
@@ -124,8 +124,8 @@ impl Part {
         } else if (a, b, d) == (0, 0, 0) {
             all
         } else {
-            // All ways back are multiples of one. A piece begins in each copy from which that way
-            // leads out of the cloth.
+            // All ways back are multiples of one way. A piece begins in each copy from which this
+            // way leads out of the cloth.
             let back = if a != 0 { [a, b] } else { [0, d] };
             let inner = [0, 1].map(|axis| copies[axis].saturating_sub(back[axis].unsigned_abs()));
             all - inner[0].saturating_mul(inner[1]).min(all)

@@ -1,4 +1,4 @@
-//! Diagnosis of a cloth: its faults, their places, and their cures.
+//! Diagnosis of a cloth: its faults, the places of the faults, and cures.
 
 mod cures;
 mod faults;

@@ -12,8 +12,8 @@ const LISTED: usize = 4;
 
 /// How a whole cloth hangs together: see [`Structure::pieces`](crate::Structure::pieces).
 ///
-/// A piece of woven cloth is a layer that nothing binds to the next one. A piece of a knit is the
-/// yarns whose loops are drawn through one another, with the yarns that are laid in between.
+/// A piece of woven cloth is a layer that nothing binds to the next one. A piece of a knit consists
+/// of yarns whose loops are drawn through one another, and of the yarns that are laid in between.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Pieces {
     /// Number of pieces: 1 for a cloth that hangs together. A loose yarn of a knit is a piece of
@@ -21,13 +21,13 @@ pub struct Pieces {
     pub count: u64,
     /// Words for the first few pieces.
     pub listed: Vec<String>,
-    /// Number of loose yarns. Neither another yarn nor a loop of their own holds them.
+    /// Number of loose yarns: yarns that neither another yarn nor a loop of their own holds.
     pub loose: u64,
-    /// The first of them.
+    /// The first few loose yarns.
     pub loose_listed: Vec<Origin>,
     /// Number of needles of a knit that never have a loop, over all wales.
     pub empty_needles: u64,
-    /// The first of them, from 0 at the left.
+    /// The first few of these needles, counted from 0 at the left.
     pub empty_listed: Vec<u64>,
     /// Whether the pieces are layers, listed from the face.
     layers: bool,
@@ -93,8 +93,8 @@ impl Pieces {
     }
 
     /// The pieces of a knit of `copies` copies of one repeat. `joined` has the yarns of the repeat.
-    /// `origin` gives the origin of a yarn by its number and its copy along x. `empty` are the
-    /// needles of the repeat that never have a loop, of `wales` needles.
+    /// `origin` gives the origin of a yarn by its number and its copy along x. `empty` are those of
+    /// the repeat's `wales` needles that never have a loop.
     pub(crate) fn of_knit(
         joined: &mut Joined,
         copies: [u32; 2],

@@ -1,4 +1,4 @@
-//! Clearance and bends with places named as a weaver names them: by thread and crossing.
+//! Clearance and bends, with places named by thread and crossing as weavers do.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -11,18 +11,18 @@ use crate::{FabricError, NO_CROSSING, Woven};
 /// A crossing of a woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Crossing {
-    /// The end, from 1.
+    /// The end, counted from 1.
     pub end: u32,
-    /// The pick, from 1.
+    /// The pick, counted from 1.
     pub pick: u32,
 }
 
 /// A stitch of a knit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StitchPlace {
-    /// The wale, from 1 at the left.
+    /// The wale, counted from 1 at the left.
     pub wale: u32,
-    /// The course, from 1 at the bottom.
+    /// The course, counted from 1 at the bottom.
     pub course: u32,
 }
 
@@ -30,15 +30,15 @@ pub struct StitchPlace {
 /// the thread alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadPlace {
-    /// The thread. A weft that turns at selvedges is one yarn of many picks; the thread is the pick
-    /// then.
+    /// The thread. If the weft turns at selvedges, one yarn makes many picks, and the thread is the
+    /// pick.
     pub thread: Origin,
     /// The point of the centreline, mm.
     pub position_mm: [f64; 3],
     /// The nearest crossing. `None` at a yarn's end and in a turn of the weft.
     pub crossing: Option<Crossing>,
-    /// The stitch of a knit that the yarn makes there, counted in the whole cloth. `None` where the
-    /// yarn floats, and in cloth that is not knitted.
+    /// The stitch of a knit that the yarn makes at this place, counted in the whole cloth. `None`
+    /// if the yarn floats, and in cloth that is not knitted.
     pub stitch: Option<StitchPlace>,
 }
 
@@ -62,7 +62,7 @@ impl fmt::Display for ThreadPlace {
 /// Two threads that come near one another: a [`Contact`] with the names of its threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadContact {
-    /// See [`Contact::ratio`]: 1 where both just touch, less where they pierce.
+    /// The [`Contact::ratio`]: 1 if both just touch, less if they pierce.
     pub ratio: f64,
     /// The place on each of the two threads.
     pub places: [ThreadPlace; 2],
@@ -81,15 +81,16 @@ impl ThreadContact {
 /// of its thickest thread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadCrowd {
-    /// A place on the thickest thread there.
+    /// A place on the thickest thread of the crowd.
     pub place: ThreadPlace,
-    /// Twice that thread's radius, mm.
+    /// Twice the radius of the thickest thread, mm.
     pub thickness_mm: f64,
-    /// Distance of that thread to the thread before it, mm. For the first thread, to the next one.
+    /// Distance from the thickest thread to the thread before it, or from the first thread to the
+    /// second, mm. `None` in a knit.
     pub pitch_mm: Option<f64>,
-    /// Number of control intervals that lie there.
+    /// Number of control intervals in the crowd.
     pub intervals: usize,
-    /// Volume of the yarns over the room that they have: see [`Crowd::fill`].
+    /// Volume of the crowd's yarns over the room that they have: see [`Crowd::fill`].
     pub fill: f64,
 }
 
@@ -97,10 +98,10 @@ pub struct ThreadCrowd {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadBend {
     /// Radius of curvature, over the distance by which the section reaches into the bend: see
-    /// [`Clearance::curvature_min`](texere_contact::Clearance::curvature_min). Infinite where all
+    /// [`Clearance::curvature_min`](texere_contact::Clearance::curvature_min). Infinite if all
     /// threads are straight.
     pub radii: f64,
-    /// The place of that bend. `None` where all threads are straight.
+    /// The place of the tightest bend. `None` if all threads are straight.
     pub place: Option<ThreadPlace>,
 }
 
@@ -109,11 +110,11 @@ pub struct ThreadBend {
 pub struct ThreadDrawn {
     /// See [`Drawn::width`](texere_contact::Drawn::width).
     pub width: f64,
-    /// The place of that width.
+    /// The place of the least width.
     pub width_at: Option<ThreadPlace>,
     /// See [`Drawn::inwards`](texere_contact::Drawn::inwards).
     pub inwards: u64,
-    /// The place of the first such triangle.
+    /// The place of the first triangle that faces inwards.
     pub inwards_at: Option<ThreadPlace>,
 }
 
@@ -136,13 +137,13 @@ pub struct ClothClearance {
     pub crowd: Option<ThreadCrowd>,
     /// The tightest bend.
     pub bend: ThreadBend,
-    /// Faults of a mesh with the settings that were given.
+    /// Faults of a mesh with the settings of the measurement.
     pub drawn: ThreadDrawn,
 }
 
 impl Woven {
     /// Measures how near the cloth's threads come to one another, and how tightly they bend.
-    /// `yarns` come from [`Woven::yarns`], and are measured as drawn with `settings`. `progress`
+    /// `yarns` are the yarns of this cloth, and are measured as drawn with `settings`. `progress`
     /// gets the share that is done, as in [`clearance_with_progress`].
     ///
     /// **Errors**: the errors of [`clearance_with_progress`].
@@ -170,7 +171,7 @@ impl Woven {
 
     /// A place on one of the cloth's `yarns`, named by thread and crossing.
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** for a place on a yarn past the last one.
     #[must_use]
     pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
         Names { cloth: Some(self), yarns }.place(place)

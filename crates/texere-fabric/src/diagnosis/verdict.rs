@@ -7,17 +7,18 @@ use texere_core::settling::Length;
 
 use crate::{Finished, Settled, WovenRest};
 
-/// Share by which yarns may be off the length that they should have. Settling itself aims for this.
+/// Share by which the length of a yarn's interval may differ from the length that it should have.
+/// Settling itself aims for this share.
 const LENGTH: f32 = 0.01;
 
 /// Whether settled cloth is what was asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// No surface, as drawn, is nearer to another than [`CLEAR`], and none folds. All yarns keep
-    /// their lengths and their linking.
+    /// No surface, as drawn, is nearer to another than [`CLEAR`], and none folds. Yarns of a knit
+    /// have the lengths that they should have, and keep their linking.
     AtRest,
-    /// Yarns of a knit have no room: even the block form of settling has not made them clear.
+    /// Yarns of a knit have no room: even the block form of settling did not bring them to rest.
     Jammed,
     /// A condition of [`Verdict::AtRest`] is not met.
     NotAtRest,
@@ -34,7 +35,8 @@ impl fmt::Display for Verdict {
 }
 
 impl Finished {
-    /// The verdict on the cloth. The command line, the window and [`Finished::is_at_rest`] use it.
+    /// The verdict on the cloth. The command line, the program's window and
+    /// [`Finished::is_at_rest`] all use this verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self {
@@ -43,9 +45,9 @@ impl Finished {
         }
     }
 
-    /// Whether the cloth is at rest: no surface pierces another ([`CLEAR`])
-    /// or folds, and yarns of a knit keep their lengths and their linking. `check` finds no
-    /// piercing and no fold then.
+    /// Whether the cloth is at rest: no surface pierces another ([`CLEAR`]) or folds, and yarns of
+    /// a knit have their lengths and keep their linking. The program's `check` then finds no
+    /// piercing and no fold.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.verdict() == Verdict::AtRest
@@ -53,7 +55,7 @@ impl Finished {
 }
 
 impl Settled {
-    /// The verdict, by surfaces as they are drawn.
+    /// The verdict, measured on surfaces as they are drawn.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let Clearance { min, curvature_min, crowd, .. } = &self.clearance;
@@ -67,7 +69,8 @@ impl Settled {
 }
 
 impl WovenRest {
-    /// The verdict, by surfaces as they are drawn. Threads that still move a little may be at rest.
+    /// The verdict, measured on surfaces as they are drawn. Threads that still move a little may be
+    /// at rest.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if is_clear(self.clearance[1], self.bend) { Verdict::AtRest } else { Verdict::NotAtRest }

@@ -10,44 +10,44 @@ use crate::FabricError;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FinishError {
-    /// The structure's yarns can't be made, or what came of them can't be measured;
-    /// [`FabricError::Cancelled`] where the progress callback asked to stop.
+    /// The structure's yarns can't be made, or the settled yarns can't be measured. It holds
+    /// [`FabricError::Cancelled`] if the progress callback asked to stop.
     #[error(transparent)]
     Fabric(#[from] FabricError),
-    /// What is asked can't be settled.
+    /// Yarns that can't be settled as asked.
     #[error(transparent)]
     Settling(#[from] SettlingError),
-    /// A thread can't be settled as asked.
+    /// A thread that can't be settled as asked.
     #[error("{thread} can't settle")]
     Thread {
         /// The thread.
         thread: Origin,
-        /// Why.
+        /// The reason.
         source: SettlingError,
     },
-    /// Something was asked of woven cloth that only knits have.
+    /// A request for woven cloth that only knits can meet.
     #[error("woven cloth comes to rest by its crossings: {asked} is for knits")]
     Woven {
         /// `a length`, `a press` or `a course`.
         asked: &'static str,
     },
-    /// Woven cloth can't be stretched so far, or draw in so far, without another length of its
-    /// threads.
+    /// Woven cloth that can't be stretched so far, or draw in so far, while its threads keep their
+    /// lengths.
     #[error(
         "cloth can't be {by} times as long along its {along} while its threads keep their lengths: these are straight at {most:.4}, and jam where it draws in too far"
     )]
     Stretch {
         /// `warp` or `weft`.
         along: &'static str,
-        /// What was asked.
+        /// The factor that was asked for.
         by: f64,
-        /// Where its threads are straight.
+        /// The factor at which the cloth's threads are straight.
         most: f64,
     },
-    /// Crossings of woven cloth can't be settled.
+    /// Crossings of woven cloth that can't be settled.
     #[error(transparent)]
     Crossings(#[from] CrossingsError),
-    /// The device failed, or settles nothing.
+    /// A device that failed, or a backend that can't settle.
     #[error(transparent)]
     Backend(#[from] BackendError),
 }

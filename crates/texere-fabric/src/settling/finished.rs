@@ -1,11 +1,11 @@
-//! A structure whose yarns have come to rest, by its own way to rest.
+//! A structure whose yarns have come to rest: a knit by contact, woven cloth by its crossings.
 
 use texere_core::Yarns;
 
 use super::Settled;
 use crate::{FabricWarning, WovenRest};
 
-/// A fabric at rest, or as near to it as it came: see
+/// A fabric at rest, or as near to rest as it came: see
 /// [`Structure::settle`](crate::Structure::settle).
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -36,7 +36,7 @@ impl Finished {
         }
     }
 
-    /// What a designer should know of the fabric at rest: [`FabricWarning::PressMissed`].
+    /// Warnings about the fabric at rest: [`FabricWarning::PressMissed`].
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         let press = match self {

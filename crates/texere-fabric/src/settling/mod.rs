@@ -24,23 +24,23 @@ pub use self::settled::{Finish, Press, Settled};
 use self::settled::unchanged;
 use crate::{FabricError, thickness_mm};
 
-/// The share of the progress at which passes end, and linking is compared.
+/// The share of the progress at which the passes end.
 const PASSED: f64 = 0.9;
+/// The share of the progress at which linking has been compared.
 const COMPARED: f64 = 0.95;
 
 /// Lets the yarns of `piece` settle on `backend`. They move until they nowhere pierce one another,
-/// nowhere fold, and have the length that `finish` asks for. `progress` gets the share of the work
-/// done, from 0 to 1; `Break` ends the settling within one pass.
+/// nowhere fold, and have the lengths that `finish` asks for. `progress` gets the share of the work
+/// done, from 0 to 1. If it returns `Break`, settling ends within one pass.
 ///
-/// [`Settled::rest`] says whether they came to rest within their passes, with figures. The result
-/// is the best that was seen: by clearance, then by bends, then by length, never worse than the
-/// start ([`texere_core::settling::settle`]). Yarns that have passed through one another are no
-/// better, whatever they measure: the yarns of `piece` then come back unmoved, and
-/// [`Settled::linking`] names the places.
+/// [`Settled::rest`] says whether the yarns came to rest within their passes, with figures. The
+/// result is the best of all passes: by clearance, then by bends, then by length. It is never worse
+/// than the start ([`texere_core::settling::settle`]). If yarns have passed through one another,
+/// the yarns of `piece` are returned unmoved, and [`Settled::linking`] names the places.
 ///
-/// **Errors**: [`FinishError::Settling`] for what can't be settled as asked,
-/// [`FinishError::Backend`] for a backend that settles nothing or a device that fails, and the
-/// errors of [`linking()`](texere_contact::linking()) and
+/// **Errors**: [`FinishError::Settling`] and [`FinishError::Thread`] for yarns that can't be
+/// settled as asked, [`FinishError::Backend`] for a backend that can't settle or a device that
+/// fails, and the errors of [`linking()`](texere_contact::linking()) and
 /// [`clearance()`](texere_contact::clearance()).
 ///
 /// ```
@@ -74,7 +74,7 @@ pub fn settle(
     let plan = Arc::new(plan);
     let mut settler = backend.settler(Arc::clone(&plan))?;
     let (mut course, mut stopped) = (Vec::new(), false);
-    // Both forms take this many passes at most, and few more come before.
+    // Settling takes at most `finish.passes` passes in each of its two forms, and a few before.
     let (mut made, most) = (0.0, 2.0 * f64::from(finish.passes));
     let rest = settling::settle(&plan, settler.as_mut(), |pass, seen| {
         if finish.record {
@@ -110,7 +110,7 @@ pub fn settle(
     Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, press, course })
 }
 
-/// The share of the progress at which one repeat has settled, and its copies are measured.
+/// The share of the progress at which one repeat has settled. Its copies are then measured.
 const SETTLED: f64 = 0.8;
 
 /// Lets one repeat settle, and measures [`Settled::clearance`] on all its copies, which `placed`
@@ -134,7 +134,7 @@ pub(crate) fn settle_repeat(
     Ok(Settled { yarns, ..settled })
 }
 
-/// A place on a yarn of the repeat, on that yarn's first copy.
+/// The place on the first copy of a yarn that a place on the yarn of the repeat stands for.
 fn placed_at(place: &YarnPlace, repeat: &Layout, placed: &Layout) -> YarnPlace {
     let origin = repeat.yarns()[place.yarn].origin;
     let yarn = placed.yarns().iter().position(|yarn| yarn.origin == origin);

@@ -6,20 +6,20 @@ use texere_core::{Boundary, ControlPoint, Ends, YarnError, Yarns};
 
 use super::Finish;
 
-/// A piece of cloth that is to settle: its yarns, how it goes on at its edges, and what holds it
-/// there.
+/// A piece of cloth that is to settle: its yarns, how the yarns go on at its edges, and the control
+/// points that are held.
 #[derive(Debug, Clone)]
 pub struct Piece {
-    /// The yarns, about where they belong.
+    /// The yarns, about where they lie in the cloth.
     pub yarns: Yarns,
-    /// Where the yarns end, close up or go on.
+    /// Which yarns end, are closed, or go on in the next repeat, and the size of the repeat.
     pub boundary: Boundary,
-    /// Control points that stay where they are, by number among all.
+    /// The numbers of the control points that stay where they are, counted through all yarns.
     pub pinned: Vec<u64>,
 }
 
 impl Piece {
-    /// A piece that nothing holds: one repeat of a cloth, or one that lies free.
+    /// A piece that nothing holds: one repeat of a cloth, or a piece that lies free.
     #[must_use]
     pub const fn new(yarns: Yarns, boundary: Boundary) -> Self {
         Self { yarns, boundary, pinned: Vec::new() }
@@ -44,7 +44,8 @@ impl Piece {
         Self { boundary: Boundary::without_repeat(layout), pinned, yarns }
     }
 
-    /// Length of all its yarns, mm. A yarn that goes on counts as far as its next round.
+    /// Length of all yarns of the piece, mm. A yarn that goes on in the next repeat counts up to
+    /// the start of its next round.
     #[must_use]
     pub fn length_mm(&self) -> f64 {
         let lengths = lengths_mm(&self.yarns);

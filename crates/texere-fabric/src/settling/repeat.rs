@@ -8,8 +8,8 @@ use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, YarnError, Yarns};
 use super::Piece;
 use crate::FabricError;
 
-/// The fewest wales and courses of a repeat that settles, if the cloth has as many. What lies over
-/// its seam is then another stitch.
+/// The fewest wales and courses of a piece that settles, if the cloth has as many. With so many, a
+/// stitch's neighbour over the seam is another stitch.
 const SETTLED: u32 = 4;
 
 /// A cloth made of copies of one repeat. The repeat settles once, and is then copied.
@@ -31,7 +31,7 @@ const SETTLED: u32 = 4;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Repeat {
-    /// The yarns of one repeat, and how they go on.
+    /// The yarns of one repeat, and how they go on at its edges.
     pub piece: Piece,
     /// Number of copies along x and along y.
     pub copies: [u32; 2],
@@ -51,30 +51,31 @@ impl Repeat {
     /// settled or not.
     ///
     /// A yarn that goes on from one repeat to the next becomes one yarn through all copies. It is
-    /// cut off at the last control point of its last round. There its first and its last interval
-    /// lack the neighbour that bends them in the repeat, and may come nearer to other yarns. All
-    /// other yarns are copied one by one. Yarns come copy by copy, row by row from below and from
-    /// the left, each where it begins. Materials, sections, tension, origins and sources are those
-    /// of the repeat.
+    /// cut off at the last control point of its last round. The first and the last interval of the
+    /// yarn lack the neighbour that bends them in the repeat, and may come nearer to other yarns.
+    /// All other yarns are copied one by one. Yarns are ordered by the copy in which they begin:
+    /// row by row from below, and from the left within a row. Materials, sections, tension, origins
+    /// and sources are those of the repeat.
     ///
-    /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's,
-    /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where there is no copy, or
-    /// coordinates would lie too far out.
+    /// **Errors**: [`FabricError::OtherYarns`] for yarns with other numbers of control points than
+    /// the piece's, [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] if there is no copy,
+    /// or if coordinates would lie too far out.
     pub fn placed(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
         self.placed_beyond(yarns, [0, 0])
     }
 
     /// [`Repeat::placed`] with longer yarns: a yarn that is cut off where the copies end goes on
-    /// for `beyond` control points more at its beginning and at its end. All of it within the
-    /// copies then bends as in the repeat.
+    /// for `beyond` more control points at its beginning and at its end. The yarn within the copies
+    /// then bends as in the repeat.
     ///
     /// **Errors**: the errors of [`Repeat::placed`].
     pub fn placed_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
         self.placed_as(yarns, beyond, |origin, _| origin, |source, _| source)
     }
 
-    /// [`Repeat::placed_beyond`] with origins and sources of the copies' own, made from those of
-    /// the repeat and the copy's place, in repeats along x and y.
+    /// [`Repeat::placed_beyond`] with other origins and sources for each copy. `origin` and
+    /// `source` give them for an origin or a source of the repeat and the place of the copy, in
+    /// repeats along x and y.
     pub(crate) fn placed_as(
         &self,
         yarns: &Yarns,
@@ -150,7 +151,7 @@ impl Repeat {
         Ok(if yarns.sources().is_some() { placed.with_sources(sources)? } else { placed })
     }
 
-    /// All copies, each by its place in repeats along x and along y.
+    /// The places of all copies, in repeats along x and y.
     fn cells(&self) -> impl Iterator<Item = [i64; 2]> {
         let [across, along] = self.copies.map(i64::from);
         (0..along).flat_map(move |y| (0..across).map(move |x| [x, y]))
@@ -161,14 +162,14 @@ impl Repeat {
     }
 }
 
-/// Number of repeats of a knit that settle together along x and along y, where one has `size` wales
-/// and courses.
+/// Number of repeats of a knit that settle together along x and along y. One repeat has `size`
+/// wales and courses, and there are `copies` of it.
 pub(crate) fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
     [0, 1].map(|axis| tiles(size[axis], copies[axis]))
 }
 
-/// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all
-/// where none does.
+/// The fewest repeats along one axis that divide `copies` and together have [`SETTLED`] wales or
+/// courses, if each has `size`. If no number up to 16 does, it is all `copies`.
 fn tiles(size: u32, copies: u32) -> u32 {
     let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
     (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)

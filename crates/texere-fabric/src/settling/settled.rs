@@ -1,4 +1,4 @@
-//! What is asked of a settling, and what comes of it.
+//! What is asked of settling, and its result.
 
 use texere_contact::{Clearance, Linking};
 use texere_core::settling::{Length, Pass, Rest, SettlingSeen};
@@ -10,34 +10,36 @@ use crate::{BySet, FabricWarning};
 /// calender for woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finish {
-    /// What becomes of lengths, and the tension that draws yarns in where lengths are free. With
-    /// none, a knit's loops reach the length that its gauge asks for, or are free; all other yarns
-    /// are held.
+    /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
+    /// gets the loop lengths of its program or its gauge, and its lengths are free if a loop has
+    /// neither. A warp knit gets the lengths of its run-ins, and keeps its lengths if a bar has
+    /// none. All other yarns keep their lengths.
     pub length: Option<Length>,
     /// Distance of the two plates that press the cloth while yarns settle, mm. Yarns that are at
-    /// rest from the start stay as they are.
+    /// rest at the start are not moved.
     pub press_mm: Option<f32>,
-    /// The most passes of either form, by contact: see [`texere_core::settling::Settling::passes`].
+    /// The most passes of each form of settling by contact: see
+    /// [`texere_core::settling::Settling::passes`].
     pub passes: u32,
     /// Whether [`Settled::course`] is kept.
     pub record: bool,
-    /// Tautness of woven cloth's threads, 0 to 10, 1 in relaxed cloth. The tauter set straightens,
-    /// and the other one takes its crimp.
+    /// Tautness of woven cloth's threads, from 0 to 10; 1 in relaxed cloth. The tauter set
+    /// straightens, and the other set takes its crimp.
     pub taut: BySet<f32>,
-    /// How strongly woven cloth is pressed flat, 0 to 10, 1 in relaxed cloth.
+    /// How strongly woven cloth is pressed flat, from 0 to 10; 1 in relaxed cloth.
     pub calender: f32,
 }
 
 impl Finish {
-    /// What becomes of lengths, which are held by default.
+    /// The rule for lengths. Without one, yarns keep their lengths.
     pub(super) fn length(&self) -> Length {
         self.length.unwrap_or(Length::Held)
     }
 }
 
 impl Default for Finish {
-    /// The structure's own lengths, no press, at most 250 passes of either form, no record; relaxed
-    /// woven cloth.
+    /// The structure's own lengths, no press, at most 250 passes of each form, no record, and
+    /// relaxed woven cloth.
     fn default() -> Self {
         Self {
             length: None,
@@ -59,12 +61,12 @@ pub struct Press {
     pub reached_mm: f64,
 }
 
-/// The share by which cloth may be thicker than asked.
+/// The share by which cloth may be thicker than asked without a warning.
 const THICKER: f64 = 0.01;
 
 impl Press {
-    /// A warning where the cloth is thicker than asked by more than one per cent. No plate goes
-    /// through yarns, and bent yarns stand up again.
+    /// A warning if the cloth is thicker than asked by more than one per cent. Plates do not cut
+    /// into yarns, and bent yarns stand up again when the plates are gone.
     #[must_use]
     pub fn missed(&self) -> Option<FabricWarning> {
         let Self { asked_mm, reached_mm } = *self;
@@ -76,34 +78,35 @@ impl Press {
 /// Settled yarns, and how well they settled.
 #[derive(Debug, Clone)]
 pub struct Settled {
-    /// The settled yarns, with the layout, materials and sources of the piece. They are the piece's
-    /// own yarns, unmoved, where any have passed through one another on their way.
+    /// The settled yarns, with the layout, materials and sources of the piece. If any yarns have
+    /// passed through one another, they are the piece's own yarns, unmoved.
     pub yarns: Yarns,
-    /// What became of lengths.
+    /// The rule by which lengths were settled.
     pub length: Length,
-    /// Passes, and what was seen at the start and at the end. Where the yarns are unmoved the end
-    /// is the start, and they are not at rest.
+    /// The number of passes, and the measures at the start and at the end. If the yarns were left
+    /// unmoved because they had passed through one another, the end equals the start, and they are
+    /// not at rest.
     pub rest: Rest,
     /// Whether yarns have passed through one another, by comparison of the start with the end.
     pub linking: Linking,
     /// How near [`Settled::yarns`] come to one another and how tightly they bend, with the worst
-    /// places. A repeat is measured as one piece, without its neighbours; [`Settled::rest`] counts
-    /// these.
+    /// places. [`settle`](crate::settle()) measures a repeat as one piece, without its neighbours.
+    /// [`Settled::rest`] counts the neighbours, too.
     pub clearance: Clearance,
-    /// Thickness that was asked of a press, and thickness reached. None without a press.
+    /// The distance of the plates of a press, and the thickness of the cloth. None without a press.
     pub press: Option<Press>,
-    /// Every pass and what it has seen, in order. Empty unless [`Finish::record`] asks for it.
+    /// Every pass and its measures, in order. Empty unless [`Finish::record`] asks for them.
     pub course: Vec<(Pass, SettlingSeen)>,
 }
 
 impl Settled {
-    /// The result with the thickness of the whole cloth, mm.
+    /// The result with the thickness of the whole cloth as the reached thickness of the press, mm.
     pub(crate) fn pressed(self, reached_mm: impl FnOnce(&Yarns) -> f64) -> Self {
         let press = self.press.map(|press| Press { reached_mm: reached_mm(&self.yarns), ..press });
         Self { press, ..self }
     }
 
-    /// Whether no yarn has passed through another, with nothing left uncompared.
+    /// Whether no yarn has passed through another. False if some yarns could not be compared.
     #[must_use]
     pub const fn is_linked(&self) -> bool {
         unchanged(&self.linking)
@@ -111,14 +114,14 @@ impl Settled {
 
     /// The thread at a place of [`Settled::clearance`] or [`Settled::linking`].
     ///
-    /// **Panics** past the last yarn, which no place of these is.
+    /// **Panics** for a place on a yarn past the last one. No place of `clearance` or `linking` is.
     #[must_use]
     pub fn origin(&self, place: &YarnPlace) -> Origin {
         self.yarns.layout().yarns()[place.yarn].origin
     }
 }
 
-/// Whether the linking of yarns is known to be unchanged.
+/// Whether all yarns were compared and their linking is unchanged.
 pub(super) const fn unchanged(linking: &Linking) -> bool {
     linking.passages == 0 && linking.left_out == 0
 }

@@ -15,14 +15,14 @@ pub(super) const RACK: f64 = 480.0;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
-    /// Its movement, course by course.
+    /// The movement of the bar, course by course.
     pub chain: Chain,
     /// The yarn of each guide.
     pub threading: Threading,
     /// Needles by which the whole bar is moved towards the high numbers. For guide 0, space 0 of
     /// the chain is space `offset` of the cloth.
     pub offset: i32,
-    /// Run-in: length of yarn for a rack of 480 courses, mm. With `None` the bar finds its own.
+    /// Run-in: length of yarn for a rack of 480 courses, mm. With `None` it follows from the laps.
     pub run_in_mm: Option<f64>,
     /// Displacements of single guides, for a Jacquard bar.
     pub jacquard: Option<Displacements>,
@@ -82,7 +82,7 @@ impl Threading {
         Self { guides: if guides.is_empty() { vec![None] } else { guides } }
     }
 
-    /// Number of guides until the threading begins again.
+    /// Number of guides after which the threading repeats.
     #[must_use]
     pub const fn period(&self) -> usize {
         self.guides.len()
@@ -131,7 +131,7 @@ impl Displacements {
     /// displacements of the beginning and the end of the lap, and `colour` gives the colour of a
     /// cell by guide and round.
     ///
-    /// `None` for an image without cells or with more of them than a `u32` counts, for colours
+    /// `None` for an image without cells or with more cells than a `u32` counts, for colours
     /// without courses or with different numbers of courses, for displacements above 1, and for
     /// colours that the palette lacks.
     #[must_use]

@@ -11,8 +11,9 @@ pub const CHAIN_COURSES: usize = 4096;
 /// The most needles that a lap goes round.
 pub const NEEDLES_MOST: i32 = 2;
 
-/// The movement of a guide at one course. It swings through the needles in space `from`, moves in
-/// front of them to space `to`, and swings back. Space n lies between the needles n - 1 and n.
+/// The movement of a guide at one course. The guide swings through the needles in space `from`,
+/// moves in front of them to space `to`, and swings back. Space n lies between the needles n - 1
+/// and n.
 ///
 /// ```
 /// use texere_fabric::warp::{Lap, LapKind};
@@ -23,7 +24,7 @@ pub const NEEDLES_MOST: i32 = 2;
 pub struct Lap {
     /// The needle space before the overlap.
     pub from: i32,
-    /// The needle space after it.
+    /// The needle space after the overlap.
     pub to: i32,
 }
 
@@ -49,21 +50,21 @@ impl Lap {
         }
     }
 
-    /// The overlap: needles by which the guide moves in front of them, positive towards higher
-    /// numbers.
+    /// The overlap: the number of needles in front of which the guide passes, positive towards
+    /// higher numbers.
     #[must_use]
     pub const fn overlap(self) -> i32 {
         self.to - self.from
     }
 
-    /// The needle with the lowest number that it goes round. For an inlay it is the needle after
-    /// its space.
+    /// The needle with the lowest number that the lap goes round. For an inlay it is the needle
+    /// after the inlay's space.
     #[must_use]
     pub const fn needle(self) -> i32 {
         if self.from < self.to { self.from } else { self.to }
     }
 
-    /// The needles that it goes round, in the order in which the guide reaches them.
+    /// The needles that the lap goes round, in the order in which the guide reaches them.
     pub fn needles(self) -> impl Iterator<Item = i32> {
         let (first, count) = (self.needle(), self.overlap().abs());
         let falls = self.overlap() < 0;
@@ -78,7 +79,7 @@ impl fmt::Display for Lap {
 }
 
 /// The chain of a guide bar: its laps, course by course from the first one knitted. After the last
-/// lap the first one follows again.
+/// lap the chain repeats from the first one.
 ///
 /// A chain is read from notation ([`Chain::parse`]) or known by a name ([`Chain::named`]). It
 /// displays as notation:
@@ -114,7 +115,7 @@ impl Chain {
         &self.laps
     }
 
-    /// Number of courses until the chain begins again.
+    /// Number of courses after which the chain repeats.
     #[must_use]
     pub const fn courses(&self) -> usize {
         self.laps.len()
@@ -126,8 +127,8 @@ impl Chain {
         self.laps[course % self.laps.len()]
     }
 
-    /// The underlap after the lap at `course`: needles by which the guide moves behind them to its
-    /// next lap, positive towards higher numbers.
+    /// The underlap after the lap at `course`: the number of needles behind which the guide passes
+    /// on the way to its next lap, positive towards higher numbers.
     #[must_use]
     pub fn underlap(&self, course: usize) -> i32 {
         self.lap(course % self.laps.len() + 1).from - self.lap(course).to
@@ -142,7 +143,7 @@ impl Chain {
     }
 }
 
-/// Whether a lap is open, when an underlap of `underlap` needles follows it.
+/// Whether a lap is open if an underlap of `underlap` needles follows it.
 pub(super) const fn is_open(lap: Lap, underlap: i32) -> bool {
     lap.overlap() != 0 && lap.overlap().signum() * underlap >= 0
 }

@@ -1,4 +1,5 @@
-//! Checks of bars, gauge and yarns: whether they can be a cloth.
+//! Checks of guide bars: whether each bar is valid, whether all repeat within the cloth, and
+//! whether the cloth has an allowed size.
 
 use texere_core::Origin;
 
@@ -15,19 +16,20 @@ const BARS_MAX: usize = 64;
 /// The most needles by which a bar is offset.
 const OFFSET_MAX: i32 = 1 << 16;
 
-/// The most wales or courses of all copies.
+/// The most wales, and the most courses, of a cloth with all its copies.
 const SIDE_MAX: u64 = 1 << 30;
 
 /// The most laps of a cloth before it is copied.
 const LAPS_MAX: u64 = 1 << 26;
 
-/// The fewest control points of a lap.
+/// A low estimate of the mean number of control points of a lap. A loop has more, an inlay may have
+/// one.
 const LAP_POINTS: u64 = 2;
 
 /// Control points of a loop.
 const LOOP_POINTS: u64 = 9;
 
-/// Checks that bars are sound, and refer only to yarns that exist.
+/// Checks that bars are valid, and refer only to yarns that exist.
 pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     if !(1..=BARS_MAX).contains(&bars.len()) {
         return Err(WarpError::Bars { bars: bars.len(), limit: BARS_MAX });
@@ -53,14 +55,16 @@ pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     Ok(())
 }
 
-/// The first guide that holds the yarn with the number `yarn`, from 0.
+/// The first guide that holds the yarn with the number `yarn`, counted from 0. The origin is
+/// [`Origin::Unknown`] if no guide holds this yarn.
 pub(super) fn first_guide(bars: &[Bar], yarn: u32) -> Origin {
     let guide = |bar: &Bar| bar.threading.guides().iter().position(|threaded| *threaded == Some(yarn));
     let found = (1..).zip(bars).find_map(|(bar, each)| Some((bar, guide(each)?)));
     found.map_or(Origin::Unknown, |(bar, guide)| Origin::Guide { bar, guide: guide as u32 + 1 })
 }
 
-/// Wales and courses after which all bars begin again. `size` has to be a multiple of them.
+/// The numbers of wales and courses after which the patterns of all bars repeat. `size` has to be a
+/// multiple of both.
 pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError> {
     let periods = bars.iter().map(|bar| {
         let [guides, rounds] = bar.jacquard.as_ref().map_or([1, 1], |image| image.size());
@@ -76,7 +80,7 @@ pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError
     Ok(repeat.map(|count| count as u32))
 }
 
-/// The least common multiple; the largest `u64` where that is too large.
+/// The least common multiple, or `u64::MAX` if it does not fit.
 fn common(one: u64, other: u64) -> u64 {
     let (mut greatest, mut rest) = (one, other);
     while rest > 0 {
@@ -85,8 +89,8 @@ fn common(one: u64, other: u64) -> u64 {
     (one / greatest.max(1)).saturating_mul(other)
 }
 
-/// Checks that the cloth has loops, and by a low estimate that it does not have too many control
-/// points. None has been made then.
+/// Checks that the cloth has loops, and not too many laps, wales, courses or control points. The
+/// number of points is estimated, so that the check comes before any point is made.
 pub(super) fn size(
     bars: &[Bar],
     repeat: [u32; 2],
@@ -130,8 +134,8 @@ pub(super) fn size(
     Ok(tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)?)
 }
 
-/// The number of control points of a lap with its underlap, about. Pieces of underlaps are 0.4
-/// wales long.
+/// About how many control points a lap and its underlap have. An underlap is divided into pieces of
+/// 0.4 wales (`PIECE` of path.rs).
 fn lap_points(placed: &PlacedLap) -> u64 {
     let [needles, underlap] =
         [placed.lap.overlap(), placed.underlap].map(|count| u64::from(count.unsigned_abs()));

@@ -5,8 +5,8 @@ use thiserror::Error;
 
 use super::chain::Lap;
 
-/// A warp knit that is refused. Guide bars are counted from 1 at the front, guides and courses from
-/// 1.
+/// A warp knit that is refused. Guide bars are counted from 1 at the front. Guides and courses are
+/// counted from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WarpError {
@@ -15,53 +15,55 @@ pub enum WarpError {
     Laps {
         /// Wales times courses times bars.
         laps: u64,
-        /// Most taken.
+        /// The most laps allowed.
         limit: u64,
     },
     /// No guide bars, or too many.
     #[error("{bars}; a warp knit has 1 to {limit}", bars = counted(*.bars, "guide bar"))]
     Bars {
-        /// How many.
+        /// The number of guide bars.
         bars: usize,
-        /// Most taken.
+        /// The most guide bars allowed.
         limit: usize,
     },
     /// A guide whose yarn does not exist.
     #[error("a guide of guide bar {bar} holds yarn {yarn}, but there are {yarns}")]
     GuideYarn {
-        /// The bar, from 1.
+        /// The bar, counted from 1 at the front.
         bar: usize,
-        /// The yarn, from 1.
+        /// The yarn, counted from 1.
         yarn: u64,
-        /// How many there are.
+        /// The number of yarns.
         yarns: usize,
     },
     /// A bar with too large an offset.
     #[error("guide bar {bar} is offset by {offset}, beyond \u{b1}{limit}", offset = counted(*.offset, "needle"))]
     BarOffset {
-        /// The bar, from 1.
+        /// The bar, counted from 1 at the front.
         bar: usize,
         /// Its offset, needles.
         offset: i32,
-        /// Most taken, either way.
+        /// The largest offset allowed in either direction.
         limit: i32,
     },
-    /// A run-in outside what is taken.
-    #[error("guide bar {bar} has a run-in of {mm} mm, outside {low} to {high} mm a rack of 480 courses")]
+    /// A run-in outside the allowed range.
+    #[error(
+        "guide bar {bar} has a run-in of {mm} mm a rack (480 courses); it must be from {low} to {high} mm"
+    )]
     RunIn {
-        /// The bar, from 1.
+        /// The bar, counted from 1 at the front.
         bar: usize,
-        /// Its run-in, mm.
+        /// Its run-in, mm a rack.
         mm: f64,
-        /// Least taken, mm.
+        /// The smallest run-in allowed, mm a rack.
         low: f64,
-        /// Most taken, mm.
+        /// The largest run-in allowed, mm a rack.
         high: f64,
     },
     /// A Jacquard whose colours have another number of courses than the chain of its bar.
     #[error("the Jacquard's colours have {courses}, but the chain of guide bar {bar} has {chain}", courses = counted(*.courses, "course"))]
     JacquardCourses {
-        /// The bar, from 1.
+        /// The bar, counted from 1 at the front.
         bar: usize,
         /// Courses of each colour.
         courses: usize,
@@ -74,23 +76,23 @@ pub enum WarpError {
         .lap.overlap().unsigned_abs()
     )]
     JacquardLap {
-        /// The bar, from 1.
+        /// The bar, counted from 1 at the front.
         bar: usize,
-        /// The course of its chain, from 1.
+        /// The course of the bar's chain, counted from 1.
         course: usize,
-        /// The lap, displaced.
+        /// The lap after the Jacquard has displaced it.
         lap: Lap,
-        /// Most needles taken.
+        /// The most needles that a lap may go round.
         limit: i32,
     },
-    /// Wales or courses that are no multiple of those after which the bars begin again.
-    #[error("{size}, but bars begin again after {multiple}: take a multiple of that", size = counted(*.size, .what))]
+    /// A number of wales or courses that is not a multiple of the bars' repeat.
+    #[error("{size}, but the pattern of the guide bars repeats every {multiple}: give a multiple of {multiple}", size = counted(*.size, .what))]
     WarpRepeat {
         /// `wale` or `course`.
         what: &'static str,
-        /// How many.
+        /// The number of wales or courses.
         size: u32,
-        /// What it must be a multiple of.
+        /// The bars' repeat, in wales or in courses.
         multiple: u64,
     },
     /// Bars whose guides make no loops.

@@ -14,7 +14,7 @@ use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 /// A warp-knitted cloth: guide bars, the distances between loops, and yarns.
 ///
 /// All guides of a bar move alike, except those of a Jacquard bar. The laps repeat after some wales
-/// and courses. One repeat therefore settles, and is copied.
+/// and courses. Only one repeat settles, and is then copied.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -34,9 +34,9 @@ use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 pub struct WarpKnitted {
     bars: Vec<Bar>,
     gauge: Gauge,
-    /// Wales and courses of one copy, where `copies` counts them.
+    /// Wales and courses of one of the `copies`.
     lapped: [u32; 2],
-    /// Wales and courses after which all bars begin again.
+    /// The numbers of wales and courses after which the patterns of all bars repeat.
     repeat: [u32; 2],
     yarns: Vec<KnitYarn>,
     materials: Vec<Material>,
@@ -47,22 +47,23 @@ pub struct WarpKnitted {
 
 impl WarpKnitted {
     /// A cloth of `bars`, the front bar first, on `wales` and `courses`, at the distances of
-    /// `gauge`. `yarns` are the yarns that threadings refer to; they refer to `materials` and
-    /// `sections` by index. `copies` is the number of copies of the whole along x and y. The loop
-    /// length of the gauge has no effect: bars have run-ins.
+    /// `gauge`. `yarns` are the yarns that threadings refer to. Yarns refer to `materials` and
+    /// `sections` by index. `copies` is the number of copies along x and y of these wales and
+    /// courses. The loop length of the gauge has no effect, because run-ins give the lengths of a
+    /// warp knit.
     ///
     /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars),
     /// [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn),
     /// [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset),
     /// [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
     /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that are
-    /// not sound, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and
+    /// not valid, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and
     /// courses in which the bars do not repeat evenly,
     /// [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops),
     /// [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no cloth has,
     /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and
     /// [`WeftError::KnitRepeat`](crate::weft::WeftError::KnitRepeat) for more control points than
-    /// are taken, and errors of the yarns' radius, twist, material and section.
+    /// are allowed, and errors of the yarns' radius, twist, material and section.
     #[allow(clippy::too_many_arguments, reason = "each is a fact of its own about the cloth")]
     pub fn new(
         bars: Vec<Bar>,
@@ -83,8 +84,8 @@ impl WarpKnitted {
         Ok(Self { bars, gauge, lapped, repeat, yarns, materials, sections, copies, cells: Cells::Round })
     }
 
-    /// The laps of all threaded guides, bar by bar, guide by guide and course by course. They are
-    /// those of one copy, [`WarpKnitted::lapped_size`], and repeat beyond its edges.
+    /// The laps of all threaded guides, bar by bar, guide by guide and course by course. The laps
+    /// are those of one copy, [`WarpKnitted::lapped_size`], and repeat beyond its edges.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -105,8 +106,8 @@ impl WarpKnitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound. The cloth is then
-    /// unchanged.
+    /// **Errors**: [`ThreadError::Section`] if the section's numbers are not valid. After an error
+    /// the cloth is unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -115,8 +116,8 @@ impl WarpKnitted {
     }
 
     /// Changes the number of control points of each lap. [`Cells::Even`] has 9 for each loop and
-    /// none for underlaps. Plain repeats come to rest with these. A Jacquard may not, because its
-    /// underlaps turn too sharply.
+    /// none for underlaps. Plain repeats come to rest with [`Cells::Even`], too. A Jacquard may
+    /// not, because its underlaps turn too sharply.
     #[must_use]
     pub fn with_cells(mut self, cells: Cells) -> Self {
         self.cells = cells;
@@ -129,7 +130,7 @@ impl WarpKnitted {
         &self.bars
     }
 
-    /// The distances between loops.
+    /// The distances between wales and between courses.
     #[must_use]
     pub const fn gauge(&self) -> &Gauge {
         &self.gauge
@@ -159,7 +160,7 @@ impl WarpKnitted {
         self.lapped
     }
 
-    /// Wales and courses after which all bars begin again.
+    /// The numbers of wales and courses after which the patterns of all bars repeat.
     pub(super) const fn repeat_size(&self) -> [u32; 2] {
         self.repeat
     }
@@ -171,7 +172,7 @@ impl WarpKnitted {
     }
 
     /// Width and height of the cloth, mm: wales and courses times their distances. Guides at the
-    /// edges may lap beyond that.
+    /// edges may lap beyond this area.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         self.mm(self.size())
@@ -190,7 +191,7 @@ impl WarpKnitted {
     ///
     /// Needle 0 is half a wale from x = 0. The feet of the first course are at y = 0. Origins are
     /// [`Origin::Guide`], with bars and guides counted from 1. The source of a control point is the
-    /// course of its lap, from 1.
+    /// course of its lap, counted from 1.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`],
     /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for too many control points,
@@ -200,8 +201,8 @@ impl WarpKnitted {
         self.placed(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not. Origins and sources count guides and courses of the
-    /// whole cloth.
+    /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. Origins
+    /// and sources count guides and courses of the whole cloth.
     pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
         let origin = |origin, [x, _]: [i64; 2]| match origin {
@@ -222,8 +223,8 @@ impl WarpKnitted {
     }
 
     /// The piece of cloth that settles, and the number of its copies in the whole cloth. The piece
-    /// has the wales and courses after which all bars begin again. Small repeats are taken a few
-    /// together. A Jacquard bar begins again where its image does.
+    /// has the wales and courses after which the patterns of all bars repeat. Several small repeats
+    /// form one piece. The pattern of a Jacquard bar repeats with its image.
     ///
     /// **Errors**: the errors of [`WarpKnitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
@@ -263,7 +264,7 @@ impl WarpKnitted {
         Ok(Piece::new(yarns, boundary))
     }
 
-    /// Diameter of the thickest yarn that any guide holds, mm.
+    /// Diameter of the thickest yarn that a guide holds, mm.
     fn thickest(&self) -> f64 {
         let held = self.bars.iter().flat_map(|bar| bar.threading.guides()).flatten();
         let yarns = held.map(|yarn| self.yarns[*yarn as usize]);

@@ -6,19 +6,19 @@ use super::{Bar, Lap, LapKind};
 /// A lap in its place in the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PlacedLap {
-    /// The guide bar, from 0 at the front.
+    /// The guide bar, counted from 0 at the front.
     pub bar: u32,
-    /// The guide within it, from 0.
+    /// The guide within its bar, counted from 0.
     pub guide: u32,
-    /// The course, from 0.
+    /// The course, counted from 0.
     pub course: u32,
     /// The yarn: an index into the cloth's yarns.
     pub yarn: u32,
     /// The lap, in spaces of the cloth. Space 0 lies before needle 0. Guides near an edge may lap
     /// beyond it.
     pub lap: Lap,
-    /// The underlap after it: needles by which the guide moves behind them to its next lap,
-    /// positive towards higher numbers.
+    /// The underlap after the lap: the number of needles behind which the guide passes on the way
+    /// to its next lap, positive towards higher numbers.
     pub underlap: i32,
 }
 

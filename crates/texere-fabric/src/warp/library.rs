@@ -27,8 +27,8 @@ impl Chain {
     /// | `atlas 2` | open, turns closed: `1-0/1-2/2-3/2-1//` | `0-1/1-2/3-2/2-1//` | `1-0/2-1/2-3/1-2//` |
     /// | `inlay 3` | `0-0/3-3//` | | |
     ///
-    /// An `atlas n` moves on by one needle at each of n courses, from 2 to 256, and then back. An
-    /// `inlay n` passes n needles, from 0 to 256, and back.
+    /// An `atlas n` moves on by one needle at each of n courses, and then back; n is 2 to 256. An
+    /// `inlay n` passes n needles one way and then back; n is 0 to 256.
     ///
     /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 24; Raz, Warp Knitting
     /// Production, 1987.
@@ -74,7 +74,7 @@ impl Chain {
     }
 }
 
-/// A lap round one needle, towards higher numbers where `up` is set.
+/// A lap round one needle, towards higher numbers if `up` is set.
 const fn round(needle: i32, up: bool) -> Lap {
     if up { Lap { from: needle, to: needle + 1 } } else { Lap { from: needle + 1, to: needle } }
 }

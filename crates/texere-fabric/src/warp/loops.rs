@@ -7,28 +7,28 @@ use texere_core::backend::room_for;
 
 use super::{Bar, Lap, LapKind, PlacedLap};
 
-/// The rank of a loop among the loops on its needle. They are ordered by bar from the front, and
+/// The rank of a loop among the loops on its needle. Loops are ordered by bar from the front, and
 /// within a bar by guide.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Share {
-    /// Number of loops before it.
+    /// Number of loops on the needle before this one.
     rank: u16,
     /// Number of all loops on the needle.
     all: u16,
-    /// Number of loops of its own bar before it.
+    /// Number of loops of the same bar on the needle before this one.
     pub(super) own_rank: u16,
-    /// Number of all loops of its own bar.
+    /// Number of all loops of the same bar on the needle.
     own: u16,
 }
 
 impl Share {
-    /// How far it lies in front of the middle of all loops, in loops.
+    /// How far the loop lies in front of the middle of all loops on the needle, in loops.
     pub(super) fn front_most(self) -> f64 {
         0.5 * (f64::from(self.all) - 1.0) - f64::from(self.rank)
     }
 
-    /// How far it lies to the right of the middle of its own bar's loops, in loops. Guides of one
-    /// bar do not pass one another.
+    /// How far the loop lies to the right of the middle of its own bar's loops, in loops. Guides of
+    /// one bar do not pass one another.
     pub(super) fn own_middle(self) -> f64 {
         f64::from(self.own_rank) - 0.5 * (f64::from(self.own) - 1.0)
     }
@@ -76,7 +76,7 @@ impl Loops {
             let parts = |lap: &PlacedLap| lap.lap.needles().enumerate();
             for (number, placed) in bar.iter().enumerate() {
                 // A yarn that comes round the edge of the repeat comes from the left of all yarns
-                // in it.
+                // in the repeat.
                 let round = |needle: i32| Reverse(needle.div_euclid(size[0] as i32));
                 order.extend(
                     parts(placed).map(|(part, needle)| (round(needle), number, part, place(placed, needle))),
@@ -107,7 +107,8 @@ impl Loops {
         Ok(Self { alike: alike.collect(), placed, shares, most, steep })
     }
 
-    /// The rank of a loop: `part` is 0, or 1 for the second loop of a lap round two needles.
+    /// The rank of a loop of the lap `lap`. `part` is 0, or 1 for the second loop of a lap round
+    /// two needles.
     pub(super) fn share(&self, lap: usize, part: usize) -> Share {
         self.shares[lap][part]
     }

@@ -8,7 +8,7 @@
 //!
 //! A [`Chain`] gives the movement of a guide bar, course by course. A [`Bar`] adds the yarn of each
 //! of its guides and, for a Jacquard bar, the guides that are displaced. [`WarpKnitted`] is a cloth
-//! of such bars, the front bar first. It gives the laps that the guides make
+//! that guide bars knit. It lists its bars from the front, gives the laps that the guides make
 //! ([`WarpKnitted::laps`]), and places the yarns in space.
 
 // Where the yarn of a lap is placed:

@@ -15,11 +15,11 @@ const SHOWN: usize = 24;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("chain, column {column}: found {found}, expected {expected}")]
 pub struct ChainError {
-    /// The character at which the error is, from 1.
+    /// The number of the character at which the error is, counted from 1.
     pub column: usize,
-    /// The text that stands there.
+    /// The text at that character.
     pub found: String,
-    /// A description of what may stand there.
+    /// A description of what may stand at that character.
     pub expected: String,
 }
 
@@ -31,12 +31,12 @@ impl Chain {
     /// `step` 1, spaces are numbered one by one. With `step` 2, as on Raschel machines, they have
     /// even numbers only: `2-0/2-4//` is `1-0/1-2//`.
     ///
-    /// **Errors**: [`ChainError`] with the column for anything else, for spaces beyond
-    /// [`SPACE_MAX`], laps round more than [`NEEDLES_MOST`] needles and chains of more than
-    /// [`CHAIN_COURSES`] courses.
+    /// **Errors**: [`ChainError`] with the column for a text that is not in this notation, for
+    /// spaces beyond [`SPACE_MAX`], laps round more than [`NEEDLES_MOST`] needles and chains of
+    /// more than [`CHAIN_COURSES`] courses.
     ///
     /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 23, for the notation.
-    /// Repeats in parentheses are texere's.
+    /// Repeats in parentheses are an addition of texere.
     ///
     /// ```
     /// use texere_fabric::warp::Chain;
@@ -139,7 +139,7 @@ impl Reader {
         Ok(lap)
     }
 
-    /// A needle space, and where it stands.
+    /// A needle space, and the index of its first character.
     fn space(&mut self) -> Result<(i32, usize), ChainError> {
         let most = SPACE_MAX as u32 * self.step;
         let expected = match self.step {
@@ -153,7 +153,7 @@ impl Reader {
         Ok(((number / self.step) as i32, start))
     }
 
-    /// A number, and where it stands.
+    /// A number, and the index of its first digit.
     fn number(&mut self, expected: &str) -> Result<(u32, usize), ChainError> {
         self.skip();
         let start = self.at;

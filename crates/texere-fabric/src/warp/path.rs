@@ -35,35 +35,35 @@ use super::loops::Loops;
 use super::{Bar, LapKind, PlacedLap};
 use crate::weft::{Cells, Gauge};
 
-/// Height of a loop from foot to head, in courses, where its bar has no run-in. By trial with
-/// single bars in closed and open tricot, pillar, cord and atlas, which stayed clear.
+/// Height of a loop from foot to head, in courses, if its bar has no run-in. By trial: single bars
+/// in closed and open tricot, pillar, cord and atlas stayed clear.
 const HEIGHT: f64 = 1.6;
 
 /// Range of heights that a run-in may lead to, in courses. Loops of all these heights go through
 /// one another.
 const HEIGHTS: [f64; 2] = [1.45, 1.75];
 
-/// Number of halvings of that range: 16 leave 5 millionths of a course.
+/// Number of halvings of [`HEIGHTS`]: 16 leave 5 millionths of a course.
 const HEIGHT_STEPS: u32 = 16;
 
 /// Half the distance between the feet of a loop, in wales. By trial, as [`HEIGHT`].
 const FOOT: f64 = 0.14;
 
-/// Height by which a loop begins below and ends above its course, in courses. By eye.
+/// Height by which a loop begins below its course and ends above it, in courses. By eye.
 const SLANT: f64 = 0.25;
 
 /// [`SLANT`] for a bar alone on its needles, whose laps are open and stay on one or two needles:
 /// pillar and open tricot. By trial, as [`HEIGHT`].
 const SLANT_STEEP: f64 = 0.05;
 
-/// Width by which each leg of a loop lies further in below, where it comes through another loop,
-/// and further out above: in diameters, and at most in wales. 0.9 by trial, as [`HEIGHT`]; 0.2 by
-/// eye.
+/// Width by which each leg of a loop lies further in at its lower end, where it comes through
+/// another loop, and further out at its upper end, in diameters. By trial, as [`HEIGHT`].
 const BULGE: f64 = 0.9;
+/// The largest width that [`BULGE`] may give, in wales. By eye.
 const BULGE_MOST: f64 = 0.2;
 
-/// Width by which each loop on a needle differs from the next one where the legs begin, in
-/// diameters. By eye.
+/// Width by which each loop on a needle is wider or narrower than the next one at the lower ends of
+/// its legs, in diameters. By eye.
 const ASIDE: f64 = 0.8;
 
 /// Length of the pieces of an underlap, in wales. By eye.
@@ -73,15 +73,18 @@ const PIECE: f64 = 0.4;
 const UNDERLAP: f64 = 0.6;
 
 /// Distance in z between the loops on one needle, in diameters. By trial with two bars in locknit,
-/// satin, sharkskin and others. Legs of each have to lie in front of heads of all, which
-/// [`Cloth::loop_points`] does by placing legs further forward the more loops there are.
+/// satin, sharkskin and others. The legs of each loop have to lie in front of the heads of all
+/// loops. [`Cloth::loop_points`] therefore places legs further forward the more loops there are.
 const LAYER: f64 = 0.7;
 
-/// Distance of the feet behind the middle of the cloth, in diameters: of the hindmost of several
-/// bars, of a single bar, and further for each bar further forward. 2.2 by trial, as [`HEIGHT`];
-/// 2.0 and 1.8 by eye.
+/// Distance of the feet of the hindmost of several bars behind the middle of the cloth, in
+/// diameters. By eye.
 const BEHIND: f64 = 2.0;
+/// Distance of the feet of a single bar behind the middle of the cloth, in diameters. By trial, as
+/// [`HEIGHT`].
 const BEHIND_ALONE: f64 = 2.2;
+/// Distance by which the feet of each bar lie further back than those of the next bar behind it, in
+/// diameters. By eye.
 const BAR: f64 = 1.8;
 
 /// Distance by which all feet lie further back for each loop on a needle beyond two, in diameters.
@@ -89,17 +92,17 @@ const BAR: f64 = 1.8;
 /// meets a long one. By eye.
 const CROWDED: f64 = 1.0;
 
-/// Distance by which the feet lie further back for each guide of the same bar that shares the
-/// needle and comes before, in diameters. By eye.
+/// Distance by which the feet of a loop lie further back for each loop of the same bar that comes
+/// before it on the needle, in diameters. By eye.
 const BESIDE: f64 = 0.9;
 
-/// Heights at which an inlay begins and ends to cross wales, in courses above its own. They lie
-/// between the feet of two courses. The inlay rises on its way, because all guides of its bar cross
-/// at once. By eye.
+/// Heights at which an inlay begins to cross wales and has crossed them all, in courses above its
+/// own. They lie between the feet of two courses. The inlay rises on its way, because all guides of
+/// its bar cross at once. By eye.
 const CROSSES: [f64; 2] = [0.3, 0.8];
 
-/// A yarn of a repeat, as laid: its first lap, its points in mm, and the course of each point, from
-/// 0.
+/// A yarn of a repeat, as laid: its first lap, its points in mm, and the course of each point,
+/// counted from 0.
 pub(super) struct Thread {
     pub(super) first: PlacedLap,
     pub(super) points: Vec<DVec3>,
@@ -142,8 +145,8 @@ impl<'a> Cloth<'a> {
         Ok(cloth)
     }
 
-    /// Sets the height of a bar's loops. The mean length of its yarns then is `length_mm`, or as
-    /// near to it as heights allow.
+    /// Sets the height of a bar's loops so that the mean length of its yarns is `length_mm`, or as
+    /// near to it as [`HEIGHTS`] allow.
     fn reach(&mut self, bar: usize, length_mm: f64) -> Result<(), OutOfMemory> {
         let [mut low, mut high] = HEIGHTS;
         for _ in 0..HEIGHT_STEPS {
@@ -210,10 +213,10 @@ impl<'a> Cloth<'a> {
         Ok(Thread { first: self.loops.placed[first], points, courses })
     }
 
-    /// The points of an underlap between its two ends, mm. They divide it into pieces about as long
-    /// as those of a loop, because a spline turns sharply where a long piece follows a short one.
-    /// They lie further back than the ends by `behind`: other yarns of the same bar have their feet
-    /// there.
+    /// The points of an underlap between its two ends, mm. The points divide it into pieces about
+    /// as long as those of a loop, because a spline turns sharply where a long piece follows a
+    /// short one. They lie further back than the ends by `behind`, because other yarns of the same
+    /// bar have their feet at the depth of the ends.
     fn between(&self, from: DVec3, to: DVec3, behind: f64) -> impl ExactSizeIterator<Item = DVec3> + use<> {
         let parts = match self.cells {
             Cells::Round => (from.distance(to) / (PIECE * self.gauge.wale_mm)).round().max(1.0),
@@ -271,31 +274,31 @@ impl<'a> Cloth<'a> {
     /// which it goes out. `part` is 0, or 1 for the second loop of a lap round two needles.
     ///
     /// The points are symmetrical about the needle: feet [`FOOT`] wales to each side, legs a
-    /// quarter of a wale, heads in the middle. What follows shifts them, so that loops on one
+    /// quarter of a wale, heads in the middle. The points are then shifted, so that loops on one
     /// needle do not lie in one another.
     fn loop_points(&self, number: usize, part: usize, needle: i32) -> [DVec3; 9] {
         let (placed, share) = (&self.loops.placed[number], self.loops.share(number, part));
         let (Gauge { wale_mm, course_mm, .. }, diameter) = (self.gauge, self.diameter);
         let apart = f64::from(self.loops.most - 1);
-        // Legs of each loop lie in front of heads of all. That takes more depth than the loops on a
-        // needle are apart.
+        // The legs of each loop lie in front of the heads of all loops. This takes more depth than
+        // the distance between the loops on a needle.
         let (forward, tilt) = if apart > 0.0 { (0.65 + 0.35 * apart, 0.3) } else { (0.9, 0.0) };
         let front_most = share.front_most();
         let layer = LAYER * front_most;
         let behind = self.behind(placed.bar as usize) + BESIDE * f64::from(share.own_rank);
         let slant = if self.loops.steep[placed.bar as usize] { SLANT_STEEP } else { SLANT };
         let bulge = (BULGE * diameter).min(BULGE_MOST * wale_mm);
-        // Loops of bars that lap alike would lie in one another, and are shifted sideways. Where
-        // bars lap differently, a loop that is further forward at its legs is further back at its
-        // feet. Its legs begin wider or narrower, so that yarns pass beside one another on the way.
+        // Loops of bars that lap alike would lie in one another, and are shifted sideways. If bars
+        // lap differently, a loop that is further forward at its legs is further back at its feet.
+        // Its legs begin wider or narrower, so that yarns pass beside one another on the way.
         let (beside, aside) = if self.loops.alike[placed.bar as usize] {
             (front_most, 0.0)
         } else {
             (share.own_middle(), ASIDE * diameter)
         };
 
-        // Loops of one bar are equally wide. Each lies beside the next one all the way but at the
-        // head, where they cross once.
+        // Loops of one bar are equally wide. Each lies beside the next one all the way except at
+        // the head, where the two cross once.
         let wider = front_most + share.own_middle();
         let height = self.heights[placed.bar as usize];
         let side = f64::from(placed.lap.overlap().signum());

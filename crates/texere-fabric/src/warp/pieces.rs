@@ -8,18 +8,18 @@ use super::{LapKind, PlacedLap, WarpKnitted};
 use crate::Pieces;
 use crate::diagnosis::Joined;
 
-/// A loop: the number of its guide among all guides, and the repeats by which its needle lies
-/// further than the guide.
+/// A loop: the number of its guide among all guides of the repeat, and the number of repeats by
+/// which its needle lies to the right of the repeat that the guide belongs to.
 type Loop = (usize, i64);
 
 impl WarpKnitted {
     /// The pieces into which the cloth falls, the yarns that nothing holds, and the needles that
     /// never have a loop.
     ///
-    /// A loop is held where a loop of the next course is drawn through it on the same needle. A
-    /// needle that gets no yarn at a course casts off its loops. An underlap or an inlay is held
-    /// where it passes between the loops of a bar further forward and the yarn which that bar lays
-    /// from course to course.
+    /// A loop is held if a loop of the next course is drawn through it on the same needle. A needle
+    /// that gets no yarn at a course casts off its loops. An underlap or an inlay is held where it
+    /// passes between the loops of a bar further forward and the yarn which that bar lays from
+    /// course to course.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let [wales, courses] = self.repeat_size();
@@ -48,8 +48,8 @@ impl WarpKnitted {
                 }
             }
         }
-        // Bars come in order from the front. The first yarn to pass a space is thus the foremost
-        // one.
+        // Bars come in order from the front. The first yarn found to pass a space is therefore the
+        // foremost one.
         let mut behind: Vec<Option<Loop>> = vec![None; hanging.len()];
         for (guide, laps) in guides.iter().enumerate() {
             for (lap, next) in laps.iter().zip(laps.iter().cycle().skip(1)) {

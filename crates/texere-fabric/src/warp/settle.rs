@@ -11,10 +11,12 @@ use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled};
 
-/// Range of the factor by which settling may change the length of a yarn.
+/// Range of the factor by which settling may change the length of a yarn: the range of
+/// [`Length::Given`].
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
-/// Share by which lengths may be off their run-ins without being changed.
+/// Share by which the length of all yarns may differ from that of the run-ins without being
+/// changed.
 const REACHED: f64 = 0.001;
 
 /// The run-in of a bar: the length of yarn that it takes for a rack of 480 courses.
@@ -22,13 +24,13 @@ const REACHED: f64 = 0.001;
 pub struct RunIn {
     /// The run-in that the bar asks for, mm.
     pub asked_mm: Option<f64>,
-    /// The run-in that it has, mm: the mean of its yarns. 0 for a bar without yarn.
+    /// The run-in that the bar has, mm: the mean of its yarns. 0 for a bar without yarn.
     pub reached_mm: f64,
 }
 
 impl RunIn {
-    /// The share by which the run-in is off: 0.01 where it is one per cent too long. None where the
-    /// bar asks for none.
+    /// The share by which the run-in differs from the one asked for: 0.01 if it is one per cent too
+    /// long. None if the bar asks for no run-in.
     #[must_use]
     pub fn miss(&self) -> Option<f64> {
         Some(self.reached_mm / self.asked_mm? - 1.0)
@@ -36,13 +38,14 @@ impl RunIn {
 }
 
 impl WarpKnitted {
-    /// Lets the yarns settle: one repeat, which is then copied. See [`settle`](crate::settle()).
+    /// Lets the yarns of one repeat settle, and copies the repeat. See [`settle`](crate::settle()).
     ///
-    /// The run-in of a bar gives the height of its loops, from 1.45 to 1.75 courses. That may not
-    /// suffice. If every bar has a run-in and `finish` leaves the lengths open, all yarns together
-    /// are then given the length that is missing. Otherwise yarns keep their length.
-    /// [`WarpKnitted::run_ins`] says how far each bar is off its run-in in the end.
-    /// [`Settled::clearance`] is that of the whole cloth, with its cut edges.
+    /// The run-in of a bar gives the height of its loops, from 1.45 to 1.75 courses. A run-in may
+    /// ask for more or less yarn than these heights give. If every bar has a run-in and `finish`
+    /// leaves the lengths open, all yarns together then get the length that the run-ins ask for.
+    /// Otherwise yarns keep their lengths. [`WarpKnitted::run_ins`] says by how much the run-in of
+    /// each bar differs in the end from the one asked for. [`Settled::clearance`] is the clearance
+    /// of the whole cloth, with its cut edges.
     ///
     /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
@@ -62,14 +65,14 @@ impl WarpKnitted {
         Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
     }
 
-    /// `finish` with a rule for the lengths of [`WarpKnitted::repeat`], where it has none.
+    /// `finish` with a rule for the lengths of [`WarpKnitted::repeat`], if it has none.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece));
         Finish { length: Some(length), ..*finish }
     }
 
-    /// The rule for lengths where the finish has none.
+    /// The rule for lengths if the finish has none.
     fn length(&self, piece: &Piece) -> Length {
         let courses = f64::from(piece.boundary.repeat()[1]) / self.gauge().course_mm;
         let yarns = piece.yarns.layout().yarns();
@@ -91,8 +94,8 @@ impl WarpKnitted {
         self.bars().get((bar as usize).wrapping_sub(1))
     }
 
-    /// The run-in of each bar. `yarns` are those of this cloth. Yarns that belong to no guide do
-    /// not count.
+    /// The run-in of each bar, in the order of the bars. `yarns` are the yarns of this cloth. Yarns
+    /// that belong to no guide do not count.
     #[must_use]
     pub fn run_ins(&self, yarns: &Yarns) -> Vec<RunIn> {
         let mut sums = vec![(0.0, 0.0); self.bars().len()];
@@ -118,9 +121,8 @@ impl WarpKnitted {
         Own::round(yarns, yarn, self.beyond(), [0.0, self.size_mm()[1]])
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are those of this cloth. What they
-    /// reach beyond the cloth does not count, so that every copy of the repeat has the same
-    /// numbers.
+    /// Yarn consumption, loops, weight and thickness. `yarns` are the yarns of this cloth. Their
+    /// parts beyond the cloth do not count, so that every copy of the repeat has the same numbers.
     #[must_use]
     pub fn measures(&self, yarns: &Yarns) -> Measures {
         let own = |yarn| self.own(yarns, yarn);

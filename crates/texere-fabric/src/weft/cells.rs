@@ -1,5 +1,5 @@
-//! The needles that a yarn comes to: those of its program, and those that it floats past on its way
-//! from one to the next.
+//! The needles that a yarn comes to: the needles of its program, and the needles that it floats
+//! past on its way between them.
 
 use std::ops::Range;
 
@@ -12,32 +12,34 @@ use super::{Bed, Direction, Step, Stitches};
 /// What a yarn does at a needle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
-    /// Number of the loop that it makes; none for a float.
+    /// Number of the loop that the yarn makes; none for a float.
     pub(super) number: Option<u32>,
     /// Place of the needle in wales, and the course. Both may go on beyond the repeat.
     pub(super) at: f32,
     pub(super) course: i64,
     pub(super) bed: Bed,
-    /// 1 to the right, -1 to the left.
+    /// Direction of the carriage: 1 to the right, -1 to the left.
     pub(super) direction: f64,
-    /// Height among the yarns that share its course, from -0.5 for the lowest to 0.5 for the
-    /// highest.
+    /// Height of the yarn among the yarns that share its course, from -0.5 for the lowest to 0.5
+    /// for the highest.
     pub(super) lift: f64,
-    /// Height of the room that these yarns share, in yarn diameters.
+    /// Height of the room that the yarns of the course share, in yarn diameters.
     pub(super) sharing: f64,
     /// Number of the yarn in a plated stitch: 0 lies in front.
     pub(super) plate: u16,
     pub(super) source: u32,
-    /// Whether a neighbour is only half a wale away. A float has one point then instead of two.
+    /// Whether a neighbouring cell is only half a wale away. A float then has one point instead of
+    /// two.
     pub(super) short: bool,
 }
 
-/// Distance below which two cells are of needles half a wale apart, in wales: half way between half
-/// a wale and a whole one.
+/// Distance in wales below which the needles of two cells count as half a wale apart. It is half
+/// way between half a wale and a whole one.
 const SHORT: f32 = 0.75;
 
-/// The cells of a yarn from its beginning to its end, or of one round of it. With them, the wales
-/// and courses by which the next round lies further; none for a yarn that ends.
+/// The cells of a yarn from its beginning to its end, or the cells of one round of a yarn that goes
+/// on. Also returns the wales and courses by which the next round lies further; none for a yarn
+/// that ends.
 ///
 /// **Errors**: [`OutOfMemory`].
 pub(super) fn cells(
@@ -76,7 +78,8 @@ pub(super) fn cells(
     Ok((cells, onward))
 }
 
-/// A step of the program as a cell. `at` is the number of its strand, and its number in that.
+/// A step of the program as a cell. `at` is the number of the step's strand, and the number of the
+/// step in the strand.
 fn cell_of(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Cell {
     let (rank, visit) = (layers.rank(at), stitches.visit(step));
     Cell {
@@ -95,8 +98,8 @@ fn cell_of(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) ->
 
 /// Adds a float at each needle that a yarn passes on its way from `one` to `other`.
 ///
-/// Where `other` lies ahead of the carriage, the yarn floats on to it, and turns there if it has
-/// to. Where `other` lies behind the carriage, the yarn turns at once and floats back.
+/// If `other` lies ahead of the carriage, the yarn floats on to it, and turns there if it has to.
+/// If `other` lies behind the carriage, the yarn turns at once and floats back.
 fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
     let way = f64::from(other.at - one.at) * one.direction;
     let turns = one.direction != other.direction;
@@ -118,12 +121,12 @@ fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemo
 /// came. `turns` says that the next cell is made in the other direction.
 ///
 /// - The next cell lies ahead, in the same direction: the yarn floats past the needles between.
-/// - It lies ahead, in the other direction: the yarn also floats past the needle of the next cell,
-///   turns, and comes back to that needle.
-/// - It lies behind: the yarn turns at once, and floats past the needle of the first cell and the
-///   needles between.
+/// - The next cell lies ahead, in the other direction: the yarn also floats past the needle of the
+///   next cell, turns, and comes back to that needle.
+/// - The next cell lies behind: the yarn turns at once, and floats past the needle of the first
+///   cell and the needles between.
 ///
-/// There is no float where both cells are on one needle, or on neighbouring needles in the same
+/// There is no float if both cells are on one needle, or on neighbouring needles in the same
 /// direction.
 pub(super) fn passed_on_way(way: f64, turns: bool) -> Range<u32> {
     let gap = way.abs().round() as u32;

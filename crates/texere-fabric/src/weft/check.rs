@@ -1,4 +1,4 @@
-//! Checks of stitches, gauge and yarns: whether they can be a cloth.
+//! Checks of stitches, gauge and yarns before a cloth is made of them.
 
 use texere_core::{Material, Origin, Section, Yarn};
 
@@ -11,7 +11,7 @@ use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN, yarn_check};
 /// The furthest place of a needle from needle 0, in wales.
 const WALES_MAX: f32 = 1e6;
 
-/// The most wales or courses of all copies of a repeat.
+/// The most wales, and the most courses, of all copies of a repeat together.
 const SIDE_MAX: u32 = 1 << 30;
 
 /// The most wales by which a loop is moved.
@@ -20,19 +20,21 @@ pub(super) const MOVED_MAX: f32 = 256.0;
 /// The most loops of several repeats that settle together.
 const TILED_MAX: u64 = 1 << 16;
 
-/// Control points of a float past one needle with the arc to the next one, and control points of a
-/// turn.
+/// Control points of a float past one needle, with the arc to the next needle.
 const PASSED_POINTS: u64 = 3;
+/// Control points of a turn.
 const TURN_POINTS: u64 = 3;
 
 /// The most control points of a repeat, which is laid and settles as one. Reading and laying take
-/// 73 to 79 bytes for each, a gigabyte in all. A picture of 1,024 × 1,024 stitches has as many,
-/// also with a second yarn that only floats. Where both yarns knit, 910 × 910 stitches do.
+/// 73 to 79 bytes for each point, a gigabyte in all. A picture of 1,024 × 1,024 stitches has as
+/// many points, even with a second yarn that only floats. If both yarns knit, 910 × 910 stitches
+/// have as many.
 const REPEAT_POINTS_MAX: u64 = 12_600_000;
 
-/// The most needles and courses that yarns pass: a fixed number, and a number for each loop. Each
-/// of them takes memory.
+/// The most needles and courses that yarns may pass in a knit, apart from [`PASSED_BESIDE_A_LOOP`]
+/// for each loop. Every needle or course that a yarn passes takes memory.
 const PASSED_MAX: u64 = 1 << 16;
+/// The needles and courses that yarns may pass for each loop of a knit.
 const PASSED_BESIDE_A_LOOP: u64 = 64;
 
 pub(crate) fn gauge(gauge: &Gauge) -> Result<(), WeftError> {
@@ -44,8 +46,8 @@ pub(crate) fn gauge(gauge: &Gauge) -> Result<(), WeftError> {
     }
 }
 
-/// Checks that yarns are sound. `origin` gives the origin of a yarn by its number, from 0, for
-/// errors.
+/// Checks that the numbers of yarns are valid. `origin` gives the origin of a yarn by its number,
+/// counted from 0, for errors.
 pub(crate) fn yarns(
     yarns: &[KnitYarn],
     origin: impl Fn(u32) -> Origin,
@@ -111,7 +113,8 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), WeftErro
     sound(!stitches.loops.is_empty() && !stitches.strands.is_empty(), "no loops")
 }
 
-/// Checks the number of control points before any is made, by a low estimate.
+/// Checks the needles and courses that yarns pass, the size of all copies, and the number of
+/// control points. The number is estimated, so that the check comes before any point is made.
 pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftError> {
     let held = stitches.loops.iter().filter_map(|stitch| {
         let until = held_until(stitches, stitch.fate)?;
@@ -145,8 +148,8 @@ pub(crate) fn repeat_points(points: u64) -> Result<u64, WeftError> {
     Ok(points)
 }
 
-/// The number of control points of a knit's yarns, about. It leaves out ends, turns over several
-/// courses, and needles half a wale apart; else it is exact.
+/// About how many control points a knit's yarns have. Ends, turns over several courses, and needles
+/// half a wale apart are left out. In a knit without these the number is exact.
 fn points(stitches: &Stitches) -> u64 {
     let loops = (0..stitches.loops.len() as u32).map(|number| point_count(stitches, number));
     let strands = stitches.strands.iter().map(|strand| {
@@ -176,7 +179,8 @@ pub(crate) const fn passed_max(loops: u64) -> u64 {
     PASSED_MAX + PASSED_BESIDE_A_LOOP * loops
 }
 
-/// Checks the size of what settles together: `tiles` copies of a repeat of `loops` loops or laps.
+/// Checks the size of the piece that settles together: `tiles` copies of a repeat of `loops` loops
+/// or laps.
 pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), WeftError> {
     let count = u64::from(tiles[0]) * u64::from(tiles[1]);
     if count > 1 && count.saturating_mul(loops) > TILED_MAX {
@@ -201,7 +205,7 @@ fn ways(stitches: &Stitches, strand: &Strand) -> impl Iterator<Item = (u64, u32)
 }
 
 /// The source of the loop at which the longest way of a yarn between two loops ends. Floats between
-/// them do not end a way.
+/// the two loops are part of the way.
 fn furthest(stitches: &Stitches) -> Option<u32> {
     let mut longest = (0, None);
     for strand in &stitches.strands {

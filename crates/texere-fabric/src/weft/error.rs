@@ -15,41 +15,43 @@ pub enum WeftError {
     KnitSize {
         /// What there are too many of.
         what: &'static str,
-        /// The number of them.
+        /// The number of these things.
         count: u64,
-        /// Most taken.
+        /// The most that is allowed.
         limit: u64,
-        /// The operation that goes beyond the limit, from 1; 0 where the whole program does.
+        /// The operation that goes beyond the limit, counted from 1. It is 0 if the whole program
+        /// does.
         operation: u64,
     },
     /// A knit whose yarns run too far between its loops.
     #[error(
         "yarns pass {passed} needles and courses between {loops}, or on loops that are held; {limit} are taken at most", loops = counted(*.loops, "loop"))]
     KnitRuns {
-        /// Needles that yarns float past, plus courses that they rise and that loops are held.
+        /// Needles that yarns float past, plus courses by which yarns rise, plus courses for which
+        /// loops are held.
         passed: u64,
         /// Number of loops.
         loops: u64,
-        /// Most taken for this number of loops.
+        /// The most that is allowed for this number of loops.
         limit: u64,
         /// The [source](crate::weft::Operation::source) of the operation at which the longest way
         /// of a yarn between two loops ends; none for a warp knit.
         operation: Option<u32>,
     },
-    /// A needle beyond those of any machine, as numbered or as the beds are racked.
+    /// A needle outside the allowed range, by its own number or because the beds are racked.
     #[error("needle {needle}; needles {} to {limit} are taken", -i64::from(*.limit))]
     KnitNeedle {
         /// The needle.
         needle: Needle,
-        /// The furthest needle that is taken.
+        /// The highest number of a needle that is allowed.
         limit: i32,
-        /// The operation, from 1.
+        /// The operation, counted from 1.
         operation: u64,
     },
     /// An operation with carriers that the program does not have.
     #[error("carriers that the program does not have")]
     KnitCarriers {
-        /// The operation, from 1.
+        /// The operation, counted from 1.
         operation: u64,
     },
     /// Distances of wales or courses, or a length of loops, that no cloth has.
@@ -59,17 +61,17 @@ pub enum WeftError {
         what: &'static str,
         /// Their distance or length, mm.
         mm: f64,
-        /// Least taken, mm.
+        /// The least distance or length allowed, mm.
         low: f64,
-        /// Most taken, mm.
+        /// The largest distance or length allowed, mm.
         high: f64,
     },
     /// A carrier of a knit that has no yarn.
     #[error("no yarn for carrier {carrier}; there are {yarns}")]
     Carrier {
-        /// The carrier, from 1.
+        /// The carrier, counted from 1.
         carrier: u32,
-        /// How many yarns there are.
+        /// The number of yarns.
         yarns: usize,
     },
     /// Stitches that can't be a cloth.
@@ -79,36 +81,37 @@ pub enum WeftError {
         what: &'static str,
     },
     /// Too many copies of a small repeat that have to settle together, because their number has no
-    /// divisor up to 16.
+    /// suitable divisor up to 16.
     #[error(
         "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops}; {limit} are taken at most: take multiples of 4", loops = counted(*.loops, "loop"))]
     Copies {
         /// Loops, or laps of all bars, of the repeats that settle together.
         loops: u64,
-        /// Most taken.
+        /// The most loops or laps allowed.
         limit: u64,
     },
     /// A knit with too many control points.
     #[error("a knit of {points} control points or more; {limit} are taken at most")]
     KnitPoints {
-        /// Control points of all yarns, at least.
+        /// About how many control points all yarns have.
         points: u64,
-        /// Most taken.
+        /// The most control points allowed.
         limit: u64,
     },
     /// A knit whose repeat has too many control points. It settles as one before it is copied.
     #[error("a repeat of {points} control points or more, before it is copied; {limit} are taken at most")]
     KnitRepeat {
-        /// Control points of the repeat, about. A knit that does not repeat counts whole.
+        /// About how many control points the repeat has. A knit that does not repeat counts as a
+        /// whole.
         points: u64,
-        /// Most taken.
+        /// The most control points allowed.
         limit: u64,
     },
 }
 
 impl WeftError {
-    /// The number of the refused operation, from 1. Readers find its line with it. None for errors
-    /// that concern no operation.
+    /// The number of the refused operation, counted from 1. A reader of a file finds the line with
+    /// this number. None for errors that concern no operation.
     ///
     /// ```
     /// use texere_fabric::weft::WeftError;

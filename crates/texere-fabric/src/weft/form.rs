@@ -1,7 +1,7 @@
-//! One loop: where its feet, legs and head are placed.
+//! The form of one loop: the places of its feet, legs and head.
 //!
-//! [`Form::points`] lays a loop from foot to foot. The idea is simple: take the plain loop of
-//! `shape.rs`, and put each part of it on the side of what it has to pass.
+//! [`Form::points`] lays a loop from foot to foot. It takes the plain loop of `shape.rs`, and puts
+//! each part on the side, face or back, on which the part has to pass other loops.
 //!
 //! ```text
 //! half a loop, from foot to head (Form::half):
@@ -18,10 +18,10 @@
 //! that is transferred move towards its new needle: the foot not at all, the leg half way, the head
 //! all the way.
 //!
-//! A tuck, and a loop on an empty needle, are drawn through nothing. Such an arch has no lower leg.
-//! A dropped loop has no upper leg: its head lies just above the middle of its legs.
+//! A tuck, and a loop on an empty needle, are drawn through nothing. They are arches, and have no
+//! lower leg. A dropped loop has no upper leg. Its head lies just above the middle of its legs.
 //!
-//! Loops laid so need not be clear of one another, but they have to be linked as in the cloth
+//! At first loops need not be clear of one another, but they have to be linked as in the cloth
 //! (`loops_are_drawn_through_what_the_chart_says`). Settling makes them clear
 //! (`knits_come_to_rest`).
 
@@ -33,23 +33,25 @@ use super::shape::{
 };
 use super::{Bed, Fate, LoopKind, Stitches};
 
-/// Height to which the uppermost of legs that cross are lifted, in diameters. Each leg below it
-/// lies one diameter lower. By eye.
+/// Height to which the uppermost of several crossing legs is lifted, in diameters. Each leg below
+/// it lies one diameter lower. By eye.
 const CROSSING: f64 = 0.7;
 
 /// Lean of the lower legs of a transferred loop, as a share of the distance to its new needle. The
-/// legs come out of the loop below there, and have no room to lean further. By eye.
+/// lower legs come out of the loop below, and have no room to lean further. By eye.
 const LEANS: f64 = 0.1;
 
-/// Nodes of a dropped loop. It falls in front of the loop that it is drawn through, below the feet
-/// of the next course. A dropped arch has none of them, and lies as a float does. By eye.
+/// Nodes of a dropped loop. The loop falls in front of the loop that it is drawn through, below the
+/// feet of the next course. A dropped arch has none of these nodes, and lies as a float does. By
+/// eye.
 const FALLEN_LEG: Node = Node { up: 0.4, ..LEG };
 const FALLEN_SHOULDER: Node = Node { up: 0.5, ..LEG };
 const FALLEN_HEAD: Node = Node { up: 0.54, z: 0.8 };
 
 /// Distance of the feet of a layer from the middle between two layers that lie face to face, in
-/// diameters: without and with yarns that float between the layers. By eye.
+/// diameters. By eye.
 const APART: f64 = 0.55;
+/// [`APART`] in a cloth whose yarns float between the layers. By eye.
 const FLOATS_APART: f64 = 1.0;
 
 /// Sign of z on the side to which loops of a bed are drawn: 1 for the face, -1 for the back.
@@ -59,47 +61,47 @@ pub(super) fn side(bed: Bed) -> f64 {
 
 /// The form of one loop among its neighbours, in mm.
 ///
-/// A loop comes through the loops that hang on its needle. Its feet pass behind their upper legs,
-/// and its own legs pass in front of their heads. The lower half of the loop therefore lies on the
-/// side to which the loop itself is drawn, and the upper half on the side to which the next loop
-/// is drawn. Where the sides differ, the legs cross the plane of the cloth.
+/// A loop comes through the loops that hang on its needle. Its feet pass behind the upper legs of
+/// those loops, and its legs pass in front of their heads. The lower half of the loop therefore
+/// lies on the side to which the loop itself is drawn, and the upper half on the side to which the
+/// next loop is drawn. If the sides differ, the legs cross the plane of the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Form<'a> {
     shape: &'a Shape,
-    /// x of its needle.
+    /// x of the loop's needle, mm.
     x: f64,
-    /// y of its course.
+    /// y of the loop's course, mm.
     y: f64,
-    /// Height of its feet above `y`.
+    /// Height of the loop's feet above `y`, mm.
     lift: f64,
     lower: Half,
     upper: Half,
-    /// Distance by which its feet lie further back than behind a single loop, because more loops
-    /// lie between, mm.
+    /// Distance by which the feet lie further back than behind a single loop, because more loops
+    /// lie in front of them, mm.
     behind: f64,
-    /// Distance by which its legs come forward, mm. In a stitch of several yarns, the legs of the
-    /// hindmost yarn still lie in front of the heads that they are drawn through.
+    /// Distance by which the legs come forward, mm. In a stitch of several yarns, the legs of the
+    /// hindmost yarn then still lie in front of the heads that they are drawn through.
     forward: f64,
-    /// Distance of its head to the right of its needle, mm.
+    /// Distance of the head to the right of the loop's needle, mm.
     lean: f64,
-    /// Number of courses in which its needle does not knit.
+    /// Number of courses in which the loop's needle does not knit.
     held: u32,
-    /// z by which its legs are lifted over legs that they cross, mm.
+    /// z by which the legs are lifted over legs that they cross, mm.
     over: f64,
-    /// Whether it is drawn through nothing: a tuck, or a loop on an empty needle.
+    /// Whether the loop is drawn through nothing: a tuck, or a loop on an empty needle.
     is_arch: bool,
-    /// Whether nothing holds it.
+    /// Whether nothing holds the loop.
     is_dropped: bool,
 }
 
 /// What the nodes of the upper or of the lower half of a loop have in common.
 #[derive(Debug, Clone, Copy)]
 struct Half {
-    /// The side on which it lies: 1 for the face, -1 for the back.
+    /// The side on which this half lies: 1 for the face, -1 for the back.
     side: f64,
-    /// z of the plane about which it lies, mm.
+    /// z of the plane about which this half lies, mm.
     middle: f64,
-    /// Distance by which it lies further back, because other loops lie in front of it, mm.
+    /// Distance by which this half lies further back, because other loops lie in front of it, mm.
     back: f64,
 }
 
@@ -117,14 +119,15 @@ impl Half {
     }
 }
 
-/// z of the plane about which the loops of a bed lie, mm. `opposite` says that the needles opposite
-/// hold loops, too.
+/// z of the plane about which the loops of a bed lie, mm. `opposite` says whether the needles
+/// opposite hold loops, too.
 fn middle(shape: &Shape, layers: &Layers, bed: Bed, opposite: bool) -> f64 {
     let apart = if layers.has_floats() { FLOATS_APART } else { APART };
     if opposite { side(bed) * (ARC.z.abs() * shape.depth + apart * shape.diameter) } else { 0.0 }
 }
 
-/// The bed to which the head of a loop is drawn, and whether the needle opposite holds loops then.
+/// The bed to which the head of a loop is drawn, and whether the needle opposite holds loops at
+/// that time.
 fn drawn_through(stitches: &Stitches, number: u32) -> (Bed, bool) {
     let stitch = &stitches.loops[number as usize];
     match stitch.fate {
@@ -180,8 +183,8 @@ impl<'a> Form<'a> {
         let stitch = &stitches.loops[number as usize];
         let is_tuck = stitch.kind == LoopKind::Tuck;
         let upper = Half::upper(shape, stitches, layers, number);
-        // A tuck takes the plane of the loop that is drawn through it. An arch on an empty needle
-        // does so, too: the loops opposite may have come later.
+        // A tuck lies about the plane of the loop that is drawn through it. An arch on an empty
+        // needle does, too, because the loops opposite may have come later.
         let is_arch = is_tuck || stitch.parents.is_empty();
         let (next, _) = drawn_through(stitches, number);
         let middle = if is_arch { upper.middle } else { middle(shape, layers, stitch.bed, stitch.opposite) };
@@ -226,7 +229,7 @@ impl<'a> Form<'a> {
     }
 
     /// Control points from foot to foot, mm, and the index of the head among them. The yarn comes
-    /// from the left where `direction` is 1, from the right where it is -1.
+    /// from the left if `direction` is 1, and from the right if it is -1.
     pub(super) fn points(&self, direction: f64) -> (Vec<DVec3>, usize) {
         let mut points = self.half(-direction);
         let head = points.len();
@@ -250,12 +253,13 @@ impl<'a> Form<'a> {
         self.y + node.up * self.shape.height()
     }
 
-    /// Control points of one half, from foot to shoulder, mm: the left half where `hand` is -1, the
-    /// right half where it is 1.
+    /// Control points of one half, from foot to shoulder, mm: the left half if `hand` is -1, the
+    /// right half if it is 1.
     fn half(&self, hand: f64) -> Vec<DVec3> {
         let Shape { wale, course, .. } = *self.shape;
         let narrow = self.shape.narrow();
-        // `way` is the share of the distance from the own needle to the one that it is moved to.
+        // `way` is the share of the distance from the loop's first needle to the needle that it is
+        // moved to.
         let at = |across: f64, way: f64, y: f64, z: f64| {
             DVec3::new(self.x + hand * across + way * self.lean, y, z)
         };
@@ -272,8 +276,8 @@ impl<'a> Form<'a> {
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
             points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
-            // The leg comes out between the shoulders of the loop below, and in front of them. Only
-            // then can it lean.
+            // The leg comes out between the shoulders of the loop below, and in front of them. It
+            // can lean only further up.
             let leans = LEANS * self.lean.clamp(-wale, wale);
             let over = lower.side * f64::max(lower.side * self.over, 0.0);
             let z = self.z(lower, LOWER) + forward + 0.6 * over;
@@ -285,7 +289,8 @@ impl<'a> Form<'a> {
                 return points;
             }
             if lower.side == upper.side {
-                // A moved loop leaves one side. Nothing lies in front of the leg on that side.
+                // A moved loop leaves one side of its needle. Nothing lies in front of the leg on
+                // that side.
                 let leaves = hand * self.lean < 0.0;
                 let plated = self.forward > 0.0;
                 let z = if leaves || plated { self.z(lower, LEG) + forward } else { self.z(upper, LEG) };

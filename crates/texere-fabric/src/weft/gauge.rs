@@ -3,7 +3,7 @@
 use crate::yarn_size::INCH_MM;
 
 /// Munden's constants of plain jersey after dry relaxation, without unit: wales per cm times the
-/// loop length in cm, and courses per cm times that length.
+/// loop length in cm, and courses per cm times the loop length in cm.
 const MUNDEN: [f64; 2] = [4.2, 5.5];
 
 /// The distances between the loops of a knit, and the length of its loops.
@@ -20,8 +20,8 @@ pub struct Gauge {
     pub wale_mm: f64,
     /// Distance from one course to the next, mm.
     pub course_mm: f64,
-    /// The mean length of yarn in a loop that settling aims for, mm. With `None` loops find their
-    /// own length.
+    /// The mean length of yarn in a loop that settling aims for, mm. With `None` the lengths of
+    /// loops are free.
     pub loop_length_mm: Option<f64>,
 }
 

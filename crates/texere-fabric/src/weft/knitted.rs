@@ -29,12 +29,12 @@ pub struct Knitted {
 impl Knitted {
     /// A cloth of `stitches` at the distances of `gauge`. `yarns` has one yarn for each carrier,
     /// and refers to `materials` and `sections` by index. `copies` is the number of repeats along x
-    /// and y; it has no effect where the stitches do not repeat.
+    /// and y. It has no effect if the stitches do not repeat.
     ///
     /// **Errors**: [`WeftError::Gauge`] for distances that no cloth has, [`WeftError::Stitches`]
     /// for stitches that refer to loops, needles or repeats that do not exist,
     /// [`WeftError::Carrier`] for a carrier without a yarn, [`WeftError::KnitPoints`] and
-    /// [`WeftError::KnitRepeat`] for more control points than are taken, and errors of the yarns'
+    /// [`WeftError::KnitRepeat`] for more control points than are allowed, and errors of the yarns'
     /// radius, twist, material and section.
     pub fn new(
         stitches: Stitches,
@@ -56,8 +56,8 @@ impl Knitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound. The cloth is then
-    /// unchanged.
+    /// **Errors**: [`ThreadError::Section`] if the section's numbers are not valid. After an error
+    /// the cloth is unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -79,7 +79,7 @@ impl Knitted {
         &self.stitches
     }
 
-    /// The distances between loops, and their length.
+    /// The distances between wales and between courses, and the length of loops.
     #[must_use]
     pub const fn gauge(&self) -> &Gauge {
         &self.gauge
@@ -118,7 +118,7 @@ impl Knitted {
     }
 
     /// Width and height of the cloth, mm: wales and courses times their distances. The heads of the
-    /// last course reach beyond that.
+    /// last course reach beyond this area.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         let [wales, courses] = self.size().map(f64::from);
@@ -139,9 +139,10 @@ impl Knitted {
         self.placed(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not. Yarns are cut three control points beyond their last
-    /// loop, unless all cells have to have equally many points. A leg runs straight there. The cut
-    /// end therefore bends as it does in the repeat, and touches nothing.
+    /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. Each
+    /// yarn is cut three control points beyond its last loop, unless the cloth has [`Cells::Even`].
+    /// A leg runs straight at this point. The cut end therefore bends as it does in the repeat, and
+    /// touches nothing.
     pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         repeat.placed_beyond(yarns, self.beyond())
     }
@@ -155,8 +156,8 @@ impl Knitted {
         }
     }
 
-    /// One repeat of the cloth, with its boundary and its pinned points. It is the whole cloth
-    /// where the stitches do not repeat. See [`Knitted::repeat`].
+    /// One repeat of the cloth, with its boundary and its pinned points. If the stitches do not
+    /// repeat, it is the whole cloth. See [`Knitted::repeat`].
     ///
     /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
@@ -165,9 +166,9 @@ impl Knitted {
 
     /// The piece of cloth that settles, and the number of its copies in the whole cloth.
     ///
-    /// A cloth that repeats settles as one repeat that goes on at all its edges. Small repeats are
-    /// taken a few together. Any other cloth settles whole: the ends of its yarns, the feet of its
-    /// first course and the heads on needles are pinned.
+    /// A cloth that repeats settles as one repeat that goes on at all its edges. Several small
+    /// repeats form one piece. A cloth that does not repeat settles as a whole. The ends of its
+    /// yarns, the feet of its first course and the heads on needles are pinned.
     ///
     /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {

@@ -9,36 +9,37 @@ use texere_core::backend::{filled, room_for};
 use super::stitches::HALVES;
 use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};
 
-/// Distance in wales from which two loops have needles between them. Places are whole and half
-/// wales, so that it divides 1.5 from 2.
+/// Distance in wales above which two loops have needles between them. Places are whole and half
+/// wales, so that this distance separates 1.5 from 2.
 pub(super) const STEP: f32 = 1.6;
 
 /// The loops on the needle of one bed in one course.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hanging {
-    /// Whether any hangs there.
+    /// Whether any loop hangs on the needle.
     any: bool,
-    /// Whether one is made there in this course.
+    /// Whether a loop is made on the needle in this course.
     made: bool,
 }
 
-/// A needle in one course: the course, and half wales from the left. Where the cloth repeats, both
-/// lie within the repeat.
+/// A needle in one course: the course, and half wales from the left. If the cloth repeats, both lie
+/// within the repeat.
 type Place = [i64; 2];
 
 /// A run of a yarn's steps in one direction and in one course.
 #[derive(Debug, Clone, Copy)]
 struct Pass {
     strand: usize,
-    /// Its first and its last step in the strand.
+    /// Number of the pass's first step in the strand, and of its last step.
     first: usize,
     last: usize,
     course: u32,
-    /// When it is made: the number of its first loop.
+    /// When the pass is made: the number of its first loop. A pass without loops has the number of
+    /// the strand's pass before.
     time: u32,
-    /// Number of the yarn in a plated stitch, from 0.
+    /// Number of the yarn in a plated stitch, counted from 0.
     plate: u16,
-    /// Whether it goes from bed to bed, or floats.
+    /// Whether the pass goes from bed to bed, or floats.
     mixed: bool,
 }
 
@@ -48,7 +49,7 @@ pub(super) struct Layers {
     hanging: HashMap<Place, [Hanging; 2]>,
     repeat: Option<[u32; 2]>,
     /// For each loop, the number of legs between its own legs and the side to which its head is
-    /// drawn; none where it crosses no other loop.
+    /// drawn; none if it crosses no other loop.
     crossed: Vec<Option<u16>>,
     /// The rank of each step of each strand.
     ranks: Vec<Vec<Rank>>,
@@ -59,15 +60,15 @@ pub(super) struct Layers {
 /// The rank of a step among the yarns of its course.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Rank {
-    /// Height among these yarns, from -0.5 for the lowest to 0.5 for the highest.
+    /// Height among the yarns of the course, from -0.5 for the lowest to 0.5 for the highest.
     pub(super) lift: f64,
-    /// Height of the room that they share, in yarn diameters.
+    /// Height of the room that the yarns of the course share, in yarn diameters.
     pub(super) sharing: f64,
-    /// Number of the yarn in a plated stitch, from 0.
+    /// Number of the yarn in a plated stitch, counted from 0.
     pub(super) plate: u16,
 }
 
-/// What a float lies behind, where it passes a needle.
+/// The loops that a float lies behind, or between, where it passes a needle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Behind {
     /// Between loops of both beds.
@@ -76,7 +77,7 @@ pub(super) enum Behind {
     One {
         /// The bed.
         bed: Bed,
-        /// Whether another yarn makes them in the same course.
+        /// Whether another yarn makes loops of this bed in the same course.
         made: bool,
     },
 }
@@ -100,12 +101,13 @@ impl Layers {
     }
 
     /// The number of legs between a loop's own legs and the side to which its head is drawn. None
-    /// where the loop crosses no other on its way to its needle.
+    /// if the loop crosses no other loop on its way to its last needle.
     pub(super) fn crossed(&self, number: u32) -> Option<f64> {
         self.crossed[number as usize].map(f64::from)
     }
 
-    /// The rank of a step, which is given by the number of its strand and its number in that.
+    /// The rank of a step. The step is given by the number of its strand and its number in the
+    /// strand.
     pub(super) fn rank(&self, [strand, step]: [usize; 2]) -> Rank {
         self.ranks[strand][step]
     }
@@ -115,13 +117,13 @@ impl Layers {
         self.floats
     }
 
-    /// Whether a loop hangs on a needle at the place `at`, in wales, in a course.
+    /// Whether a loop hangs on a needle in a course. `at` is the place of the needle in wales.
     pub(super) fn is_held(&self, course: i64, at: f32) -> bool {
         self.hanging.contains_key(&self.place(course, at))
     }
 
-    /// What a yarn lies behind where it floats past the needle of `bed` at the place `at`, in
-    /// wales.
+    /// The loops that a yarn lies behind, or between, where it floats past the needle of `bed` at
+    /// the place `at`, in wales.
     pub(super) fn behind(&self, course: i64, at: f32, bed: Bed) -> Behind {
         // Needles of a bed that is racked by half a pitch lie half a wale to each side.
         let beside = [-1.0, 0.0, 1.0].map(|halves| self.place(course, at + halves / HALVES as f32));
@@ -173,8 +175,8 @@ impl Layers {
     }
 }
 
-/// The course in which another loop is drawn through a loop of this fate. It may lie beyond the
-/// repeat. None for a loop that no other is drawn through.
+/// The course in which another loop is drawn through a loop of this fate. The course may lie beyond
+/// the repeat. None for a loop through which no other loop is drawn.
 pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
     let Fate::Held(child) = fate else { return None };
     let courses = stitches.repeat.map_or(0, |[_, courses]| i64::from(courses));
@@ -182,8 +184,8 @@ pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
     Some(own + i64::from(child.repeat[1]) * courses)
 }
 
-/// For each loop that crosses others of its course on the way to another needle, the number of legs
-/// that lie over its own.
+/// For each loop, the number of legs that lie over its own legs; none for a loop that crosses no
+/// other loop of its course on the way to another needle.
 fn crossed(stitches: &Stitches) -> Result<Vec<Option<u16>>, OutOfMemory> {
     let loops = &stitches.loops;
     let mut levels = filled("loops", loops.len(), None)?;
@@ -225,9 +227,9 @@ fn cross(one: &Stitch, other: &Stitch) -> bool {
 
 /// The rank of each step among the yarns of its course.
 ///
-/// Yarns of a course cross where one floats behind the loops of another, or goes from bed to bed.
-/// The yarn that is laid later lies above there. Yarns that only knit side by side on one bed do
-/// not cross.
+/// Yarns of a course cross if one of them floats behind the loops of another, or goes from bed to
+/// bed. The yarn that is laid later then lies above. Yarns that only knit side by side on one bed
+/// do not cross.
 fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, OutOfMemory> {
     let strands = &stitches.strands;
     let (mut all, mut passes) = (Vec::new(), Vec::new());

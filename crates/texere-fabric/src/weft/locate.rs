@@ -1,4 +1,4 @@
-//! From a place on a yarn to the stitch of the knit that it belongs to.
+//! The stitch of a knit that a place on a yarn belongs to.
 
 use texere_core::{YarnPlace, Yarns};
 
@@ -10,8 +10,8 @@ impl Knitted {
     /// sources.
     ///
     /// The source of the place gives the stitch within a repeat. The copy of the repeat is the one
-    /// whose stitch lies nearest, by the height of the feet and by the place's x. Stitches may thus
-    /// have moved a little as they settled.
+    /// whose stitch lies nearest, by the height of the feet and by the place's x. The search also
+    /// works if stitches have moved a little as they settled.
     pub(crate) fn stitch_at(&self, yarns: &Yarns, place: &YarnPlace) -> Option<StitchPlace> {
         let source = place.source?;
         let (stitches, gauge) = (self.stitches(), self.gauge());
@@ -37,8 +37,8 @@ impl Knitted {
         Some(StitchPlace { wale: wale.round().max(0.0) as u32 + 1, course: course as u32 + 1 })
     }
 
-    /// Height of the feet of the stitch at a place, mm. It is the lowest of the control points
-    /// around the place that have its source.
+    /// Height of the feet of the stitch at a place, mm. It is the y of the lowest of the control
+    /// points around the place that have the same source.
     fn feet(&self, yarns: &Yarns, place: &YarnPlace) -> Option<f64> {
         let (points, range) = (yarns.yarn_points(place.yarn)?, yarns.range(place.yarn)?);
         let sources = yarns.sources()?.get(range)?;

@@ -6,16 +6,17 @@
 //! ```
 //!
 //! A [`Program`] lists the operations of a knitting machine, needle by needle. A [`Machine`] runs
-//! it and gives [`Stitches`]: which loop is drawn through which, and in what order each yarn makes
-//! its loops. [`Knitted`] adds the distances between loops and the properties of the yarns, and
-//! places the yarns in space.
+//! the program and gives [`Stitches`]: which loop is drawn through which, and in what order each
+//! yarn makes its loops. [`Knitted`] adds the distances between loops and the properties of the
+//! yarns, and places the yarns in space.
 
 // Where the yarn of a loop is placed:
 //
 // - `shape.rs` has the plain loop: a table of its feet, legs and head.
 // - `form.rs` bends that table into any other loop: purl, tuck, held, moved, dropped.
-// - `path.rs` follows a yarn from loop to loop, and places what lies between them.
-// - `cells.rs` lists the needles that a yarn comes to; `layers.rs` says what lies over what there.
+// - `path.rs` follows a yarn from loop to loop, and places the arcs and turns between loops.
+// - `cells.rs` lists the needles that a yarn comes to.
+// - `layers.rs` says which loops and yarns lie over one another at a needle.
 
 mod cells;
 mod chart;

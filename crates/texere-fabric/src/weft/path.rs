@@ -1,4 +1,4 @@
-//! The path of a yarn: loop after loop, with what lies between them.
+//! The path of a yarn: loop after loop, with the arcs, turns and floats between loops.
 //!
 //! ```text
 //! for each needle that the yarn comes to (cells.rs):
@@ -7,8 +7,8 @@
 //! ```
 //!
 //! A yarn that ends in the cloth also has a beginning before the first needle, and an end after the
-//! last one. The points of a loop's legs come from [`Form::points`]; this file gives that loop its
-//! place, in [`Cloth::form`].
+//! last one. The points of a loop come from [`Form::points`]. [`Cloth::form`] gives the loop its
+//! place.
 
 use glam::DVec3;
 use texere_core::OutOfMemory;
@@ -20,21 +20,20 @@ use super::pen::{Pen, YarnPoints};
 use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
 
-/// Distance of yarns that share a course where they cross, in diameters, if the course has room for
-/// it: they just touch.
+/// Distance between yarns that share a course where they cross, in diameters, if the course has
+/// enough room. At this distance they just touch.
 const CROSSING: f64 = 1.0;
 
-/// Share of a course that such yarns may take. By eye.
+/// Share of a course's height that yarns which share the course may take. By eye.
 const ROOM: f64 = 0.75;
 
-/// Distance of a yarn's end behind loops that hang where the yarn begins or ends, in diameters. By
-/// eye.
+/// Distance by which the end of a yarn goes behind loops that hang beside it, in diameters. By eye.
 const END_BEHIND: f64 = 1.3;
 
-/// Distance by which a yarn goes out beyond its arc where it turns, in wales; and distance by which
-/// each carrier goes further than the one before, in diameters. By eye: turns of several yarns lie
-/// beside one another.
+/// Distance by which a yarn goes out beyond its arc where it turns, in wales. By eye.
 const TURN: f64 = 0.3;
+/// Distance by which the yarn of each carrier goes out further than that of the carrier before, in
+/// diameters, so that turns of several yarns lie beside one another. By eye.
 const NEXT_TURN: f64 = 1.1;
 
 /// A cloth whose yarns are to be laid.
@@ -111,7 +110,7 @@ impl Cloth<'_> {
         }
     }
 
-    /// The form of the loop that a yarn makes at a cell: its needle gives x, its course and its
+    /// The form of the loop that a yarn makes at a cell. The needle gives x, and the course and the
     /// lift give y.
     fn form(&self, cell: &Cell, number: u32) -> Form<'_> {
         let y = cell.course as f64 * self.shape.course;
@@ -119,7 +118,7 @@ impl Cloth<'_> {
         Form::new(self.shape, self.stitches, self.layers, number, at)
     }
 
-    /// Lays what a yarn does at a needle: a loop, or a float.
+    /// Lays the loop or the float that a yarn makes at a needle.
     fn cell(&self, pen: &mut Pen, cell: &Cell) -> Result<(), OutOfMemory> {
         match cell.number {
             Some(number) => {
@@ -153,7 +152,7 @@ impl Cloth<'_> {
         let x = f64::midpoint(self.x(one.at), self.x(other.at));
         let y = f64::midpoint(self.y(one), self.y(other));
         let [from, to] = [self.z(one), self.z(other)];
-        // Plated yarns change places on their way from bed to bed. The one in front passes above.
+        // Plated yarns change places on their way from bed to bed. The yarn in front passes above.
         let below = if from * to < 0.0 { f64::from(one.plate) * self.shape.diameter } else { 0.0 };
         pen.room(1)?;
         pen.point(DVec3::new(x, y - below, between(from, to)));
@@ -180,7 +179,7 @@ impl Cloth<'_> {
         let out = outwards * (outer + TURN * wale + NEXT_TURN * carrier * diameter);
         let (mut from, mut to) = (self.y(one), self.y(other));
         if (to - from).abs() < diameter {
-            // The yarn turns within one course. It lies beside itself there.
+            // The yarn turns within one course, and lies beside itself.
             let middle = f64::midpoint(from, to);
             (from, to) = (middle - diameter / 2.0, middle + diameter / 2.0);
         }
@@ -222,7 +221,7 @@ impl Cloth<'_> {
     }
 
     /// Points of a yarn's end, half a wale and a whole wale beside a cell, mm. The yarn runs level,
-    /// or goes behind the loops that hang there.
+    /// or goes behind loops that hang on the needle beside the cell.
     fn loose(&self, cell: &Cell, outwards: f64) -> [DVec3; 2] {
         let beside = cell.at + outwards as f32;
         let behind =
@@ -236,8 +235,8 @@ impl Cloth<'_> {
     }
 }
 
-/// z of the arc between two loops, mm: that of the loop which lies further back, or half way
-/// between two loops on opposite sides.
+/// z of the arc between two loops, mm: the z of the loop that lies further from the middle, or half
+/// way between two loops on opposite sides.
 fn between(one: f64, other: f64) -> f64 {
     if one * other <= 0.0 {
         f64::midpoint(one, other)

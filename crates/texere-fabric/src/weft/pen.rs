@@ -6,8 +6,8 @@ use texere_core::backend::room_for;
 
 use super::shape::cardinal;
 
-/// Control points of a cell with [`Cells::Even`](super::Cells::Even): as many as a plain loop and
-/// the arc before it have. `even_cells_have_twelve_points_each` counts them.
+/// Number of control points of a cell with [`Cells::Even`](super::Cells::Even): as many as a plain
+/// loop has together with the arc before it. `even_cells_have_twelve_points_each` counts them.
 const EVEN: usize = 12;
 
 /// The control points of a yarn that has been laid.
@@ -16,8 +16,8 @@ pub(super) struct YarnPoints {
     pub(super) points: Vec<DVec3>,
     /// The source of each point: see [`Operation::source`](super::Operation::source).
     pub(super) sources: Vec<u32>,
-    /// Indices of the points that only the machine holds: ends of the yarn, feet of the first
-    /// course, and heads on needles.
+    /// Indices of the points that are pinned because only the machine holds them: ends of the yarn,
+    /// feet of the first course, and heads on needles.
     pub(super) pinned: Vec<u64>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Pen {
     source: u32,
     /// Index of the first point of each cell.
     cells: Vec<usize>,
-    /// Index at which the last cell ends, if points come after it.
+    /// Index of the point after the last cell, if points come after that cell.
     tail: Option<usize>,
 }
 
@@ -114,7 +114,7 @@ impl Pen {
                 even.points.push(cardinal(four, along.fract()));
                 even.sources.push(sources[first]);
             }
-            // The new point that lies nearest to a pinned one is pinned instead.
+            // The new point that lies nearest to a pinned point is pinned instead.
             let pins = pinned.iter().filter(|pin| (first as u64..last as u64).contains(pin));
             for pin in pins {
                 let along = (pin - first as u64) as f64 / (last - first) as f64;

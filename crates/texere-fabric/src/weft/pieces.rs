@@ -1,4 +1,4 @@
-//! Yarns of a weft knit that hold one another: by loops that are drawn through others, and by
+//! Yarns of a weft knit that hold one another: by loops that are drawn through other loops, and by
 //! floats between two beds.
 
 use std::collections::{HashMap, HashSet};
@@ -15,9 +15,9 @@ impl Knitted {
     /// The pieces into which the cloth falls, the yarns that nothing holds, and the needles that
     /// never have a loop.
     ///
-    /// Two yarns hold one another where a loop of one is drawn through a loop of the other, and
-    /// where both go from bed to bed. A yarn without loops is held where it passes between loops of
-    /// both beds.
+    /// Two yarns hold one another if a loop of one is drawn through a loop of the other, or if both
+    /// go from bed to bed past one another. A yarn without loops is held if it passes between loops
+    /// of both beds.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let stitches = self.stitches();
@@ -68,7 +68,7 @@ impl Knitted {
         let around = |at: i64| if stitches.repeat.is_some() { at.rem_euclid(wales * HALVES) } else { at };
         let knitting: HashSet<i64> = needles.keys().map(|at| around(*at)).collect();
         // Two ribs whose yarns go from bed to bed past one another can't be taken apart. Interlock
-        // is made so.
+        // is two such ribs.
         let mut crossing: HashMap<i64, (usize, i64)> = HashMap::new();
         for (strand, each) in stitches.strands.iter().enumerate() {
             for pair in each.steps.windows(2) {

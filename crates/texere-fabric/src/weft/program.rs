@@ -5,9 +5,9 @@ use std::fmt;
 /// A row of needles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Bed {
-    /// The front bed: its needles draw loops to the technical face, towards +z.
+    /// The front bed. Its needles draw loops to the technical face, towards +z.
     Front,
-    /// The back bed: its needles draw loops to the technical back.
+    /// The back bed. Its needles draw loops to the technical back.
     Back,
 }
 
@@ -25,11 +25,11 @@ impl Bed {
 /// A needle, or its slider, which can hold loops but not knit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Needle {
-    /// Its bed.
+    /// The bed of the needle.
     pub bed: Bed,
-    /// Whether it is the slider.
+    /// Whether this is the needle's slider.
     pub slider: bool,
-    /// Its number on the bed, rising to the right; it may be negative.
+    /// The number of the needle on its bed. Numbers rise to the right, and may be negative.
     pub number: i32,
 }
 
@@ -73,34 +73,36 @@ pub struct CarrierSet(pub u32);
 /// File Format", v0.6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Instruction {
-    /// Yarns are brought in.
+    /// Brings yarns in.
     In,
-    /// Yarns are brought in by the hook that holds their ends until it lets go.
+    /// Brings yarns in with the hook. The hook holds their ends until it is released.
     InHook,
-    /// The hook lets go.
+    /// Lets the hook release yarns.
     ReleaseHook,
-    /// Yarns are taken out.
+    /// Takes yarns out.
     Out,
-    /// Yarns are cut, and their ends taken out by the hook.
+    /// Cuts yarns, and takes their ends out with the hook.
     OutHook,
-    /// Draws a new loop through all loops of a needle, which then fall off it. Without a carrier
-    /// the loops only fall.
+    /// Draws a new loop through all loops of a needle. The old loops then fall off the needle.
+    /// Without a carrier the loops only fall.
     Knit(Direction, Needle),
-    /// Lays a loop on a needle, on top of the loops that it holds.
+    /// Lays a loop on a needle, on top of the loops that the needle holds.
     Tuck(Direction, Needle),
     /// Knits, but the loops of the first needle go to the second instead of falling off.
     Split(Direction, Needle, Needle),
     /// Lets all loops of a needle fall.
     Drop(Needle),
-    /// Moves all loops of a needle to a needle of the other bed, in front of the loops that hang
-    /// there.
+    /// Moves all loops of a needle to a needle of the other bed, in front of the loops that the
+    /// second needle holds.
     Transfer(Needle, Needle),
-    /// Carriers pass a needle: `Left` to its left side, `Right` to its right side.
+    /// Moves carriers past a needle: with `Left` to the needle's left side, with `Right` to its
+    /// right side.
     Miss(Direction, Needle),
     /// Shifts the back bed, so that back needle b faces front needle b + rack. A fraction puts back
     /// needles half way between front needles.
     Rack(f64),
-    /// Sets the length of the loops that follow, mm. `None` leaves it to the cloth.
+    /// Sets the length of the loops that follow, mm. With `None` the gauge of the cloth gives the
+    /// length.
     LoopLength(Option<f64>),
 }
 
@@ -141,8 +143,8 @@ pub struct Operation {
     /// The carriers that take part. A set of several plates their yarns: the first one lies in
     /// front on the face.
     pub carriers: CarrierSet,
-    /// The line of the file, or the cell of the chart, that it comes from. Every control point
-    /// keeps it.
+    /// The line of the file, or the cell of the chart, that the operation comes from. Every control
+    /// point of the operation's loops and floats keeps this number.
     pub source: u32,
 }
 
@@ -157,8 +159,8 @@ pub struct Program {
     pub carrier_sets: Vec<Vec<u32>>,
     /// The operations.
     pub operations: Vec<Operation>,
-    /// Width of the repeat in needles, where the program is one repeat of a cloth. The needles of
-    /// the repeat are 0 to `width` - 1; other needles belong to the neighbouring repeats. After the
-    /// last operation the first one follows again, in the next courses.
+    /// Width of the repeat in needles, if the program is one repeat of a cloth. The needles of the
+    /// repeat are 0 to `width` - 1; other needles belong to the neighbouring repeats. After the
+    /// last operation the program repeats from the first one, in the next courses.
     pub repeat: Option<u32>,
 }

@@ -10,16 +10,17 @@ use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, settle};
 
-/// Range of the factor by which settling may change the length of a yarn.
+/// Range of the factor by which settling may change the length of a yarn: the range of
+/// [`Length::Given`].
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
 impl Knitted {
-    /// Lets the yarns settle. A cloth that repeats settles as one repeat, which is then copied. Any
-    /// other cloth settles whole. See [`settle`].
+    /// Lets the yarns settle. A cloth that repeats settles as one repeat, which is then copied. A
+    /// cloth that does not repeat settles as a whole. See [`settle`].
     ///
-    /// `finish` may leave the lengths open. The mean loop then gets the length of the gauge, and
-    /// lengths are free where the gauge has none, too. [`Settled::clearance`] is that of the whole
-    /// cloth, with its cut edges.
+    /// If `finish` leaves the lengths open, loops get, in the mean, the length that the program or
+    /// the gauge gives. If a loop has neither, lengths are free. [`Settled::clearance`] is the
+    /// clearance of the whole cloth, with its cut edges.
     ///
     /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
@@ -44,15 +45,16 @@ impl Knitted {
         settled.pressed(|yarns| self.measured(yarns).thickness_mm)
     }
 
-    /// `finish` with a rule for the lengths of [`Knitted::repeat`], where it has none.
+    /// `finish` with a rule for the lengths of [`Knitted::repeat`], if it has none.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies));
         Finish { length: Some(length), ..*finish }
     }
 
-    /// The rule for lengths where the finish has none. Each loop has the length that its program or
-    /// else the gauge gives; the yarns together get the sum.
+    /// The rule for lengths if the finish has none. Each loop asks for the length that the program
+    /// gives, or else for the length of the gauge. All yarns together get the sum of these lengths.
+    /// If a loop has neither, lengths are free.
     fn length(&self, piece: &Piece, copies: [u32; 2]) -> Length {
         let stitches = &self.stitches().loops;
         let each = |stitch: &Stitch| stitch.length_mm.map(f64::from).or(self.gauge().loop_length_mm);
@@ -81,8 +83,8 @@ impl Knitted {
     }
 
     /// The part of a yarn that counts for the cloth. A yarn that goes on from repeat to repeat
-    /// counts without what reaches beyond the cloth. Any other yarn counts without its tails beyond
-    /// the first and the last stitch.
+    /// counts without its parts beyond the cloth. Any other yarn counts without its tails before
+    /// the first stitch and after the last one.
     fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         if !matches!(yarns.layout().yarns()[yarn].origin, Origin::Course(_)) {
@@ -93,8 +95,8 @@ impl Knitted {
         Own::round(yarns, yarn, self.beyond(), [width, 0.0])
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are those of this cloth. Cut ends at
-    /// the edges and tails of yarns do not count, so that every copy of a repeat has the same
+    /// Yarn consumption, loops, weight and thickness. `yarns` are the yarns of this cloth. Cut ends
+    /// at the edges and tails of yarns do not count, so that every copy of a repeat has the same
     /// numbers.
     ///
     /// **Errors**: none so far.

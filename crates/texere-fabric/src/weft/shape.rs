@@ -1,7 +1,7 @@
-//! The plain loop: where its feet, legs and head lie.
+//! The plain loop: the places of its feet, legs and head.
 //!
-//! Every loop of a weft knit starts from the table of this file. A plain loop is symmetrical. Half
-//! of it is five nodes, and the head joins both halves. The yarn is the spline through the nodes.
+//! Every loop of a weft knit starts from the table of this file. A plain loop is symmetrical. Each
+//! half has five nodes, and the head joins both halves. The yarn is the spline through the nodes.
 //!
 //! | node | half the width of the loop | height | z |
 //! |---|---|---|---|
@@ -13,7 +13,7 @@
 //! | `FOOT` | 0.19 wales | 0.083 | -0.48 |
 //! | `ARC`: half way to the next loop | half a wale | 0 | -0.84 |
 //!
-//! Heights count in heights of the loop ([`Shape::height`]), from the feet up. z counts in depths
+//! Heights are in heights of the loop ([`Shape::height`]), from the feet up. z is in depths
 //! ([`Shape::depth`]), and is positive on the side to which the loop is drawn. [`Shape::new`] finds
 //! the depth.
 //!
@@ -23,18 +23,19 @@ use glam::DVec3;
 
 use super::Gauge;
 
-/// Places in each control interval at which [`Shape::clearance`] measures. 8 find the same depths;
-/// with 4, `loops_are_as_deep_as_they_must_be` is red.
+/// Number of places in each control interval at which [`Shape::clearance`] measures. 8 places give
+/// the same depths; with 4, `loops_are_as_deep_as_they_must_be` is red.
 const SAMPLES: usize = 16;
 
-/// Range in which [`Shape::new`] seeks the depth, in yarn diameters, and how often it halves the
-/// range. A search by another program found 0.64 to 0.70 (`loops_are_as_deep_as_they_must_be`). Ten
-/// halvings leave 0.0004 diameters; 5 pass that test, 3 do not.
+/// Range in which [`Shape::new`] seeks the depth, in yarn diameters, and number of times that it
+/// halves the range. A search by another program gave 0.64 to 0.70
+/// (`loops_are_as_deep_as_they_must_be`). Ten halvings leave 0.0004 diameters; 5 pass that test, 3
+/// do not.
 const DEPTHS: [f64; 2] = [0.5, 0.9];
 const HALVINGS: usize = 10;
 
-/// Clearance that a loop may lack against the deepest one, in diameters: from some depth on,
-/// clearance is nearly level. 0 to 0.01 find depths within 0.02 of one another; with 0.02,
+/// Clearance by which a loop may fall short of the deepest loop, in diameters. From some depth on,
+/// clearance hardly grows. 0 to 0.01 give depths within 0.02 of one another; with 0.02,
 /// `loops_are_as_deep_as_they_must_be` is red.
 const CLOSE: f64 = 0.004;
 
@@ -57,8 +58,9 @@ pub(super) const HEAD: Node = Node { up: 1.0, z: -0.84 };
 pub(super) const ARC: Node = Node { up: 0.0, z: -0.84 };
 
 /// Half the width of a loop at its feet, at the middle of its legs and at its shoulders, in wales.
-/// They were read off the same loop. With 0.22 at the feet or 0.28 at the shoulders,
-/// `loops_are_as_deep_as_they_must_be` is red. It is green with 0.22 and 0.28 at the legs.
+/// These were read off the loop at rest, as the nodes were. With 0.22 at the feet or 0.28 at the
+/// shoulders, `loops_are_as_deep_as_they_must_be` is red. It is green with 0.22 and 0.28 at the
+/// legs.
 pub(super) const FOOT_WIDE: f64 = 0.19;
 pub(super) const LEG_WIDE: f64 = 0.25;
 pub(super) const SHOULDER_WIDE: f64 = 0.31;
@@ -76,9 +78,9 @@ pub(super) struct Node {
 /// The sizes that all loops of a cloth have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Shape {
-    /// From one wale to the next, mm.
+    /// Distance from one wale to the next, mm.
     pub(super) wale: f64,
-    /// From one course to the next, mm.
+    /// Distance from one course to the next, mm.
     pub(super) course: f64,
     /// Diameter of the thickest yarn, mm.
     pub(super) diameter: f64,
@@ -90,8 +92,8 @@ pub(super) struct Shape {
 impl Shape {
     /// The shape of the flattest loops that keep their distance from one another.
     ///
-    /// Clearance rises with the depth at first, and then stays level. The search halves
-    /// [`DEPTHS`] until it knows where it becomes level.
+    /// Clearance rises with the depth at first, and then stays nearly level. The search halves
+    /// [`DEPTHS`] towards the depth at which clearance becomes level.
     pub(super) fn new(gauge: &Gauge, diameter: f64) -> Self {
         let of = |depth: f64| Self {
             wale: gauge.wale_mm,

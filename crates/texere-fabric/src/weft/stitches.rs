@@ -14,7 +14,7 @@ pub(super) const HALVES: i64 = 2;
 pub struct LoopRef {
     /// The number of the loop.
     pub number: u32,
-    /// Number of repeats to the right, and upwards. Both are 0 where nothing repeats.
+    /// Number of repeats to the right, and upwards. Both are 0 if nothing repeats.
     pub repeat: [i32; 2],
 }
 
@@ -28,11 +28,11 @@ pub enum LoopKind {
     Knit,
     /// Laid on its needle, and drawn through nothing.
     Tuck,
-    /// Drawn through the loops that its needle held, while these moved to another needle.
+    /// Drawn through the loops that its needle held, while those loops moved to another needle.
     Split,
 }
 
-/// What becomes of a loop in the end.
+/// How a loop ends: held by another loop, on a needle, or dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fate {
     /// Another loop is drawn through it.
@@ -43,53 +43,53 @@ pub enum Fate {
     Dropped,
 }
 
-/// Where the head of a loop hangs in the end: when another loop is drawn through it, when it falls,
-/// or when the program ends.
+/// The place of a loop's head at its end: when another loop is drawn through the loop, when it
+/// falls, or when the program ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Head {
-    /// The place of its needle, in wales from front needle 0. It differs from [`Stitch::at`] where
-    /// the loop was transferred.
+    /// The place of the needle that holds the head, in wales from front needle 0. It differs from
+    /// [`Stitch::at`] if the loop was transferred.
     pub at: f32,
-    /// The bed of its needle.
+    /// The bed of this needle.
     pub bed: Bed,
-    /// Number of loops on the same needle between it and the side to which the next loop is drawn:
-    /// 0 for the loop that came to the needle first.
+    /// Number of loops on the same needle between this loop and the side to which the next loop is
+    /// drawn: 0 for the loop that came to the needle first.
     pub layer: u16,
-    /// Order of its transfer: 0 for a loop that was never transferred. Where heads of one course
-    /// cross on their way to other needles, the head that was transferred first has the smaller
-    /// number, and lies nearer to its new bed.
+    /// Order of the loop's last transfer, 0 for a loop that was never transferred. If heads of one
+    /// course cross on their way to other needles, the head that was transferred first has the
+    /// smaller number, and lies nearer to its new bed.
     pub moved: u32,
 }
 
 /// A loop of yarn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stitch {
-    /// The way in which it was made.
+    /// The way in which the loop was made.
     pub kind: LoopKind,
-    /// The bed on which it was made: the side to which it is drawn.
+    /// The bed on which the loop was made, which gives the side to which it is drawn.
     pub bed: Bed,
-    /// The place of its needle when it was made, in wales from front needle 0, positive to the
-    /// right.
+    /// The place of the needle on which the loop was made, in wales from front needle 0, positive
+    /// to the right.
     pub at: f32,
-    /// Whether the needle opposite holds loops of its own then. Two layers of cloth lie face to
-    /// face there.
+    /// Whether the needle opposite held loops of its own when this loop was made. Two layers of
+    /// cloth then lie face to face.
     pub opposite: bool,
-    /// Its course, from 0. It is one more than the highest course that a stitch of the same pass is
-    /// drawn through.
+    /// The course of the loop, counted from 0. It is one more than the highest course that a stitch
+    /// of the same pass is drawn through.
     pub course: u32,
-    /// Number of its yarn in a plated stitch, from 0. Yarn 0 lies in front, on the side to which
-    /// the loop is drawn.
+    /// Number of the loop's yarn in a plated stitch, counted from 0. Yarn 0 lies in front, on the
+    /// side to which the loop is drawn.
     pub plate: u16,
-    /// The loops that it is drawn through: a range of [`Stitches::parents`], in the order in which
-    /// they came to the needle.
+    /// The loops that this loop is drawn through: a range of [`Stitches::parents`], in the order in
+    /// which they came to the needle.
     pub parents: Range<u32>,
-    /// Where its head hangs in the end.
+    /// The place of the loop's head at its end.
     pub head: Head,
-    /// What becomes of it.
+    /// How the loop ends.
     pub fate: Fate,
-    /// The length of yarn in it, mm, where the program gives one.
+    /// The length of yarn in the loop, mm, if the program gives one.
     pub length_mm: Option<f32>,
-    /// Its [`Operation::source`](super::Operation::source).
+    /// The [`Operation::source`](super::Operation::source) of the operation that made the loop.
     pub source: u32,
 }
 
@@ -103,12 +103,12 @@ pub enum Step {
         /// The direction of the carriage.
         direction: Direction,
     },
-    /// The yarn passes a needle without making a loop. It lies behind the loops that hang there,
-    /// seen from the side to which the needle draws.
+    /// The yarn passes a needle without making a loop. It lies behind the loops of the needle, seen
+    /// from the side to which the needle draws.
     Float {
         /// The place of the needle, in wales.
         at: f32,
-        /// Its bed.
+        /// The bed of the needle.
         bed: Bed,
         /// The course of the pass.
         course: u32,
@@ -122,11 +122,11 @@ pub enum Step {
 /// A needle that a yarn comes to, to make a loop or to float.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Visit {
-    /// Number of the loop that it makes; none where it floats.
+    /// Number of the loop that the yarn makes; none if it floats.
     pub number: Option<u32>,
     /// The place of the needle, in wales.
     pub at: f32,
-    /// Its bed.
+    /// The bed of the needle.
     pub bed: Bed,
     /// The course.
     pub course: u32,
@@ -136,15 +136,15 @@ pub struct Visit {
     pub source: u32,
 }
 
-/// A yarn from where it is brought in to where it is cut.
+/// A yarn, from the place where it is brought in to the place where it is cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strand {
-    /// Its carrier: an index into [`Program::carriers`](super::Program::carriers).
+    /// The carrier of the yarn: an index into [`Program::carriers`](super::Program::carriers).
     pub carrier: u32,
-    /// Its steps, in order.
+    /// The loops and floats of the yarn, in order.
     pub steps: Vec<Step>,
-    /// Number of repeats to the right and upwards after which the yarn begins again: after its last
-    /// step comes its first step there. `None` for a yarn that ends in the cloth.
+    /// Number of repeats to the right and upwards after which the yarn repeats: after its last step
+    /// comes its first step in that repeat. `None` for a yarn that ends in the cloth.
     pub onward: Option<[i32; 2]>,
 }
 
@@ -158,7 +158,7 @@ pub struct Stitches {
     pub parents: Vec<Parent>,
     /// The yarns.
     pub strands: Vec<Strand>,
-    /// Wales and courses of the repeat, where the program is one repeat.
+    /// Wales and courses of the repeat, if the program is one repeat.
     pub repeat: Option<[u32; 2]>,
 }
 
@@ -166,7 +166,7 @@ impl Stitches {
     /// The loops that the loop `number` is drawn through, in the order in which they came to its
     /// needle.
     ///
-    /// **Panics** past the last loop.
+    /// **Panics** for a number past the last loop.
     #[must_use]
     pub fn parents_of(&self, number: u32) -> &[Parent] {
         let Range { start, end } = self.loops[number as usize].parents;

@@ -41,7 +41,8 @@ impl Stitches {
     }
 }
 
-/// How copies of a repeat are numbered: copies along x and y, and loops, wales and courses of one.
+/// How copies of a repeat are numbered: copies along x and y, and the loops, wales and courses of
+/// one repeat.
 struct Tiling {
     tiles: [i64; 2],
     loops: u32,
@@ -49,7 +50,8 @@ struct Tiling {
 }
 
 impl Tiling {
-    /// The number of the copy at `cell`, and the repeat of all copies in which it lies.
+    /// The number of the copy at `cell` within the large repeat, and the large repeat in which the
+    /// copy lies.
     fn copy(&self, cell: [i64; 2]) -> (usize, [i32; 2]) {
         let [x, y] = [0, 1].map(|axis| cell[axis].rem_euclid(self.tiles[axis]));
         let round = [0, 1].map(|axis| cell[axis].div_euclid(self.tiles[axis]) as i32);

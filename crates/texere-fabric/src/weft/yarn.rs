@@ -25,10 +25,11 @@ impl KnitYarn {
 /// The number of control points of a stitch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cells {
-    /// The number that the bends of the yarn need: 12 for a plain loop, 3 for a float past a
-    /// needle.
+    /// The number that the bends of the yarn need. In a weft knit it is 12 for a plain loop, and 3
+    /// for a float past a needle.
     #[default]
     Round,
-    /// 12 for each needle that the yarn comes to, whether it makes a loop there or floats.
+    /// In a weft knit, 12 for each needle that the yarn comes to, whether it makes a loop there or
+    /// floats. In a warp knit, 9 for each loop and none for underlaps.
     Even,
 }

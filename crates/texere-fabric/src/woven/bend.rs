@@ -1,51 +1,52 @@
-//! How threads bend round those that they cross: depths of threads, and the shoulders of threads
-//! that change sides.
+//! How threads bend round the threads that they cross: depths of threads, and the shoulders of
+//! threads that change sides.
 
 use super::crossing;
 use super::shape::{Set, Shape};
 
-/// Distance of a shoulder from its crossing, in distances that the two centrelines keep there. A
-/// shoulder is the control point beside a crossing of a thread that changes sides. It lies at most
-/// [`SHOULDER_MOST`] of the way to the next crossing.
+/// Distance of a shoulder from its crossing, as a multiple of the distance between the two
+/// centrelines at the crossing. A shoulder is the control point beside a crossing of a thread that
+/// changes sides. It lies at most [`SHOULDER_MOST`] of the way to the next crossing.
 const SHOULDER: f32 = 0.7;
 
-/// The greatest distance of a shoulder, as a share of the way to the next crossing.
+/// The largest distance of a shoulder, as a share of the way to the next crossing. The trials are
+/// those of [`FALL`].
 const SHOULDER_MOST: f32 = 0.32;
 
-/// The greatest fall of a shoulder below the crossing, in distances that the two centrelines keep
-/// there.
+/// The largest fall of a shoulder below the crossing, as a multiple of the distance between the two
+/// centrelines at the crossing.
 ///
-/// Deeper shoulders bend threads less and bring them nearer to one another. Places and depths were
-/// tried on plain weave, 3/1 and 2/2 twill, matt, satins, damask and random weaves. These bend
-/// least tightly among those that keep threads at 0.99 of touching, alike or not, round or flat.
-/// The tightest bend of round threads alike has 1.7 radii at 3 diameters, 1.4 at 2.5, 1.05 at 2,
-/// 0.95 at 1.9 and 0.83 at 1.8: below 1.95 diameters they fold. Other places and depths, chosen for
-/// round threads alike and others beside floats, came to 1.03 at 1.8 diameters. At the least pitch
-/// 0.88 was the best.
+/// Deeper shoulders bend threads less and bring them nearer to one another. Places and depths of
+/// shoulders were tried on plain weave, 3/1 and 2/2 twill, matt, satins, damask and random weaves.
+/// The values in this file bend threads least tightly among those that keep threads at 0.99 of
+/// touching, alike or not, round or flat. The tightest bend of round threads alike has 1.7 radii at
+/// a pitch of 3 diameters, 1.4 at 2.5, 1.05 at 2, 0.95 at 1.9 and 0.83 at 1.8. Below 1.95 diameters
+/// the threads fold. Other places and depths, with separate values for round threads alike and for
+/// shoulders beside floats, gave 1.03 at 1.8 diameters. At the least pitch the best gave 0.88.
 const FALL: f32 = 0.155;
 
-/// The greatest fall of a shoulder, as a share of the fall of a circle round the crossed thread.
+/// The largest fall of a shoulder, as a share of the fall of a circle round the crossed thread.
 const FALL_OF_CIRCLE: f32 = 0.75;
 
-/// The steepest slope, as far as its shoulder decides, of a thread at a crossing between a float
-/// and a change of sides. Two threads that both slope come nearer to one another beside the
-/// crossing, by half the square of the slope each.
+/// The steepest slope that a shoulder may give a thread at a crossing between a float and a change
+/// of sides. Two threads that both slope come nearer to one another beside the crossing: each slope
+/// brings them nearer by half its square.
 const TILT: f32 = 0.06;
 
-/// The greatest fall of a thread from the edge thread to where it leaves the cloth, in distances
-/// that the two centrelines keep there. With more its crossing tilts where the shoulder beside a
-/// distant neighbour lies low.
+/// The largest fall of a thread from the edge thread to the place where it leaves the cloth, as a
+/// multiple of the distance between the two centrelines at the edge thread. With a larger fall the
+/// thread tilts at that crossing if the shoulder towards a distant neighbour lies low.
 const FALL_OUT: f32 = 0.2;
 
-/// The longest step to the next control point, in steps before it.
+/// The longest step to the next control point, as a multiple of the step before.
 ///
-/// The spline runs through all its intervals in the same time. Out of a long interval it comes into
-/// a short one so fast that it bends sharply where it slows down. From a ratio of five on it turns
-/// back.
+/// The spline's parameter runs from 0 to 1 in every interval, long or short. After a long interval
+/// the spline enters a short one at a high speed, and bends sharply where it slows down. From a
+/// ratio of five on it turns back.
 pub(super) const STRIDE: f32 = 3.34;
 
-/// The share by which a length must differ from a stride, so that rounding does not decide: a
-/// shoulder may lie exactly a stride away.
+/// The share by which a length must differ from a stride to count as another length. A shoulder may
+/// lie exactly a stride away, and rounding must not decide on which side.
 pub(super) const ROUNDING: f32 = 1e-3;
 
 /// Threads of one height, with the threads that they cross.
@@ -54,9 +55,9 @@ pub(super) struct Bend<'a> {
     pub(super) shape: Shape,
     /// The threads that they cross.
     pub(super) crossed: &'a Set,
-    /// Half the height of their own section, mm.
+    /// Half the height of these threads' own section, mm.
     pub(super) half_height: f32,
-    /// Their share of the distance that two centrelines keep at a crossing.
+    /// The share of these threads in the distance between the two centrelines at a crossing.
     pub(super) share: f32,
 }
 
@@ -82,17 +83,17 @@ impl Bend<'_> {
     }
 
     /// The shoulder at crossing `number` towards a neighbour `pitch` away: its distance from the
-    /// crossing and from the cloth's middle, mm.
+    /// crossing, and its distance from the cloth's middle, mm.
     ///
     /// The thread goes a little outside a circle round the crossed thread. Flat threads stretch
     /// that circle to `across`.
     ///
-    /// Where the neighbour is far away the shoulder slides down the line to the middle between the
-    /// two, so that no step is longer than [`STRIDE`] times the step before.
+    /// If the neighbour is far away, the shoulder slides down the line to the middle between the
+    /// two crossings, so that no step is longer than [`STRIDE`] times the step before.
     pub(super) fn shoulder(&self, number: usize, pitch: f32) -> (f32, f32) {
         let (room, depth) = (self.room(number), self.depth(number));
         let across = self.crossed.half_width[number] + self.half_height;
-        // Close threads far from the edge may lie in one place once rounded.
+        // Close threads that lie far from the cloth's edge may have one place after rounding.
         if pitch <= 0.0 {
             return (0.0, 0.5 * depth);
         }
@@ -107,14 +108,14 @@ impl Bend<'_> {
     /// changes sides between that crossing and the neighbour `one`. `other` is the neighbour on the
     /// other side, if any, and `both` says whether the thread changes sides there too.
     ///
-    /// If it does, both shoulders have the height of the higher one, so that the thread is level at
-    /// the crossing. Beside a short float a shoulder falls less.
+    /// If `both` is set, both shoulders have the height of the higher one, so that the thread is
+    /// level at the crossing. Beside a short float a shoulder falls less.
     pub(super) fn shoulder_z(&self, number: usize, one: usize, other: Option<usize>, both: bool) -> f32 {
         let (aside, z) = self.shoulder(number, self.pitch(number, one));
         let Some(other) = other else {
             let edge = if number < one { 0.0 } else { self.crossed.extent };
             let out = (edge - self.crossed.at[number]).abs();
-            // An edge further away than the shoulder leaves the thread level at the crossing.
+            // If the edge is further away than the shoulder, the thread is level at the crossing.
             let level = if out < aside { self.lowest_out(number, out) - TILT * (aside + out) } else { 0.0 };
             return z.max(level).max(0.0);
         };
@@ -122,17 +123,18 @@ impl Bend<'_> {
         if both {
             return z.max(self.shoulder(number, pitch).1);
         }
-        // A neighbour just a stride away makes the shoulder fall less. Without that, threads of
+        // A neighbour just a stride away makes the shoulder fall less. Without this, threads of
         // unlike spacing came to 0.9896 of touching, not 0.99.
         let far = pitch > (1.0 - ROUNDING) * STRIDE * aside;
         let step = if far { (STRIDE - 1.0) * aside } else { pitch };
         z.max(self.depth(number) - TILT * (step + aside))
     }
 
-    /// Height of a thread where it leaves the cloth `aside` of crossing `number`, mm. It is about
-    /// that of the shoulder on the other side, so that the thread is level at the crossing, or that
-    /// of the float there. Where the edge is near the thread falls no further than a shoulder so
-    /// near may.
+    /// Height of a thread where it leaves the cloth at the distance `aside` from crossing `number`,
+    /// mm. If the thread changes sides on the other side of the crossing, the height is about that
+    /// of the shoulder there, so that the thread is level at the crossing. Otherwise it is the
+    /// height at the crossing. If the edge is near, the thread falls no further than a shoulder at
+    /// that distance may fall.
     pub(super) fn leaving_z(&self, number: usize, aside: f32, above: impl Fn(usize) -> bool) -> f32 {
         let depth = self.depth(number);
         let beyond = if number == 0 { 1 } else { number - 1 };
@@ -145,7 +147,8 @@ impl Bend<'_> {
         if above(number) { z } else { -z }
     }
 
-    /// The least height of a thread where it leaves the cloth `aside` of crossing `number`, mm.
+    /// The least height of a thread where it leaves the cloth at the distance `aside` from crossing
+    /// `number`, mm.
     fn lowest_out(&self, number: usize, aside: f32) -> f32 {
         let across = self.crossed.half_width[number] + self.half_height;
         let fall = FALL_OUT.min(FALL_OF_CIRCLE * circle(aside.min(across), across));
@@ -153,7 +156,7 @@ impl Bend<'_> {
     }
 }
 
-/// The fall of a circle of radius `across` at `aside` of its top, in radii.
+/// The fall of a circle of radius `across` at the distance `aside` from its top, in radii.
 fn circle(aside: f32, across: f32) -> f32 {
     1.0 - (1.0 - (aside / across).powi(2)).sqrt()
 }

@@ -1,10 +1,10 @@
-//! What warp and weft each have.
+//! A pair of values, one for the warp and one for the weft.
 
 use std::ops::{Index, IndexMut};
 
 use texere_core::crossings::Set;
 
-/// A value of the warp, and one of the weft.
+/// A value for the warp, and a value for the weft.
 ///
 /// ```
 /// use texere_core::crossings::Set;
@@ -16,9 +16,9 @@ use texere_core::crossings::Set;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct BySet<T> {
-    /// The value of the ends.
+    /// The value for the ends.
     pub warp: T,
-    /// The value of the picks.
+    /// The value for the picks.
     pub weft: T,
 }
 
@@ -35,7 +35,7 @@ impl<T> BySet<T> {
         [self.warp, self.weft]
     }
 
-    /// The first value for the warp, the second one for the weft.
+    /// A pair whose first value is for the warp, and whose second is for the weft.
     pub(crate) fn of([warp, weft]: [T; 2]) -> Self {
         Self { warp, weft }
     }

@@ -11,7 +11,8 @@ use crate::{FabricError, ThreadError, WovenError, yarn_check};
 /// The most control points of a cloth: 64 GiB of them.
 pub(crate) const POINTS_MAX: u64 = 1 << 32;
 
-/// A woven cloth, checked: how its threads interlace, and what each thread is like.
+/// A woven cloth whose numbers have been checked: how its threads interlace, and the yarn and
+/// spacing of each thread.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -52,10 +53,10 @@ impl Woven {
     /// sections that they refer to.
     ///
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
-    /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii
-    /// outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], twists beyond
-    /// [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections that are
-    /// not sound, and cloth wider or longer than [`COORDINATE_LIMIT`].
+    /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii outside
+    /// \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`](texere_core::TWIST_LIMIT),
+    /// unknown materials and sections, sections whose numbers are not valid, and cloth wider or
+    /// longer than [`COORDINATE_LIMIT`].
     pub fn new(
         drawdown: Drawdown,
         warp: Vec<Thread>,
@@ -72,8 +73,8 @@ impl Woven {
         yarn_check::sections(&sections)?;
         let (shape, crimp) = (Shape::default(), Crimp::default());
         let cloth = Self { drawdown, warp, weft, materials, sections, shape, crimp, selvedge: false };
-        // The number that every shape has at least. A shape with more is refused when its yarns are
-        // made.
+        // Every shape has at least this number of points. A cloth whose shape needs too many more
+        // is refused when its yarns are made.
         let (longer, wider) = (picks as u64 + 2, ends as u64 + 2);
         let points = ends as u64 * longer + picks as u64 * wider;
         if points > POINTS_MAX {
@@ -90,7 +91,8 @@ impl Woven {
         Ok(cloth)
     }
 
-    /// A cloth of another drawdown and other threads, with the other settings of this one.
+    /// A cloth of another drawdown and other threads, with the materials, sections, shape, crimp
+    /// and selvedge of this one.
     pub(crate) fn like(
         &self,
         drawdown: Drawdown,
@@ -101,7 +103,8 @@ impl Woven {
         Ok(Self { shape: self.shape, crimp: self.crimp, selvedge: self.selvedge, ..cloth })
     }
 
-    /// This cloth with the spacings of ends and of picks multiplied by `times`, the ends' first.
+    /// This cloth with the spacings of ends multiplied by `times[0]`, and the spacings of picks by
+    /// `times[1]`.
     pub(crate) fn spaced(&self, times: [f64; 2]) -> Result<Self, FabricError> {
         let [warp, weft] = [(&self.warp, times[0]), (&self.weft, times[1])].map(|(set, times)| {
             set.iter().map(|thread| Thread { spacing_mm: thread.spacing_mm * times, ..*thread }).collect()
@@ -169,7 +172,7 @@ impl Woven {
         &mut self.drawdown
     }
 
-    /// Puts the warp up or down at a crossing, end and pick counted from 0.
+    /// Puts the warp up or down at a crossing; `end` and `pick` are counted from 0.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -183,13 +186,13 @@ impl Woven {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
+    /// **Errors**: [`WovenError::NoCrossing`] for a crossing outside the cloth.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), WovenError> {
         self.drawdown.set(end, pick, up)
     }
 
-    /// This cloth's drawdown, shape, crimp and selvedge with other yarns: other ends (`warp`) and
-    /// picks (`weft`), and the materials and sections that they refer to.
+    /// A cloth with this cloth's drawdown, shape, crimp and selvedge, but with other ends (`warp`)
+    /// and picks (`weft`), and the materials and sections that these refer to.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -236,7 +239,7 @@ impl Woven {
         &self.materials
     }
 
-    /// Gives material number `material`, from 0, another colour, sRGB.
+    /// Gives the material with number `material`, counted from 0, the sRGB colour `srgb`.
     ///
     /// **Errors**: [`WovenError::NoMaterial`].
     pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), WovenError> {
@@ -246,7 +249,7 @@ impl Woven {
         Ok(())
     }
 
-    /// Replaces material number `material`, from 0.
+    /// Replaces the material with number `material`, counted from 0.
     pub(super) fn set_material(&mut self, material: usize, with: Material) -> Result<(), WovenError> {
         let materials = self.materials.len();
         *self.materials.get_mut(material).ok_or(WovenError::NoMaterial { material, materials })? = with;
@@ -259,11 +262,10 @@ impl Woven {
         &self.sections
     }
 
-    /// Flattens all threads alike. `flatness` is width over height; each thread keeps its area.
+    /// Gives all threads one flatness, width over height. Each thread keeps its area.
     ///
-    /// **Errors**: [`WovenError::Flatness`] outside \[0.1, 10\], and
-    /// [`WovenError::Half`] for a thread that would be too thin or too wide; the cloth is then as
-    /// it was.
+    /// **Errors**: [`WovenError::Flatness`] outside \[0.1, 10\], and [`WovenError::Half`] for a
+    /// thread that would be too thin or too wide. After an error the cloth is unchanged.
     pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {
         let flattened = |set: &[Thread]| set.iter().map(|thread| Thread { flatness, ..*thread }).collect();
         let (warp, weft): (Vec<_>, Vec<_>) = (flattened(&self.warp), flattened(&self.weft));
@@ -275,8 +277,8 @@ impl Woven {
 
     /// Gives all threads one section.
     ///
-    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as
-    /// it was.
+    /// **Errors**: [`ThreadError::Section`] if the section's numbers are not valid. After an error
+    /// the cloth is unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
         section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
@@ -293,13 +295,13 @@ impl Woven {
         [&self.warp, &self.weft].map(|threads| threads.iter().map(|thread| thread.spacing_mm).sum())
     }
 
-    /// How many control points threads get, and where.
+    /// The number and the places of the threads' control points.
     #[must_use]
     pub const fn shape(&self) -> Shape {
         self.shape
     }
 
-    /// Chooses how many control points threads get, and where.
+    /// Chooses the number and the places of the threads' control points.
     pub const fn set_shape(&mut self, shape: Shape) {
         self.shape = shape;
     }
@@ -312,14 +314,15 @@ impl Woven {
 
     /// Chooses how warp and weft share the crimp.
     ///
-    /// **Errors**: [`WovenError::Crimp`] for a share outside \[0, 1\]; the cloth is then as it was.
+    /// **Errors**: [`WovenError::Crimp`] for a share outside \[0, 1\]. After an error the cloth is
+    /// unchanged.
     pub fn set_crimp(&mut self, crimp: Crimp) -> Result<(), WovenError> {
         crimp.validate()?;
         self.crimp = crimp;
         Ok(())
     }
 
-    /// The warp's share of the crimp, 0 to 1: the value of [`Woven::crimp`] in this cloth.
+    /// The warp's share of the crimp, from 0 to 1, that [`Woven::crimp`] gives in this cloth.
     #[must_use]
     pub fn warp_share(&self) -> f32 {
         self.crimp.warp_share(&self.warp, &self.weft)

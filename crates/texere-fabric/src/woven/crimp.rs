@@ -1,32 +1,31 @@
-//! The crimp's shares: how far warp and weft swing out of the cloth's middle.
+//! The shares of the crimp, which say how far warp and weft swing out of the cloth's middle.
 
 use super::thread::Thread;
 use crate::WovenError;
 
-/// The split of the distance that crossing threads keep, between warp and weft.
+/// How warp and weft share the distance that they keep from one another where they cross.
 ///
-/// At a crossing the two centrelines are apart by half the heights of both sections, R. The warp
-/// lies `share × R` on its side of the cloth's middle, the weft the rest on the other side. The
-/// share is the cloth's, not a crossing's. A thread then keeps one level where the threads that it
-/// crosses are alike, as a thread under tension does, and what one set gives up the other takes
-/// everywhere at once.
+/// At a crossing the two centrelines are apart by R, half the heights of both sections together.
+/// The warp lies `share × R` from the cloth's middle, and the weft lies at the rest of R on the
+/// other side. All crossings of a cloth have the same share. A thread therefore keeps one level if
+/// the threads that it crosses are alike, as a thread under tension does.
 ///
-/// This is crimp interchange: pull a cloth along the warp, and the warp straightens (its share
-/// falls) while the weft crimps. The pitch changes with it; the caller gives it, as the threads'
-/// spacings.
+/// Another share is crimp interchange. If a cloth is pulled along the warp, the warp straightens,
+/// so that its share falls, and the weft takes more crimp. The pitches change, too. The caller
+/// gives them as the threads' spacings.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
 /// 1937: h₁ + h₂ = D.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Crimp {
-    /// By the threads' stiffness in bending, which grows with the fourth power of a thread's
-    /// diameter. The stiffer set stays the straighter. The share is a half where both sets are
-    /// alike, and 20 to 80 % at most. Beyond that the yarn that bends more needs a pitch that few
-    /// cloths have, and thin yarns do not hold thick ones quite straight.
+    /// The shares follow from the threads' stiffness in bending, which grows with the fourth power
+    /// of the diameter. The stiffer set stays straighter. The share is a half if both sets are
+    /// alike, and is kept between 20 and 80 %. Beyond these shares the yarn that bends more needs a
+    /// pitch that few cloths have, and thin yarns do not hold thick ones quite straight.
     #[default]
     Stiffness,
-    /// The warp's share, 0 (straight ends) to 1 (straight picks).
+    /// The warp's share, from 0 (straight ends) to 1 (straight picks).
     WarpShare(f32),
 }
 

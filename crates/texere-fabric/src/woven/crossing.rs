@@ -1,14 +1,15 @@
-//! Swing of threads out of the cloth's middle where they cross.
+//! Swing of threads out of the cloth's middle where they cross, for cloth with one control point at
+//! each crossing.
 
-/// The least swing of a thread at a crossing, by the pitch of the threads that it crosses: pairs of
-/// pitch over room, and swing as a multiple of half the room.
+/// The least swing of a thread at a crossing, by the pitch of the threads that it crosses. The room
+/// of a crossing is the distance that the two centrelines keep there. A pair has the pitch over the
+/// room, and the swing as a multiple of half the room.
 ///
-/// Two threads that cross at half their room each just touch there. With one control point a
-/// crossing the spline cuts corners on its way from one side to the other, the more so the closer
-/// the crossed threads lie, and the nearest approach is beside the crossing. These multiples are
-/// the smallest with which the centrelines of round yarns of one size stay 0.992 diameters apart in
-/// plain weave, 3/1 and 2/2 twill, satins on 5 and 8 ends, and random weaves, measured on finely
-/// sampled splines.
+/// Two threads that both swing out by half the room just touch at the crossing. On its way from one
+/// side to the other the spline cuts corners, so that threads come nearest beside the crossing. The
+/// closer the crossed threads lie, the more the spline cuts. These multiples are the smallest with
+/// which the centrelines of round yarns of one size stay 0.992 diameters apart in plain weave, 3/1
+/// and 2/2 twill, satins on 5 and 8 ends, and random weaves, measured on finely sampled splines.
 const SWING: [(f32, f32); 8] = [
     (2.0, 1.33),
     (2.25, 1.17),
@@ -20,10 +21,10 @@ const SWING: [(f32, f32); 8] = [
     (6.0, 1.0),
 ];
 
-/// The closest pitch, in rooms, for which a swing was found that keeps crossing threads clear.
+/// The least pitch over room for which a swing was found that keeps crossing threads clear.
 pub(super) const PITCH_MIN: f32 = SWING[0].0;
 
-/// [`SWING`], linear between its entries and constant outside.
+/// The swing at a pitch over room: [`SWING`], linear between its entries and constant outside.
 pub(super) fn swing(pitch: f32) -> f32 {
     let mut below = SWING[0];
     for above in SWING {

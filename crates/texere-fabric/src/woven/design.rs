@@ -26,13 +26,14 @@ pub struct WovenDesign {
     draft: Option<Draft>,
     relief: Relief,
     jam_report: JamReport,
-    /// The cloth as it was given, where relief has changed it.
+    /// The cloth as it was given, if relief has changed it.
     given: Option<Woven>,
 }
 
 impl WovenDesign {
     /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that
-    /// weaves the cloth, if there is one: its drawdown is the cloth's.
+    /// weaves the cloth, if there is one. The caller makes sure that the draft's drawdown equals
+    /// the cloth's; it is not checked.
     ///
     /// **Errors**: the errors of [`Woven::relieve`].
     pub fn new(mut cloth: Woven, draft: Option<Draft>, relief: Relief) -> Result<Self, FabricError> {
@@ -40,7 +41,7 @@ impl WovenDesign {
         Ok(Self { cloth, draft, relief, jam_report, given })
     }
 
-    /// The cloth, its jammed threads relieved.
+    /// The cloth, after the relief of its jammed threads.
     #[must_use]
     pub const fn cloth(&self) -> &Woven {
         &self.cloth
@@ -58,7 +59,7 @@ impl WovenDesign {
         &self.jam_report
     }
 
-    /// The relief of jammed threads.
+    /// What is done about jammed threads.
     #[must_use]
     pub const fn relief(&self) -> Relief {
         self.relief
@@ -76,13 +77,14 @@ impl WovenDesign {
         self.given.is_some()
     }
 
-    /// The design of another cloth, without relief.
+    /// A design of `cloth` with this design's draft. Its jammed threads are only reported.
     pub(crate) fn of(&self, cloth: Woven) -> Result<Self, FabricError> {
         Self::new(cloth, self.draft.clone(), Relief::Report)
     }
 
-    /// Puts the warp up or down at a crossing, end and pick counted from 0, and relieves the cloth
-    /// again. A shaft draft does not weave that cloth any more, and is dropped.
+    /// Puts the warp up or down at a crossing; `end` and `pick` are counted from 0. The jammed
+    /// threads of the changed cloth are relieved again. The design's shaft draft no longer weaves
+    /// the cloth, and is dropped.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -97,8 +99,8 @@ impl WovenDesign {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth, and the errors of
-    /// [`Woven::relieve`]; the design is then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] for a crossing outside the cloth, and the errors of
+    /// [`Woven::relieve`]. After an error the design is unchanged.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
         let mut changed = self.as_given().clone();
         changed.drawdown_mut().set(end, pick, up)?;
@@ -107,7 +109,7 @@ impl WovenDesign {
         Ok(())
     }
 
-    /// Gives material number `material`, from 0, another colour, sRGB.
+    /// Gives the material with number `material`, counted from 0, the sRGB colour `srgb`.
     ///
     /// **Errors**: [`WovenError::NoMaterial`].
     pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), WovenError> {
@@ -117,10 +119,12 @@ impl WovenDesign {
         Ok(())
     }
 
-    /// Gives all threads of the cloth as it was given one section, and relieves it again.
+    /// Gives all threads the section `section` in the cloth before relief, and relieves that cloth
+    /// again.
     ///
-    /// **Errors**: [`ThreadError::Section`](crate::ThreadError::Section) where its numbers are not
-    /// sound, and the errors of [`Woven::relieve`]; the design is then as it was.
+    /// **Errors**: [`ThreadError::Section`](crate::ThreadError::Section) for a section whose
+    /// numbers are not valid, and the errors of [`Woven::relieve`]. After an error the design is
+    /// unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         let mut changed = self.given.as_ref().unwrap_or(&self.cloth).clone();
         changed.set_section(section)?;
@@ -130,7 +134,8 @@ impl WovenDesign {
     }
 }
 
-/// Relieves jammed threads. Returns the report, and the cloth before, where relief has changed it.
+/// Relieves jammed threads. Returns the report and, if the cloth was changed, a copy of it before
+/// the change.
 fn relieve(cloth: &mut Woven, relief: Relief) -> Result<(JamReport, Option<Woven>), FabricError> {
     if relief == Relief::Report {
         return Ok((cloth.relieve(relief)?, None));

@@ -42,14 +42,14 @@ pub struct Draft {
 /// How the picks of a draft lift their shafts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Shedding {
-    /// By treadles.
+    /// Each pick presses treadles, which lift the shafts that are tied to them.
     TieUp {
         /// The shafts that are tied to each treadle. A treadle past the last one lifts nothing.
         tie_up: Vec<Vec<u32>>,
         /// The treadles that each pick presses.
         treadling: Vec<Vec<u32>>,
     },
-    /// The shafts that each pick lifts, as a dobby lifts them.
+    /// Each pick lifts these shafts directly, as on a dobby loom.
     LiftPlan(Vec<Vec<u32>>),
 }
 
@@ -76,11 +76,11 @@ impl Draft {
         self.shedding.picks().len()
     }
 
-    /// The drawdown that this draft weaves. The warp is up where one of the end's shafts is among
-    /// those that the pick lifts.
+    /// The drawdown that this draft weaves. The warp is up where the pick lifts one of the end's
+    /// shafts.
     ///
-    /// **Errors**: the errors of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends
-    /// exceed 2³².
+    /// **Errors**: the errors of [`Drawdown::new`], and [`WovenError::TieUp`] if treadles times
+    /// ends exceed 2³².
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
         let shafts = self.shafts()?;
@@ -105,7 +105,7 @@ impl Draft {
         Ok(drawdown)
     }
 
-    /// The ends of each shaft, by its number.
+    /// The ends on each shaft, by the number of the shaft.
     fn shafts(&self) -> Result<HashMap<u32, Lift>, FabricError> {
         let mut shafts: HashMap<u32, Vec<u32>> = HashMap::new();
         for (end, carried_by) in (0..).zip(&self.threading) {
@@ -117,7 +117,7 @@ impl Draft {
         shafts.into_iter().map(|(shaft, ends)| Ok((shaft, Lift::new(ends, words)?))).collect()
     }
 
-    /// The ends that each treadle lifts, by its number.
+    /// The ends that each treadle lifts, by the number of the treadle.
     fn treadles(
         &self,
         tie_up: &[Vec<u32>],
@@ -137,17 +137,17 @@ impl Draft {
     }
 }
 
-/// The ends that a shaft or a treadle lifts, in the form that is quicker to lift.
+/// The ends that a shaft or a treadle lifts, in the form that takes less time to add to a row.
 enum Lift {
-    /// A list.
+    /// A list of ends.
     Few(Vec<u32>),
     /// A row of a drawdown.
     Many(Vec<u64>),
 }
 
 impl Lift {
-    /// The lift of `ends`, in a cloth whose rows have `words`. A list with one end for each word of
-    /// a row takes as long to lift as the row.
+    /// The lift of `ends`, in a cloth whose rows have `words` words. A list with one end for each
+    /// word of a row takes as long as the row.
     fn new(ends: Vec<u32>, words: usize) -> Result<Self, FabricError> {
         let many = ends.len() > words;
         let few = Self::Few(ends);

@@ -8,8 +8,8 @@ use crate::{FabricError, WovenError};
 
 /// The most ends of a cloth, and the most picks.
 ///
-/// The finest silk has 300 ends to the centimetre; a million of them are more than thirty metres
-/// across.
+/// The finest silk has 300 ends to the centimetre. A million of these ends are more than thirty
+/// metres across.
 pub const THREADS_MAX: usize = 1_000_000;
 
 /// The most crossings of a drawdown. A `u32` numbers them, and their bits take half a gigabyte.
@@ -18,10 +18,11 @@ pub(super) const CROSSINGS_MAX: u64 = 1 << 32;
 /// Bits in a word.
 pub(super) const WORD: usize = u64::BITS as usize;
 
-/// A bit for each crossing of ends and picks: whether the warp is up, that is on the face of the
-/// cloth.
+/// A bit for each crossing of an end and a pick, which says whether the warp is up, that is, on the
+/// face of the cloth.
 ///
-/// Ends are counted from 0 at the left, picks from 0 at the first one woven (the bottom).
+/// Ends are counted from 0 at the left. Picks are counted from 0 at the bottom, where weaving
+/// starts.
 ///
 /// ```
 /// use texere_fabric::Drawdown;
@@ -35,7 +36,8 @@ pub struct Drawdown {
     picks: usize,
     /// Words in a pick's row.
     row: usize,
-    /// Pick after pick, end 0 in the lowest bit; bits past the last end are 0.
+    /// The rows of all picks, one after another. End 0 is the lowest bit of a row. Bits past the
+    /// last end are 0.
     words: Vec<u64>,
 }
 
@@ -53,7 +55,7 @@ impl Drawdown {
     /// A drawdown with every warp down.
     ///
     /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of
-    /// either; [`WovenError::Crossings`] for more than 2³²;
+    /// either, [`WovenError::Crossings`] for more than 2³² crossings, and
     /// [`FabricError::OutOfMemory`].
     pub fn new(ends: usize, picks: usize) -> Result<Self, FabricError> {
         if !(1..=THREADS_MAX).contains(&ends) || !(1..=THREADS_MAX).contains(&picks) {
@@ -67,7 +69,7 @@ impl Drawdown {
         Ok(Self { ends, picks, row, words: zeroed("a drawdown", row as u64 * picks as u64)? })
     }
 
-    /// A drawdown whose warp is up where `up(end, pick)` says so.
+    /// A drawdown whose warp is up where `up(end, pick)` is true.
     ///
     /// **Errors**: the errors of [`Drawdown::new`].
     pub fn from_fn(
@@ -84,9 +86,9 @@ impl Drawdown {
         Ok(drawdown)
     }
 
-    /// A drawdown that repeats `repeat.0` ends and `repeat.1` picks. Its warp is up where `up(end,
-    /// pick)` is true of the repeat. `up` is called once for each crossing of the repeat that the
-    /// cloth has.
+    /// A drawdown that repeats `repeat.0` ends and `repeat.1` picks. `up(end, pick)` says whether
+    /// the warp is up at a crossing of the repeat. It is called once for each crossing of the
+    /// repeat that the cloth has.
     ///
     /// **Errors**: the errors of [`Drawdown::new`].
     ///
@@ -132,7 +134,8 @@ impl Drawdown {
         self.picks
     }
 
-    /// Whether the warp is up where `end` and `pick` cross, both from 0; `false` outside the cloth.
+    /// Whether the warp is up where `end` and `pick`, both counted from 0, cross; `false` outside
+    /// the cloth.
     #[must_use]
     pub fn up(&self, end: usize, pick: usize) -> bool {
         end < self.ends
@@ -140,9 +143,9 @@ impl Drawdown {
             && self.words[pick * self.row + end / WORD] >> (end % WORD) & 1 == 1
     }
 
-    /// Puts the warp up or down where `end` and `pick` cross, both from 0.
+    /// Puts the warp up or down where `end` and `pick`, both counted from 0, cross.
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
+    /// **Errors**: [`WovenError::NoCrossing`] for a crossing outside the cloth.
     pub fn set(&mut self, end: usize, pick: usize, up: bool) -> Result<(), WovenError> {
         if end >= self.ends || pick >= self.picks {
             return Err(WovenError::NoCrossing {
@@ -157,11 +160,12 @@ impl Drawdown {
         Ok(())
     }
 
-    /// Number of picks that each end lies on.
+    /// For each end, the number of picks on top of which it lies.
     pub(super) fn ups_of_ends(&self) -> Vec<u64> {
         let mut ups = vec![0; self.ends];
         for (word, ups) in ups.chunks_mut(WORD).enumerate() {
-            // Sixty-four ends at a time. Each word holds one binary digit of all their counts.
+            // Sixty-four ends are counted at a time. Each word of `digits` holds one binary digit
+            // of all their counts.
             let mut digits: Vec<u64> = Vec::new();
             for row in self.words.chunks_exact(self.row) {
                 let mut carry = row[word];
@@ -179,13 +183,14 @@ impl Drawdown {
         ups
     }
 
-    /// Number of ends that each pick lies on.
+    /// For each pick, the number of ends on top of which it lies.
     pub(super) fn downs_of_picks(&self) -> Vec<u64> {
         let ups = |row: &[u64]| row.iter().map(|word| u64::from(word.count_ones())).sum::<u64>();
         self.words.chunks_exact(self.row).map(|row| self.ends as u64 - ups(row)).collect()
     }
 
-    /// The words of `pick`, which lies within the cloth: end 0 in the lowest bit of the first.
+    /// The words of the row of `pick`, which must lie within the cloth. End 0 is the lowest bit of
+    /// the first word.
     pub(super) fn row_mut(&mut self, pick: usize) -> &mut [u64] {
         &mut self.words[pick * self.row..][..self.row]
     }
@@ -195,8 +200,8 @@ impl Drawdown {
         self.words.copy_within(from * self.row..(from + 1) * self.row, to * self.row);
     }
 
-    /// Inverts the drawdown: what was up is down. That is the cloth turned over without being
-    /// mirrored.
+    /// Inverts the drawdown: each crossing that was up is down, and the other way round. This is
+    /// the cloth turned over, without being mirrored.
     pub(super) fn invert(&mut self) {
         let last = u64::MAX >> (self.row * WORD - self.ends);
         for row in self.words.chunks_exact_mut(self.row) {

@@ -1,23 +1,23 @@
-//! What can be wrong with a weave, its threads or its cloth.
+//! Errors of weaves, of threads and of woven cloth.
 
 use texere_core::{Origin, counted};
 use thiserror::Error;
 
-/// Names of weaves that a message suggests.
+/// The names of weaves that a message lists.
 const TOLD: &str = "plain (tabby), twill, satin, sateen, matt (hopsack, basket), herringbone, pointed, honeycomb (waffle), crepe, or floats such as 2/2";
 
 /// Woven cloth that is refused. Threads are counted from 1, as weavers count them.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WovenError {
-    /// No threads in one direction, or more than are taken.
+    /// No threads in one direction, or more than are allowed.
     #[error("cloth of {ends} and {picks}; each must be 1 to {limit}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Size {
         /// Ends asked for.
         ends: usize,
         /// Picks asked for.
         picks: usize,
-        /// Most taken of either.
+        /// The most ends, and the most picks, allowed.
         limit: usize,
     },
     /// More crossings than a `u32` counts.
@@ -29,10 +29,10 @@ pub enum WovenError {
         picks: usize,
         /// Their product.
         crossings: u64,
-        /// Most taken.
+        /// The most crossings allowed.
         limit: u64,
     },
-    /// The cloth would have more control points than are taken.
+    /// The cloth would have more control points than are allowed.
     #[error("{ends} and {picks} need {points}, more than {limit}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"), points = counted(*.points, "control point"))]
     Points {
         /// Ends of the cloth.
@@ -41,39 +41,39 @@ pub enum WovenError {
         picks: usize,
         /// Control points of all yarns.
         points: u64,
-        /// Most taken.
+        /// The most control points allowed.
         limit: u64,
     },
     /// A crossing outside the cloth.
     #[error("no crossing of end {end} and pick {pick}; the cloth has {ends} and {picks}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     NoCrossing {
-        /// The end, from 1.
+        /// The end, counted from 1.
         end: usize,
-        /// The pick, from 1.
+        /// The pick, counted from 1.
         pick: usize,
         /// Ends of the cloth.
         ends: usize,
         /// Picks of the cloth.
         picks: usize,
     },
-    /// A tie-up too large to be worked out.
+    /// A tie-up that is too large.
     #[error("{treadles} for {ends}; their product must be {limit} at most", treadles = counted(*.treadles, "treadle"), ends = counted(*.ends, "end"))]
     TieUp {
         /// Treadles in the tie-up.
         treadles: usize,
         /// Ends of the cloth.
         ends: usize,
-        /// Most taken of their product.
+        /// The largest product of both allowed.
         limit: u64,
     },
     /// A weave's notation that can't be read.
     #[error("weave \"{text}\", character {position}: expected {expected}")]
     Notation {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
-        /// What should have stood there.
+        /// A description of what may stand at that character.
         expected: &'static str,
     },
     /// A word that is the name of no weave.
@@ -82,31 +82,31 @@ pub enum WovenError {
         .near.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default()
     )]
     NoWeave {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
-        /// A name that is spelt nearly so.
+        /// A name with nearly the same spelling, if there is one.
         near: Option<&'static str>,
     },
-    /// A sign in a weave's notation that looks like a hyphen and is none.
+    /// A character in a weave's notation that looks like a hyphen but is another character.
     #[error("weave \"{text}\", character {position}: this is {sign}, not a hyphen (-)")]
     Hyphen {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
-        /// What it is: `an en dash (U+2013)`.
+        /// The name of the character, such as `an en dash (U+2013)`.
         sign: &'static str,
     },
-    /// A sign in a weave's notation that looks like a slash and is none.
+    /// A character in a weave's notation that looks like a slash but is another character.
     #[error("weave \"{text}\", character {position}: this is {sign}, not a slash (/)")]
     Slash {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
-        /// What it is: `a fraction slash (U+2044)`.
+        /// The name of the character, such as `a fraction slash (U+2044)`.
         sign: &'static str,
     },
     /// A satin's move that would show a twill line or leave ends without a binding point.
@@ -114,9 +114,9 @@ pub enum WovenError {
         "weave \"{text}\", character {position}: a satin of {ends} can't have move {step}; \
          it needs one from 2 to {} that shares no factor with {}", .ends.saturating_sub(2), .ends, ends = counted(*.ends, "end"))]
     SatinMove {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
         /// The move.
         step: i64,
@@ -128,9 +128,9 @@ pub enum WovenError {
         "weave \"{text}\", character {position}: no regular satin has {ends}, for that takes 5, or 7 and more{}",
         irregular_satin(*.ends), ends = counted(*.ends, "end"))]
     NoSatin {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
         /// Ends asked for.
         ends: usize,
@@ -138,23 +138,23 @@ pub enum WovenError {
     /// A twill's move with which an end would never change sides.
     #[error("weave \"{text}\", character {position}: with move {step} end {end} never changes sides")]
     TwillMove {
-        /// The text, cut short where it is long.
+        /// The notation, cut short if it is long.
         text: String,
-        /// Number of the character, from 1.
+        /// Number of the character, counted from 1.
         position: usize,
         /// The move.
         step: i64,
-        /// The first such end of the repeat, from 1.
+        /// The first end of the repeat that never changes sides, counted from 1.
         end: usize,
     },
-    /// A repeat larger than is taken.
+    /// A repeat with more ends or picks than are allowed.
     #[error("a repeat of {ends} and {picks}; each may be {limit} at most", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Repeat {
         /// Ends in the repeat.
         ends: usize,
         /// Picks in the repeat.
         picks: usize,
-        /// Most taken of either.
+        /// The most ends, and the most picks, allowed.
         limit: usize,
     },
     /// Another number of threads than the drawdown has.
@@ -162,9 +162,9 @@ pub enum WovenError {
     ThreadCount {
         /// `end` or `pick`.
         set: &'static str,
-        /// Described.
+        /// The number of threads that are given.
         threads: usize,
-        /// In the drawdown.
+        /// The number of threads in the drawdown.
         planned: usize,
     },
     /// A spacing that is not a number, or outside its limits.
@@ -174,9 +174,9 @@ pub enum WovenError {
         thread: Origin,
         /// Its spacing, mm.
         spacing_mm: f64,
-        /// Least taken, mm.
+        /// The least spacing allowed, mm.
         low: f64,
-        /// Most taken, mm.
+        /// The largest spacing allowed, mm.
         high: f64,
     },
     /// A stiffness outside its limits, or not a number.
@@ -184,11 +184,11 @@ pub enum WovenError {
     Stiffness {
         /// The thread.
         thread: Origin,
-        /// Its stiffness, in that of cotton.
+        /// Its stiffness, as a multiple of that of cotton.
         stiffness: f32,
-        /// The least.
+        /// The least stiffness allowed.
         low: f32,
-        /// The most.
+        /// The largest stiffness allowed.
         high: f32,
     },
     /// A flatness outside its limits, or not a number.
@@ -198,9 +198,9 @@ pub enum WovenError {
         thread: Origin,
         /// Its flatness: width over height.
         flatness: f32,
-        /// Least taken.
+        /// The least flatness allowed.
         low: f32,
-        /// Most taken.
+        /// The largest flatness allowed.
         high: f32,
     },
     /// A thread that flattening makes too thin or too wide.
@@ -210,19 +210,19 @@ pub enum WovenError {
         thread: Origin,
         /// `width` or `height`.
         side: &'static str,
-        /// Half of it, mm.
+        /// Half the width or half the height, mm.
         half_mm: f32,
-        /// Least taken, mm.
+        /// The least half width or half height allowed, mm.
         low: f32,
-        /// Most taken, mm.
+        /// The largest half width or half height allowed, mm.
         high: f32,
     },
-    /// A material that does not exist.
+    /// A material that the cloth does not have.
     #[error("material {material}, but there are {materials}, counted from 0")]
     NoMaterial {
-        /// The material.
+        /// The number of the material, counted from 0.
         material: usize,
-        /// How many there are.
+        /// The number of materials.
         materials: usize,
     },
     /// A share of the crimp outside its limits.
@@ -230,31 +230,31 @@ pub enum WovenError {
     Crimp {
         /// The share.
         share: f32,
-        /// Least taken.
+        /// The least share allowed.
         low: f32,
-        /// Most taken.
+        /// The largest share allowed.
         high: f32,
     },
     /// Yarns that don't belong to the cloth that is measured.
     #[error("yarn {yarn} is not one of the cloth's")]
     OtherCloth {
-        /// The first yarn that differs, from 0. Where there are too many or too few it is the
-        /// number of yarns of the cloth.
+        /// The number of the first yarn that differs, counted from 0. If there are only too many or
+        /// too few yarns, it is the smaller of both numbers of yarns.
         yarn: usize,
     },
-    /// A cloth larger than coordinates reach.
+    /// A cloth that is larger than coordinates can be.
     #[error("{set} lie over {extent_mm} mm, more than {limit} mm")]
     Extent {
         /// `ends` or `picks`.
         set: &'static str,
-        /// Sum of their spacings, mm.
+        /// Sum of the spacings of these threads, mm.
         extent_mm: f64,
-        /// Most taken, mm.
+        /// The largest sum allowed, mm.
         limit: f64,
     },
 }
 
-/// Textbooks' irregular satin on a number of ends that no regular one has.
+/// The textbooks' irregular satin on a number of ends on which there is no regular one.
 const fn irregular_satin(ends: usize) -> &'static str {
     match ends {
         6 => "; an irregular one names the end that each pick binds: satin 6(1 3 5 2 6 4)",

@@ -1,4 +1,4 @@
-//! Room of threads: beside one another, and between those that cross them.
+//! Room of threads: beside one another, and between the threads that cross them.
 
 use rayon::prelude::*;
 use texere_core::Origin;
@@ -8,21 +8,22 @@ use super::thread::pitches;
 use super::{Shape, Woven, crossing};
 use crate::FabricWarning;
 
-/// The share by which room may fall short before it counts. Radii are rounded to `f32`.
+/// The share by which a pitch may fall short without counting as too small, because radii are
+/// rounded to `f32`.
 pub(super) const ROUNDING: f64 = 1e-6;
 
-/// The least pitch of two threads, over the sum of half their widths and twice half the height of a
-/// thread that changes sides between them. `share` is that thread's share of the crimp.
+/// The least pitch of two threads, divided by half their widths together plus the height of a
+/// thread that changes sides between them. `share` is the share of the crimp of the thread between.
 ///
-/// The thread between is jammed where it goes from arc to arc with nothing straight between. Round
-/// a crossed thread its centreline follows a circle of radius R, half the heights together. The
-/// centre of the circle is (1 - share) R beyond the cloth's middle, so that the circle meets the
-/// middle √(share (2 - share)) R to the side. Flat threads stretch the circle in the ratio of half
-/// the crossed thread's width and half the own height to R. Two sets of round threads of diameter d
-/// with half the crimp each need √3 d.
+/// The thread between is jammed if it goes from arc to arc with nothing straight between. Round a
+/// crossed thread its centreline follows a circle of radius R, half the heights of both threads
+/// together. The centre of the circle is (1 - share) R beyond the cloth's middle, so that the
+/// circle meets the middle √(share (2 - share)) R to the side. Flat threads stretch the circle
+/// sideways: half the width of the crossed thread plus half the height of the thread between takes
+/// the place of R. Two sets of round threads of diameter d with half the crimp each need √3 d.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
-/// 1937: both sets' jamming at l = D θ, here for each of them at its own share of the crimp.
+/// 1937, where both sets jam at l = D θ. Here each set jams by its own share of the crimp.
 pub(super) fn reach(share: f32) -> f32 {
     (share * (2.0 - share)).sqrt()
 }
@@ -30,22 +31,22 @@ pub(super) fn reach(share: f32) -> f32 {
 /// Two neighbouring threads of one set.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
-    /// Number of the second thread, from 1.
+    /// Number of the second thread, counted from 1.
     pub(super) thread: u32,
-    /// Distance between the two, mm.
+    /// Distance between the two threads, mm.
     pub(super) pitch: f64,
-    /// Half their widths together, mm.
+    /// Half the widths of the two threads together, mm.
     pub(super) widths: f32,
-    /// Half their heights together, mm.
+    /// Half the heights of the two threads together, mm.
     heights: f32,
-    /// Twice half the height of the thickest thread that changes sides between them, mm; none where
-    /// no thread does.
+    /// Height of the thickest thread that changes sides between the two threads, mm; none if no
+    /// thread does.
     pub(super) between: Option<f32>,
 }
 
 impl Gap {
-    /// The least pitch at which the threads between are not jammed, mm. `share` is their share of
-    /// the crimp.
+    /// The least pitch at which the threads that change sides between the two are not jammed, mm.
+    /// `share` is the share of the crimp of the threads between.
     pub(super) fn needed(&self, shape: Shape, share: f32) -> f64 {
         self.between.map_or(0.0, |between| match shape {
             Shape::Crossing => f64::from(crossing::PITCH_MIN * (self.heights + between) / 2.0),
@@ -54,8 +55,8 @@ impl Gap {
     }
 }
 
-/// The gaps between the threads of `set`. `apart(thread, crossing)` says whether that thread of the
-/// `crossing` set lies on different sides of `thread` and the next one.
+/// The gaps between the threads of `set`. `apart(thread, other)` says whether thread `other` of the
+/// set `crossing` lies on different sides of `thread` and of the next thread.
 pub(super) fn gaps(
     set: &Set,
     pitches: impl Iterator<Item = f64>,
@@ -63,7 +64,7 @@ pub(super) fn gaps(
     apart: impl Fn(usize, usize) -> bool + Sync,
 ) -> Vec<Gap> {
     let pitches: Vec<f64> = pitches.collect();
-    // The thickest come first, so that the first one that changes sides is the thickest.
+    // The thickest threads come first, so that the first one that changes sides is the thickest.
     let mut crossing: Vec<(usize, f32)> = crossing.half_height.iter().copied().enumerate().collect();
     crossing.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     pitches
@@ -83,7 +84,7 @@ pub(super) fn gaps(
 }
 
 impl Woven {
-    /// The gaps between ends and those between picks.
+    /// The gaps between ends, and the gaps between picks.
     pub(super) fn gaps(&self) -> [Vec<Gap>; 2] {
         let (warp, weft) = (Set::new(self.warp(), self.sections()), Set::new(self.weft(), self.sections()));
         let up = |end, pick| self.drawdown().up(end, pick);
@@ -110,7 +111,8 @@ impl Woven {
         .collect()
     }
 
-    /// Threads too close together for crossing threads to pass between.
+    /// A warning of threads that lie so close together that crossing threads can't pass between
+    /// them.
     fn jammed(&self, gaps: &[Gap], share: f32, origin: fn(u32) -> Origin) -> Option<FabricWarning> {
         let lacking = gaps.iter().map(|gap| (origin(gap.thread), gap.needed(self.shape(), share), gap.pitch));
         let (count, first, (worst, needed_mm, pitch_mm)) = worst(lacking)?;
@@ -118,15 +120,15 @@ impl Woven {
     }
 }
 
-/// Threads that are wider, together with the thread before, than the distance between the two.
+/// A warning of threads that pierce the thread before them side by side.
 fn crowded(gaps: &[Gap], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
     let lacking = gaps.iter().map(|gap| (origin(gap.thread), f64::from(gap.widths), gap.pitch));
     let (count, first, (worst, needed_mm, spacing_mm)) = worst(lacking)?;
     Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
 }
 
-/// The number of threads that lack room, the first, and the one that lacks most. A thread comes
-/// with the room that it needs and the room that there is.
+/// The number of threads that lack room, the first of them, and the one that lacks the largest
+/// share. Each of `threads` has the room that it needs and the room that it has.
 fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
     threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
         Some(match found {

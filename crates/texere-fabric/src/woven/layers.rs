@@ -1,4 +1,4 @@
-//! Whether a cloth hangs together.
+//! The layers that a woven cloth falls apart into.
 
 use std::cmp::Reverse;
 
@@ -7,14 +7,15 @@ use texere_core::Origin;
 use super::{BySet, Drawdown};
 
 impl Drawdown {
-    /// The layers that the cloth falls apart into, the one on the face first: the numbers of ends
-    /// and picks of each. A cloth that hangs together is a single layer. A double cloth whose
-    /// layers nothing stitches together is two. Threads that lie loose on the face or the back are
-    /// layers, too. The threads that lie on top most often are in the first layer.
+    /// The layers that the cloth falls apart into, from the face: the numbers of ends and picks of
+    /// each layer. A cloth that hangs together is a single layer. A double cloth that nothing
+    /// stitches together has two layers. Threads that lie loose on the face or the back are layers,
+    /// too. The threads that lie on top most often are in the first layer.
     ///
     /// **Source**: C. R. J. Clapham, "When a fabric hangs together", Bulletin of the London
-    /// Mathematical Society 12, 1980: some ends and picks can be lifted off the others where they
-    /// lie on top as often as they cross these and one another.
+    /// Mathematical Society 12, 1980: some ends and picks can be lifted off the rest if the number
+    /// of crossings at which one of them lies on top equals the number of crossings in which they
+    /// take part.
     ///
     /// ```
     /// use texere_fabric::{BySet, Drawdown, Weave};
@@ -45,10 +46,11 @@ impl Drawdown {
         });
         let (mut layers, mut last) = (Vec::<[usize; 2]>::new(), [0, 0]);
         for (first, over) in sums_over.iter().enumerate() {
-            // Each further pick crosses the ends that are not among the first, and lies on as many
-            // as its count. Counts only fall, so the number of crossings and the number of times on
-            // top come nearest to one another where these two are the same, and can be equal only
-            // there.
+            // Each further pick crosses the ends that are not among the first, and lies on top of
+            // as many ends as its count. Counts only fall. The number of times on top, less the
+            // number of crossings, is therefore largest when all picks with a greater count than
+            // the number of those ends are taken, and none with a smaller count. Only there can
+            // both numbers be equal.
             let others = (ends - first) as u64;
             let [fewest, most] = [
                 under.partition_point(|count| *count > others),
@@ -61,7 +63,8 @@ impl Drawdown {
                 }
                 let layer = [first - last[0], second - last[1]];
                 match layers.last_mut() {
-                    // Threads of one set alone do not lie on one another.
+                    // Threads of one set do not lie on one another, so two layers of one set alone
+                    // are joined.
                     Some(before) if [0, 1].iter().any(|&set| before[set] == 0 && layer[set] == 0) => {
                         *before = [before[0] + layer[0], before[1] + layer[1]];
                     }
@@ -73,7 +76,8 @@ impl Drawdown {
         layers.into_iter().map(BySet::of).collect()
     }
 
-    /// The threads of those `layers` of the cloth that have threads of one set alone, ends first.
+    /// The loose threads, ends first: the threads of those `layers` of the cloth that have threads
+    /// of one set alone.
     pub(crate) fn loose(&self, layers: &[BySet<usize>]) -> Vec<Origin> {
         let orders = [self.ups_of_ends(), self.downs_of_picks()].map(|counts| {
             let mut order: Vec<usize> = (0..counts.len()).collect();

@@ -1,23 +1,24 @@
-//! Levels of threads: which threads of a set lie above others of it.
+//! Levels of threads: which threads of a set lie above other threads of the same set.
 
 use super::{BySet, Drawdown};
 
-/// A thread lies above the next one where at most one in this many of the threads that they cross
-/// says otherwise. The exceptions are stitches of a double cloth.
+/// A thread lies above the next one if, of the threads that pass between the two, at most one
+/// passes the other way for each [`STITCHED`] that have the thread above. The exceptions are
+/// stitches of a double cloth.
 const STITCHED: u64 = 4;
 
-/// More threads side by side than this are no layer of a cloth of several layers. A satin stripe
-/// lies higher than the plain weave beside it, but not over it.
+/// The most neighbouring threads of one level in a cloth of several layers. A longer run is a
+/// stripe: a satin stripe lies higher than the plain weave beside it, but not over it.
 const SIDE_BY_SIDE: usize = 4;
 
-/// The least share of neighbours that lie above one another in a cloth of several layers. Where
-/// three threads of the face go to one of the back it is a half.
+/// The least share of neighbours that lie above one another in a cloth of several layers. In a
+/// cloth with three threads of the face to one of the back this share is a half.
 const STACKED: f64 = 0.4;
 
-/// The most levels that are told apart.
+/// The most levels that a cloth can have.
 const LEVELS_MAX: u32 = 8;
 
-/// How two neighbours of a set lie.
+/// How two neighbouring threads of a set lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Neighbours {
     SideBySide,
@@ -30,11 +31,12 @@ impl Drawdown {
     /// lie side by side, threads of different levels above one another. A double cloth has two
     /// levels of ends and of picks, a weft-backed cloth two of picks. Most cloths have one.
     ///
-    /// A pick lies above the next one where ends lie between both: below the first, above the
-    /// second. Both lie side by side where equally many ends say the opposite, as in plain weave,
-    /// twills and satins. Stitches of two layers, one end in five at most, don't count. Ends are
-    /// compared in the same way. All threads lie side by side where neighbours contradict one
-    /// another round the cloth, or where fewer than two in five lie above one another.
+    /// A pick lies above the next one if ends pass between the two, below the first pick and above
+    /// the second. If about as many ends pass the other way, as in plain weave, twills and satins,
+    /// both picks lie side by side. Stitches between two layers, at most one in five of these ends,
+    /// don't count. Ends are compared in the same way. All threads lie side by side if neighbours
+    /// contradict one another round the cloth, or if fewer than two in five neighbours lie above
+    /// one another.
     ///
     /// ```
     /// use texere_fabric::{Drawdown, Weave};
@@ -68,8 +70,8 @@ impl Drawdown {
     }
 }
 
-/// How two neighbours lie, by the numbers of threads that have the first one above, and the second
-/// one.
+/// How two neighbours lie, given the number of crossing threads that have the first one above, and
+/// the number that have the second one above.
 const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     if first > 0 && second * STITCHED <= first {
         Neighbours::FirstAbove
@@ -80,9 +82,9 @@ const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     }
 }
 
-/// The lowest levels that agree with all neighbours; 0 for all where no levels do. The last thread
-/// and the first one count as neighbours where one of them lies above the other, since a cloth need
-/// not repeat.
+/// The lowest levels that agree with all neighbours; 0 for all threads if no levels do. The last
+/// thread and the first one count as neighbours only if one of them lies above the other, because a
+/// cloth need not repeat.
 fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
     let count = neighbours.len();
     // Threads side by side form runs: the number of each thread's run, and the length of each run.

@@ -1,24 +1,25 @@
-//! Weaves by name: reversed twills, and weaves that are drawn.
+//! Weaves by name: reversed twills, and weaves that are given as drawings.
 
 /// The honeycomb that is commonly woven on eight shafts: a ridge of warp and a ridge of weft round
-/// each hollow, and plain weave at its bottom. Last pick on top, `#` warp up.
+/// each hollow, and plain weave at the bottom of the hollow. The last pick is on top, and `#` is
+/// warp up.
 ///
 /// **Source**: Encyclopædia Britannica, 11th edition, 1911, "Honeycomb", design A, the perfect
 /// honeycomb: seven of weft and five of warp in its longest floats.
 pub(super) const HONEYCOMB: [&str; 8] =
     [".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."];
 
-/// Crepe (crape, oatmeal) on eight ends, without a line in any direction. Last pick on top, `#`
-/// warp up.
+/// Crepe (crape, oatmeal) on eight ends, without a line in any direction. The last pick is on top,
+/// and `#` is warp up.
 ///
-/// **Source**: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes of
-/// the ends of a twill in another order, and gives the twill 2/2*1/1*1/1 for it. Here every third
-/// of its ends follows, as in an eight-end satin.
+/// **Source**: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes by
+/// rearranging the ends of a twill, and gives the twill 2/2*1/1*1/1 for this purpose. Here every
+/// third end of that twill follows the one before, as in an eight-end satin.
 pub(super) const CREPE: [&str; 8] =
     ["##...#.#", "..#.###.", ".###...#", "#...#.##", ".#.###..", "###...#.", "...#.###", "#.###..."];
 
-/// Whether `#` stands where `end` and `pick`, both from 0, cross in a drawing with the last pick on
-/// top.
+/// Whether a drawing with the last pick on top has `#` where `end` and `pick`, both counted from 0,
+/// cross.
 pub(super) fn drawn(drawing: &[&str], end: usize, pick: usize) -> bool {
     let row = drawing.iter().rev().nth(pick).and_then(|row| row.as_bytes().get(end));
     row == Some(&b'#')
@@ -27,16 +28,16 @@ pub(super) fn drawn(drawing: &[&str], end: usize, pick: usize) -> bool {
 /// How a twill's line changes direction.
 #[derive(Clone, Copy)]
 pub(super) enum Reversal {
-    /// Herringbone: the line is cut, and the other direction starts half a repeat further on, so
-    /// that floats of warp meet floats of weft.
+    /// Herringbone: the line is cut. The first end in the other direction is taken half a repeat of
+    /// the twill further on, so that warp floats lie beside weft floats.
     Cut,
     /// The line turns at a single end, the point.
     Point,
 }
 
 impl Reversal {
-    /// The fewest ends in one direction with which each pick of a twill on `repeat` ends still
-    /// meets all of them.
+    /// The fewest ends in one direction with which each pick still crosses all ends of a twill on
+    /// `repeat` ends.
     pub(super) const fn least(self, repeat: usize) -> usize {
         match self {
             Self::Cut => repeat.div_ceil(2),
@@ -44,7 +45,8 @@ impl Reversal {
         }
     }
 
-    /// Ends of the whole repeat, with `way` ends in each direction. A point counts for both.
+    /// Number of ends of the whole repeat, with `way` ends in each direction. The end at a point
+    /// belongs to both directions.
     pub(super) const fn ends(self, way: usize) -> usize {
         match self {
             Self::Cut => 2 * way,
@@ -52,7 +54,8 @@ impl Reversal {
         }
     }
 
-    /// The end of a twill on `repeat` ends that stands at `end`, from 0, of a whole repeat.
+    /// The end of a twill on `repeat` ends that stands at the place `end`, counted from 0, of the
+    /// whole repeat.
     pub(super) const fn origin(self, end: usize, way: usize, repeat: usize) -> usize {
         if end < way {
             return end;

@@ -1,4 +1,4 @@
-//! A cloth whose lifts are edited, and single yarns placed anew.
+//! A cloth whose lifts are edited, and whose yarns are then placed anew one by one.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -14,8 +14,8 @@ use crate::{FabricError, WovenError, yarn_check};
 /// A cloth on the loom. Its lifts are changed one by one, and only the yarns that a change affects
 /// are placed anew.
 ///
-/// Yarns equal those of [`Woven::yarns`] to the bit, and have its numbers. A lift changes the end
-/// and the pick that cross there, and no other yarn.
+/// The yarns equal those of [`Woven::yarns`] to the bit, and have the same numbers. A lift changes
+/// the yarn of the end and the yarn of the pick that cross there, and no other yarn.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -39,7 +39,8 @@ pub struct Loom {
     passes: Vec<Pass>,
     /// The passes of each yarn.
     yarns: Vec<Range<usize>>,
-    /// The path of threads of each kind. It stays while no thread changes.
+    /// The path of the threads of each kind. It is computed once, because it does not depend on
+    /// lifts.
     paths: BTreeMap<Kind, Arc<[Station]>>,
 }
 
@@ -71,10 +72,10 @@ impl Loom {
         self.cloth
     }
 
-    /// Puts the warp up or down at a crossing, both counted from 0. Returns the numbers of the
-    /// yarns that this changes: none where it was so before.
+    /// Puts the warp up or down at a crossing; `end` and `pick` are counted from 0. Returns the
+    /// numbers of the yarns that this changes. The list is empty if the crossing does not change.
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
+    /// **Errors**: [`WovenError::NoCrossing`] for a crossing outside the cloth.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<Vec<usize>, WovenError> {
         self.set_lifts(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
@@ -82,8 +83,8 @@ impl Loom {
     /// Puts the warp up or down at all crossings of some ends and picks, counted from 0. Returns
     /// the numbers of the yarns that this changes, in order.
     ///
-    /// **Errors**: [`WovenError::NoCrossing`] where a crossing lies outside the cloth, which is
-    /// then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] if a crossing lies outside the cloth. After an error
+    /// the cloth is unchanged.
     pub fn set_lifts(
         &mut self,
         ends: Range<usize>,
@@ -114,7 +115,7 @@ impl Loom {
         Ok(yarns)
     }
 
-    /// Replaces material number `material`, from 0. No yarn moves.
+    /// Replaces the material with number `material`, counted from 0. No yarn moves.
     ///
     /// **Errors**: [`WovenError::NoMaterial`].
     pub fn set_material(&mut self, material: usize, with: Material) -> Result<(), WovenError> {
@@ -124,9 +125,10 @@ impl Loom {
     /// Gives the threads of yarn number `yarn` the material, the section and the twist of `what`.
     /// No yarn moves.
     ///
-    /// **Errors**: the errors of [`Woven::new`] for a thread; the cloth is then as it was.
+    /// **Errors**: the errors of [`Woven::new`] for a thread. After an error the cloth is
+    /// unchanged.
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** for a number past the last yarn.
     pub fn set_yarn(&mut self, yarn: usize, what: &Yarn) -> Result<(), FabricError> {
         for checking in [true, false] {
             for pass in &self.passes[self.yarns[yarn].clone()] {
@@ -148,15 +150,16 @@ impl Loom {
 
     /// Yarn number `yarn`, without its control points.
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** for a number past the last yarn.
     #[must_use]
     pub fn yarn(&self, yarn: usize) -> Yarn {
         self.cloth.yarn(&self.passes[self.yarns[yarn].start]).unwrap_or_default()
     }
 
-    /// Places yarn number `yarn` of [`Woven::yarns`]: `points` becomes its control points.
+    /// Places yarn number `yarn` of [`Woven::yarns`]. The yarn's control points replace the
+    /// contents of `points`.
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** for a number past the last yarn.
     pub fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
         points.clear();
         self.each_point(yarn, &mut |point, _| points.push(point));
@@ -165,7 +168,7 @@ impl Loom {
     /// Sources of the control points of yarn number `yarn`, equal to the
     /// [`Yarns::sources`](texere_core::Yarns::sources) of [`Woven::yarns`].
     ///
-    /// **Panics** past the last yarn.
+    /// **Panics** for a number past the last yarn.
     #[must_use]
     pub fn sources(&self, yarn: usize) -> Vec<u32> {
         let mut sources = Vec::new();

@@ -5,23 +5,23 @@ use crate::{WovenError, hyphen_look_alike, slash_look_alike};
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///
-/// Notation is for weaves that a weaver can name. A weave with a larger repeat is a picture.
+/// Notation is for weaves that weavers name. A weave with a larger repeat is given by a picture.
 pub(super) const REPEAT_MAX: usize = 4096;
 
 /// A weave as it is written.
 #[derive(Clone)]
 pub(super) enum Notation {
-    /// A row of ends. Each pick moves it `step` ends (0 to below its length) further to the right,
-    /// and `picks` bring it back.
+    /// A row of ends, `base`. Each pick moves the row `step` ends further to the right, from 0 to
+    /// less than its length. After `picks` picks the row has come back to its first place.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
-    /// A column of picks, upright for `left` ends and upside down for `right`.
+    /// A column of picks, `base`: as it is for `left` ends, and inverted for the next `right` ends.
     Matt { base: Vec<bool>, left: usize, right: usize },
-    /// A twill of move 1 whose line goes one way for `way` ends and back again.
+    /// A twill of move 1 whose line goes one way for `way` ends, and then back.
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
-    /// Each pick binds one end, from 0. That end alone is down, or up where the weave is not
-    /// `warp_faced`.
+    /// The end that each pick binds, counted from 0. In the pick this end alone is down or, if the
+    /// weave is not `warp_faced`, up.
     Bound { order: Vec<usize>, warp_faced: bool },
-    /// A drawing, the last pick on top.
+    /// A drawing with the last pick on top.
     Drawn(&'static [&'static str; 8]),
 }
 
@@ -52,7 +52,7 @@ impl Notation {
     }
 }
 
-/// Characters of a text that an error shows: more than any sensible notation has.
+/// The most characters of a text that an error shows, more than any sensible notation has.
 const SHOWN: usize = 60;
 
 /// What is expected where a number may stand.
@@ -68,7 +68,7 @@ const ENDS: &str = "the number of its ends: satin 8";
 const THREADS: &str = "how many threads lie together: matt 2, or matt 3/2";
 const FLOATS: &str = "its floats, up and down in turn: twill 2/2";
 
-/// The names of weaves, and their other names.
+/// The names of weaves, each with its other names.
 const NAMES: [(&str, &[&str]); 11] = [
     ("plain", &["tabby"]),
     ("twill", &[]),
@@ -83,7 +83,7 @@ const NAMES: [(&str, &[&str]); 11] = [
     ("crepe", &["crape", "oatmeal"]),
 ];
 
-/// Names of cloths that no drawdown describes, and what is expected instead.
+/// Names of cloths that no drawdown describes, each with what is expected instead.
 const NOT_DRAWN: [(&[&str], &str); 2] = [
     (
         &["velvet", "velveteen", "corduroy", "plush", "terry"],
@@ -113,7 +113,8 @@ pub(super) fn parse(text: &str) -> Result<Notation, WovenError> {
     if cursor.rest.trim_start().is_empty() { Ok(notation) } else { Err(cursor.fail("the end")) }
 }
 
-/// A satin's number and move, or the order of its binding points, after its name.
+/// Reads what follows the name of a satin: its number of ends and its move, or the order of its
+/// binding points.
 fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenError> {
     cursor.need(ENDS)?;
     let position = cursor.position();
@@ -138,12 +139,13 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenErr
     } else {
         smallest
     };
-    // Warp-faced: all up but the last; weft-faced: all down but the first.
+    // In a warp-faced satin all ends but the last are up, in a weft-faced one all ends but the
+    // first are down.
     let base = (0..ends).map(|end| if warp_faced { end + 1 < ends } else { end == 0 }).collect();
     Ok(Notation::Shifted { base, step, picks: ends })
 }
 
-/// The ends that the picks of a satin bind, from 0; `None` where there is a move or nothing.
+/// The ends that the picks of a satin bind, counted from 0; `None` if there is a move or nothing.
 fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, WovenError> {
     let before = cursor.rest;
     let (mut order, mut bound) = (Vec::new(), vec![false; ends]);
@@ -169,7 +171,7 @@ fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, Wov
     Ok(None)
 }
 
-/// A matt weave by its name: as many ends together as picks.
+/// Reads what follows the name of a matt weave, whose floats are equal in both directions.
 fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     cursor.need(THREADS)?;
     let left = cursor.number(NUMBER)?;
@@ -179,7 +181,8 @@ fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     Ok(Notation::Matt { base, left, right })
 }
 
-/// A twill's floats and the ends after which its line reverses.
+/// Reads what follows the name of a reversed twill: its floats, and the number of ends after which
+/// its line reverses.
 fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, WovenError> {
     let [all, ends, more] = match reversal {
         Reversal::Cut => [
@@ -208,7 +211,8 @@ fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, Wov
     Ok(Notation::Reversed { base, reversal, way })
 }
 
-/// A twill or a matt weave. The hand of a twill may stand before its floats or behind them.
+/// Reads a twill or a matt weave that is written by its floats. The hand of a twill may stand
+/// before its floats or behind them.
 fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     let before = cursor.hand();
     cursor.word("twill");
@@ -235,7 +239,7 @@ fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     twill(cursor, position, base, hand.map_or(written, |hand| hand * written.abs()))
 }
 
-/// Floats up and down in turn, thread by thread.
+/// Reads floats, up and down in turn. The result has a value for each thread, true for up.
 fn row(cursor: &mut Cursor<'_>) -> Result<Vec<bool>, WovenError> {
     let mut base = Vec::new();
     let mut up = cursor.number(NUMBER)?;
@@ -257,7 +261,7 @@ fn row(cursor: &mut Cursor<'_>) -> Result<Vec<bool>, WovenError> {
     }
 }
 
-/// A twill of move `written`, which stands at `position`.
+/// A twill with the move `written`, which was read at `position`.
 fn twill(
     cursor: &Cursor<'_>,
     position: usize,
@@ -266,7 +270,8 @@ fn twill(
 ) -> Result<Notation, WovenError> {
     let ends = base.len();
     let step = written.rem_euclid(ends as i64) as usize;
-    // An end meets every float that lies a multiple of this further along the row, and no other.
+    // The picks bring an end all the places of the row that lie a multiple of `apart` further on,
+    // and no other places.
     let apart = greatest_divisor(step, ends);
     for end in 0..apart {
         if base.iter().skip(end).step_by(apart).all(|&up| up == base[end]) {
@@ -281,8 +286,9 @@ fn twill(
     Ok(Notation::Shifted { base, step, picks: ends / apart })
 }
 
-/// The name of a weave nearest to a word that is no name. None where even the nearest differs by
-/// more than a third of its letters and one.
+/// The name of a weave that is spelt most like a word. None if no name is near: the number of
+/// different letters may be at most a third of the name's letters plus one, and must be less than
+/// the letters of the word.
 fn nearest(word: &str) -> Option<&'static str> {
     let word: String = word.chars().take(20).flat_map(char::to_lowercase).collect();
     let names = NAMES.iter().flat_map(|(name, others)| others.iter().chain([name]));
@@ -292,7 +298,7 @@ fn nearest(word: &str) -> Option<&'static str> {
         .map(|(_, name)| name)
 }
 
-/// The greatest common divisor; that of 0 and `b` is `b`.
+/// The greatest common divisor of `a` and `b`. The divisor of 0 and `b` is `b`.
 fn greatest_divisor(mut a: usize, mut b: usize) -> usize {
     while a != 0 {
         (a, b) = (b % a, a);
@@ -307,7 +313,7 @@ struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Takes `word`, in any case, where it stands as a word of its own.
+    /// Reads `word`, in any case, if it stands here as a word of its own.
     fn word(&mut self, word: &str) -> bool {
         self.rest = self.rest.trim_start();
         let Some((head, rest)) = self.rest.split_at_checked(word.len()) else { return false };
@@ -318,8 +324,8 @@ impl Cursor<'_> {
         found
     }
 
-    /// Takes the name of a weave and returns the name that it is known by. None where no name
-    /// stands, as before floats.
+    /// Reads the name of a weave, and returns the weave's first name. None if no name stands here
+    /// but floats.
     fn name(&mut self) -> Result<Option<&'static str>, WovenError> {
         let before = self.rest;
         if self.hand().is_some() {
@@ -339,13 +345,13 @@ impl Cursor<'_> {
         Err(WovenError::NoWeave { text: self.shown(), position: self.position(), near: nearest(written) })
     }
 
-    /// Takes the hand of a twill: 1 for a right-hand (Z) one, -1 for a left-hand (S) one.
+    /// Reads the hand of a twill: 1 for a right-hand (Z) twill, -1 for a left-hand (S) twill.
     fn hand(&mut self) -> Option<i64> {
         let hands = [("left-hand", -1), ("left", -1), ("s", -1), ("right-hand", 1), ("right", 1), ("z", 1)];
         hands.into_iter().find(|(word, _)| self.word(word)).map(|(_, hand)| hand)
     }
 
-    /// Takes one character.
+    /// Reads the character `sign`, if it stands here.
     fn sign(&mut self, sign: char) -> bool {
         self.rest = self.rest.trim_start();
         let rest = self.rest.strip_prefix(sign);
@@ -353,7 +359,7 @@ impl Cursor<'_> {
         rest.is_some()
     }
 
-    /// Refuses a text that ends here.
+    /// Returns an error if the text ends here.
     fn need(&self, expected: &'static str) -> Result<(), WovenError> {
         if self.next().is_empty() { Err(self.fail(expected)) } else { Ok(()) }
     }
@@ -362,7 +368,7 @@ impl Cursor<'_> {
         if self.sign(')') { Ok(()) } else { Err(self.fail("\")\"")) }
     }
 
-    /// Takes a number from 1 to [`REPEAT_MAX`].
+    /// Reads a number from 1 to [`REPEAT_MAX`].
     fn number(&mut self, expected: &'static str) -> Result<usize, WovenError> {
         self.rest = self.rest.trim_start();
         let digits = self.rest.len() - self.rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
@@ -376,19 +382,19 @@ impl Cursor<'_> {
         }
     }
 
-    /// Takes a move.
+    /// Reads the move of a twill or a satin.
     fn step(&mut self) -> Result<i64, WovenError> {
         let negative = self.sign('-');
         let number = self.number(NUMBER)? as i64;
         Ok(if negative { -number } else { number })
     }
 
-    /// Number of the next character, from 1.
+    /// Number of the next character, counted from 1.
     fn position(&self) -> usize {
         self.text.chars().count() - self.rest.trim_start().chars().count() + 1
     }
 
-    /// The text as errors show it: on one line, cut where it is long.
+    /// The text as errors show it: on one line, and cut if it is long.
     fn shown(&self) -> String {
         let mut shown = String::new();
         for (place, character) in self.text.chars().enumerate() {

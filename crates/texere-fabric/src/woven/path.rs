@@ -1,15 +1,15 @@
-//! Paths of threads over and under those that they cross.
+//! Paths of threads over and under the threads that they cross.
 
 use std::sync::Arc;
 
 use super::bend::{Bend, ROUNDING, STRIDE};
 use super::shape::Shape;
 
-/// The path of all threads of one height across those that they cross. Everything that does not
-/// depend on the sides on which they lie is computed once.
+/// The path of all threads of one height across the threads that they cross. Everything that does
+/// not depend on the sides on which a thread lies is computed once.
 pub(super) struct ThreadPath<'a> {
     bend: Bend<'a>,
-    /// Where the threads enter the cloth and where they leave it, mm along the thread.
+    /// Places where the threads enter the cloth and where they leave it, mm along the thread.
     edges: [f32; 2],
     /// The crossings, in the order in which the threads run.
     stations: Arc<[Station]>,
@@ -22,18 +22,20 @@ pub(super) struct Station {
     number: usize,
     /// Place along the thread, mm.
     at: f32,
-    /// Distance from the cloth's middle, mm.
+    /// Distance of the thread from the cloth's middle at the crossing, mm.
     depth: f32,
-    /// Distance of the shoulders towards the crossings before and after, mm.
+    /// Distances from the crossing to the shoulders towards the crossings before and after, mm. A
+    /// shoulder is the control point beside a crossing of a thread that changes sides.
     aside: [f32; 2],
-    /// Height of the shoulders of a thread that changes sides before the crossing, after it, and
-    /// both, mm.
+    /// Heights of the shoulders of a thread that changes sides before the crossing only, after it
+    /// only, and on both sides of it, mm.
     shoulder_z: [f32; 3],
     /// Places of the three points of a change of sides to the next crossing, mm.
     change: [f32; 3],
 }
 
-/// Indices into the values that a [`Station`] has for its two sides.
+/// Indices into the values that a [`Station`] has for its two sides. Only `shoulder_z` has a value
+/// at [`BOTH`].
 const BEFORE: usize = 0;
 const AFTER: usize = 1;
 const BOTH: usize = 2;
@@ -45,32 +47,32 @@ pub(super) struct Stop {
     pub(super) along: f32,
     /// Height, mm.
     pub(super) z: f32,
-    /// The crossed thread at which, or next to which, the point lies; none at a cut end.
+    /// The crossed thread at which, or beside which, the point lies; none at a cut end.
     pub(super) crossing: Option<usize>,
 }
 
 impl<'a> ThreadPath<'a> {
-    /// The path of `bend`'s threads. `back` says whether they run against the order of the threads
-    /// that they cross.
+    /// The path of the threads of `bend`. `back` says whether they run against the order of the
+    /// threads that they cross.
     pub(super) fn new(bend: Bend<'a>, stations: Arc<[Station]>, back: bool) -> Self {
         let edges = [0.0, bend.crossed.extent];
         Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations, bend }
     }
 
-    /// Number of control points of a thread, cut as in [`ThreadPath::walk`], where the number does
-    /// not depend on sides.
+    /// Number of control points of a thread that is cut as in [`ThreadPath::walk`]. None if the
+    /// number depends on the sides on which the thread lies.
     pub(super) fn fixed_count(&self, cut: [bool; 2]) -> Option<usize> {
         let cuts = cut.into_iter().filter(|cut| *cut).count();
         (self.bend.shape == Shape::Crossing).then_some(self.stations.len() + cuts)
     }
 
     /// Calls `stop` with each control point in order. `above` says whether the thread lies on top
-    /// of a crossed thread; `cut` says whether it is cut off at the cloth's edge at its beginning
-    /// and at its end.
+    /// of a crossed thread. `cut` says whether the thread is cut off at the cloth's edge at its
+    /// beginning, and at its end.
     pub(super) fn walk(&self, above: impl Fn(usize) -> bool, cut: [bool; 2], mut stop: impl FnMut(Stop)) {
         let ([first, ..], [.., last]) = (&self.stations[..], &self.stations[..]) else { return };
         if self.bend.shape == Shape::Crossing {
-            // A cut end is half a pitch from the nearest crossing, in the cloth's middle.
+            // A cut end lies at the edge of the cloth, and at the height of the cloth's middle.
             let end = |along| Stop { along, z: 0.0, crossing: None };
             cut[0].then(|| stop(end(self.edges[0])));
             self.stations.iter().for_each(|here| stop(here.stop(above(here.number))));
@@ -124,8 +126,8 @@ impl<'a> ThreadPath<'a> {
     }
 }
 
-/// Crossings of threads of one height, in the order in which they run: against that of the crossed
-/// threads where they run `back`.
+/// The crossings of threads of one height, in the order in which the threads run: against the order
+/// of the crossed threads if they run `back`.
 pub(super) fn stations(bend: &Bend<'_>, back: bool) -> Arc<[Station]> {
     let count = bend.crossed.at.len();
     let number = |step: usize| if back { count - 1 - step } else { step };
@@ -157,7 +159,7 @@ impl Station {
         station
     }
 
-    /// The control point at the crossing, on a thread that is `above` or below.
+    /// The control point at the crossing of a thread that lies `above` the crossed one, or below.
     fn stop(&self, above: bool) -> Stop {
         Stop { along: self.at, z: self.z(above), crossing: Some(self.number) }
     }
@@ -167,9 +169,9 @@ impl Station {
     }
 }
 
-/// Places of the points between the neighbours `from` and `to` of a thread that lies on different
-/// sides of them: both shoulders, and the passage through the cloth's middle, which is nearer to
-/// the thinner of the two.
+/// Places of the points between the neighbouring crossings `from` and `to` of a thread that changes
+/// sides between them: both shoulders, and the passage through the cloth's middle between them,
+/// which is nearer to the thinner crossed thread.
 fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
     let (start, end) = (bend.crossed.at[from], bend.crossed.at[to]);
     let pitch = bend.pitch(from, to);
@@ -184,18 +186,19 @@ fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
 struct Float {
     from: f32,
     to: f32,
-    /// Lengths of the steps before and after it, where they are those of shoulders, mm.
+    /// Lengths of the steps before the float and after it, mm. None if the step does not lead to a
+    /// shoulder.
     beside: [Option<f32>; 2],
 }
 
 impl Float {
-    /// The points within the float, next to the crossings at its ends and on the thread's sides
-    /// there. They stand where the steps beside the float are so short that a single step would be
-    /// too long. Evenly spaced threads need none.
+    /// Calls `stop` with the points within the float. They lie at the heights that the thread has
+    /// at the crossings `ends`. Points are needed if the steps beside the float are so short that a
+    /// single step along the float would be too long. Evenly spaced threads need none.
     fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
         let forward = (self.to - self.from).signum();
         let mut left = (self.to - self.from).abs();
-        // No point is added where threads are evenly spaced.
+        // The margin keeps evenly spaced threads without points.
         let too_long = |left: f32, step: f32| step > 0.0 && left > (1.0 + ROUNDING) * STRIDE * step;
         if !self.beside.into_iter().flatten().any(|step| too_long(left, step)) {
             return;
@@ -209,7 +212,7 @@ impl Float {
             at += forward * step;
             stop(Stop { along: at, z: first.0, crossing: first.1 });
         }
-        // From the other end the steps grow against the thread's direction. The last one found
+        // From the other end the steps grow against the thread's direction, so the last step found
         // comes first.
         let step = self.beside[1].unwrap_or(left);
         let mut steps = 0;

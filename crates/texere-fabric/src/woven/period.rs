@@ -9,9 +9,9 @@ use super::{Drawdown, Woven};
 use crate::FabricError;
 use crate::own::Own;
 
-/// Threads that cross at least this many others in one repeat are measured as they are. The stretch
-/// from a thread's last crossing to its first one in the next repeat then changes its crimp by less
-/// than a share of one in this many. Smaller repeats are woven among others to be measured.
+/// Number of threads from which a set is measured as it is. The stretch from a thread's last
+/// crossing to its first crossing in the next repeat then changes its crimp by a share of less than
+/// 1 / `FEW`. Smaller cloths are woven with more repeats around them to be measured.
 const FEW: usize = 256;
 
 /// Cloth to be measured, with its yarns.
@@ -23,13 +23,13 @@ pub(crate) struct Sample<'a> {
 }
 
 impl Woven {
-    /// Number of threads of each set in whole repeats of how they lie and cross, and the width that
-    /// they take, mm.
+    /// For each set, the number of threads in whole repeats, after which the threads lie and cross
+    /// in the same way, and the width that these threads take, mm.
     pub(crate) fn whole(&self) -> [(usize, f64); 2] {
         self.whole_of(self.repeat())
     }
 
-    /// [`Woven::whole`] for whole repeats of the yarns' weights as well.
+    /// [`Woven::whole`] for repeats after which the weights of the yarns repeat, too.
     pub(crate) fn whole_by_weight(&self) -> [(usize, f64); 2] {
         self.whole_of(self.repeat_by_weight())
     }
@@ -46,9 +46,9 @@ impl Woven {
 }
 
 impl<'a> Sample<'a> {
-    /// The sample of a cloth and its yarns. A small cloth as it is woven, whose threads are cut off
-    /// straight at its edges, is woven again among others: how a thread bends at the edge depends
-    /// on floats that are cut off there.
+    /// The sample of a cloth and its yarns. A small cloth with yarns as woven is woven again with
+    /// more repeats around it, because the bend of a thread at an edge depends on floats that are
+    /// cut off there.
     ///
     /// **Errors**: the errors of [`Woven::yarns`].
     pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
@@ -78,8 +78,8 @@ impl<'a> Sample<'a> {
         })
     }
 
-    /// Length of yarn over length of cloth of each end and each pick, in whole repeats. The
-    /// outermost repeats are left out where there are enough. Turns at a selvedge count with their
+    /// For each end and each pick, the length of yarn over the length of cloth, in whole repeats.
+    /// The outermost repeats are left out if there are enough. Turns at a selvedge count with their
     /// picks.
     pub(crate) fn ratios(&self) -> [Vec<f64>; 2] {
         let threads: Vec<_> = self.cloth.yarns_of_threads().collect();
@@ -100,7 +100,8 @@ impl<'a> Sample<'a> {
         ratios
     }
 
-    /// All repeats of a thread but the outermost ones, and their length in the cloth, mm.
+    /// The part of a thread in all repeats but the outermost ones, and the length of this part in
+    /// the cloth, mm. None if there are too few repeats.
     fn round(&self, set: usize, thread: usize, yarn: usize) -> Option<(Own, f64)> {
         let (across, repeat) = (&self.middles[1 - set], self.repeat[1 - set]);
         let repeats = (across.len().saturating_sub(1) / repeat).checked_sub(2)? * repeat;

@@ -1,4 +1,4 @@
-//! The room that each thread has beside the one before it, and the room that it needs.
+//! The distance of each thread to the thread before it, and the distance that it needs.
 
 use texere_core::Origin;
 
@@ -6,7 +6,7 @@ use super::jam::{Gap, ROUNDING};
 use super::thread::pitches;
 use super::{BySet, Woven};
 
-/// Distance of a thread from the one before it, and the least distances that it needs.
+/// Distance of a thread to the thread before it, and the least distances that it needs.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -25,13 +25,13 @@ use super::{BySet, Woven};
 pub struct Pitch {
     /// The thread.
     pub thread: Origin,
-    /// Its distance to the thread before, mm.
+    /// Distance of the thread to the thread before it, mm.
     pub pitch_mm: f64,
     /// The least distance at which the two lie side by side without piercing: half their widths
     /// together, mm.
     pub beside_mm: f64,
     /// The least distance at which crossing threads that change sides between the two can pass, mm;
-    /// 0 where none does.
+    /// 0 if no thread changes sides there.
     pub passing_mm: f64,
 }
 
@@ -42,7 +42,7 @@ impl Pitch {
         self.beside_mm > self.pitch_mm * (1.0 + ROUNDING)
     }
 
-    /// Whether the threads that cross are jammed between the two.
+    /// Whether crossing threads are jammed between the two.
     #[must_use]
     pub fn is_jammed(&self) -> bool {
         self.passing_mm > self.pitch_mm * (1.0 + ROUNDING)
@@ -50,12 +50,12 @@ impl Pitch {
 }
 
 impl Woven {
-    /// The pitches of the ends from the second one on, and of the picks, in the cloth's present
-    /// shape.
+    /// The pitches of the ends and of the picks, each from the second thread on, in the cloth's
+    /// present shape.
     ///
     /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
-    /// 1937, for [`Shape::Round`](crate::Shape::Round); measured, for
-    /// [`Shape::Crossing`](crate::Shape::Crossing).
+    /// 1937, for [`Shape::Round`](crate::Shape::Round). The values for
+    /// [`Shape::Crossing`](crate::Shape::Crossing) were measured.
     #[must_use]
     pub fn pitches(&self) -> BySet<Vec<Pitch>> {
         let [warp, weft] = self.gaps();
@@ -73,8 +73,8 @@ impl Woven {
         BySet { warp: all(&warp, 1.0 - share, Origin::End), weft: all(&weft, share, Origin::Pick) }
     }
 
-    /// Distance of an end or a pick to the thread before, mm. The first thread has its distance to
-    /// the next.
+    /// Distance of an end or a pick to the thread before it, mm; for the first thread, its distance
+    /// to the second.
     pub(crate) fn pitch_mm(&self, thread: Origin) -> Option<f64> {
         let (set, number) = match thread {
             Origin::End(number) => (self.warp(), number),

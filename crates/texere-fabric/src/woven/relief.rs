@@ -7,77 +7,82 @@ use super::jam::{Gap, ROUNDING, reach};
 use super::{BySet, FLATNESS_MAX, Shape, Thread, Woven};
 use crate::{FabricError, ThreadError, WovenError};
 
-/// What is done where threads lie closer together than crossing threads can pass between.
+/// What is done about jammed threads: threads that lie so close together that crossing threads
+/// can't pass between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Relief {
-    /// Nothing: only numbers are reported.
+    /// Nothing is changed. Jammed threads are only reported.
     #[default]
     Report,
-    /// Another share of the crimp, then flatter threads. A thread keeps its area and grows wider
-    /// ([`Thread::flatness`]), as far as the threads beside it allow, so that those that cross it
-    /// have less to climb.
+    /// Another share of the crimp, then flatter threads. A thread keeps its area and becomes wider
+    /// ([`Thread::flatness`]), as far as the threads beside it allow. Threads that cross it then
+    /// rise less.
     Flatten,
-    /// Another share of the crimp, then smaller diameters for all threads until everything fits.
-    /// Materials keep their tex.
+    /// Another share of the crimp, then smaller diameters for all threads until no thread is
+    /// jammed. Materials keep their tex.
     Shrink,
 }
 
-/// Closeness of the threads of one set, against the least pitch at which crossing threads are not
-/// jammed.
+/// How close the threads of one set lie, compared with the least pitch at which crossing threads
+/// are not jammed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tightness {
-    /// Number of threads that lie closer than that to the thread before.
+    /// Number of threads whose pitch, the distance to the thread before, is less than the least
+    /// pitch.
     pub jammed: usize,
-    /// The thread with the least share of its pitch. None where nothing changes sides between two
-    /// threads.
+    /// The thread whose pitch is the smallest share of the least pitch that it needs. None if no
+    /// thread changes sides between two threads of the set.
     pub tightest: Option<Origin>,
-    /// The least pitch at that thread, mm.
+    /// The least pitch that the tightest thread needs, mm.
     pub pitch_min_mm: f64,
-    /// The pitch at that thread, mm.
+    /// The pitch of the tightest thread, mm.
     pub pitch_mm: f64,
 }
 
-/// What [`Woven::relieve`] found and did.
+/// What [`Woven::relieve`] has found and changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JamReport {
-    /// Threads before relief.
+    /// The tightness of both sets before relief.
     pub before: BySet<Tightness>,
-    /// Threads after relief.
+    /// The tightness of both sets after relief.
     pub after: BySet<Tightness>,
     /// The warp's share of the crimp, before relief and after.
     pub warp_share: [f32; 2],
-    /// Factor by which threads grew wider, 1 for not at all. Their height fell in the same ratio.
+    /// Factor by which the width of all threads of a set grew, 1 if it did not. Their height fell
+    /// in the same ratio.
     pub widened: BySet<f32>,
-    /// Factor of all diameters.
+    /// Factor by which all diameters were multiplied, 1 if none was.
     pub scaled: f32,
 }
 
-/// The least room that counts as enough, in pitches that are just not jammed: threads then stay at
-/// 0.99 of touching, and a little over. Tested with round threads from 1.0 at a share of 0.5, 1.04
-/// at 0.35 and 1.15 at 0.2, and with ellipses twice as wide as high (by their surfaces) from 1.02
-/// at 0.5 and 1.1 at 0.35.
+/// The pitch that counts as enough, over the pitch at which threads are just not jammed. Threads
+/// then stay slightly above 0.99 of touching. In tests of round threads, the least values that were
+/// enough were 1.0 at a share of 0.5, 1.04 at 0.35 and 1.15 at 0.2. Ellipses twice as wide as high,
+/// measured by their surfaces, needed 1.02 at 0.5 and 1.1 at 0.35.
 fn slack(share: f32) -> f32 {
     1.03 + 0.5 * (share - 0.5).abs()
 }
 
-/// Steps in which widths and shares are tried.
+/// Step in which factors of widths are tried.
 const WIDTH_STEP: f32 = 0.05;
+/// Step in which shares of the crimp are tried.
 const SHARE_STEP: f32 = 0.025;
 
-/// The greatest factor of a thread's width: four times as wide over high as before.
+/// The largest factor of a thread's width. Its width over height is then four times as large as
+/// before.
 const WIDENED_MAX: f32 = 2.0;
 
 /// A change of a cloth that thins none of its threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Change {
     share: f32,
-    /// Factors of ends' and picks' widths.
+    /// Factors of the widths of ends and of picks.
     widened: [f32; 2],
 }
 
-/// The gaps of a set that can be the tightest: half the widths together and the thickest thread
-/// between, each over the pitch.
+/// The gaps of a set that can be the tightest. A gap has half the widths of both its threads
+/// together, and the thickest thread that passes between them, each over the pitch.
 struct Needs(Vec<[f32; 2]>);
 
 impl Needs {
@@ -86,7 +91,8 @@ impl Needs {
             .iter()
             .map(|gap| [gap.widths, gap.between.unwrap_or(0.0)].map(|size| size / gap.pitch as f32))
             .collect();
-        // Widest first. After a gap only gaps with thicker threads between can matter.
+        // The widest gaps come first. After a gap, only gaps with thicker threads between can be
+        // tighter.
         needs.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
         let mut thickest = f32::NEG_INFINITY;
         needs.retain(|[_, between]| {
@@ -97,8 +103,9 @@ impl Needs {
         Self(needs)
     }
 
-    /// The largest pitch that is needed, over the pitch there is. `share` is that of the threads
-    /// between.
+    /// The largest pitch that a gap needs, over the gap's pitch. `share` is the share of the crimp
+    /// of the threads between. `own` and `crossing` are the factors of the widths of the set and of
+    /// the crossing set.
     fn worst(&self, share: f32, own: f32, crossing: f32) -> f32 {
         let needed = |[widths, between]: &[f32; 2]| {
             let beside = widths * own;
@@ -110,26 +117,26 @@ impl Needs {
 }
 
 impl Woven {
-    /// Makes room where threads are jammed, as `relief` says, and reports the threads before and
-    /// after.
+    /// Makes room for jammed threads, as `relief` says, and reports the threads before and after.
     ///
-    /// First the warp's share of the crimp moves, within 20 and 80 %, as little as it must. A share
-    /// that was given as [`Crimp::WarpShare`] stays. This costs nothing, and in real cloth, too, a
-    /// dense set makes the threads that cross it bend. Threads that are still jammed are then
-    /// flattened or thinned.
+    /// First the warp's share of the crimp changes, between 20 and 80 %, and no more than it must.
+    /// A share that was given as [`Crimp::WarpShare`] stays. No thread changes its size by this,
+    /// and in real cloth, too, a dense set makes the threads that cross it bend. Threads that are
+    /// still jammed are then flattened or thinned.
     ///
     /// Flattening changes the set that passes between the jammed threads. A wider thread needs more
     /// room beside it, so that relief of one set may jam the other. Threads that can't be relieved
-    /// stay and are reported. All threads of a set are flattened alike, since finishing can't
-    /// single out threads. Their sections, and what turns with the twist, stay inside the flattened
-    /// outline.
+    /// stay jammed, and are reported. All threads of a set are flattened alike, because finishing
+    /// can't single out threads. Their sections stay inside the flattened outline, also where they
+    /// turn with the twist.
     ///
-    /// A pitch counts as enough from 1.03 times (half the crimp each) to 1.18 times (a fifth) the
-    /// least pitch: only there the spline keeps the threads clear. The least pitch is that of
-    /// [`Shape::Round`], whatever the cloth's own shape.
+    /// A pitch counts as enough from 1.03 times the least pitch, if both sets have half of the
+    /// crimp, to 1.18 times, if one has a fifth. Only with so much does the spline keep the threads
+    /// clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
     ///
-    /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] where a thread would have to be
-    /// thinner than [`RADIUS_MIN`]; the cloth is then as it was.
+    /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] if a radius, a half width or a
+    /// half height would be less than [`RADIUS_MIN`] or more than [`RADIUS_MAX`]. After an error
+    /// the cloth is unchanged.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -161,7 +168,7 @@ impl Woven {
             change = best(&self.shares(share), &[1.0], &[1.0], now, worst);
             let left = worst(&change);
             if relief == Relief::Shrink && left > 1.0 {
-                // A little less, so that rounding does not leave too little room.
+                // The factor is a little smaller, so that rounding does not leave too little room.
                 scaled = (1.0 - ROUNDING as f32) / left;
             } else if relief == Relief::Flatten && left > 1.0 {
                 let [ends, picks] = [self.warp(), self.weft()].map(Self::widths);
@@ -181,7 +188,7 @@ impl Woven {
         })
     }
 
-    /// The shares that may be tried beside `share`.
+    /// The warp's shares that are tried: `share` and, if the share was not given, all others.
     fn shares(&self, share: f32) -> Vec<f32> {
         let steps = ((1.0 - 2.0 * SHARE_MIN) / SHARE_STEP).round() as u32;
         match self.crimp() {
@@ -193,7 +200,7 @@ impl Woven {
         }
     }
 
-    /// The factors that the widths of a set may be tried with.
+    /// The factors of a set's widths that are tried.
     fn widths(set: &[Thread]) -> Vec<f32> {
         let steps = ((WIDENED_MAX - 1.0) / WIDTH_STEP).round() as u32;
         let flattest = set.iter().map(|thread| thread.flatness).fold(0.0, f32::max);
@@ -230,8 +237,9 @@ impl Woven {
     }
 }
 
-/// The smallest change with which everything fits, or else the change with which the cloth fits
-/// best. Widths count before shares, since a share costs nothing.
+/// The smallest change with which nothing is jammed or, if there is none, the change with which the
+/// cloth is least jammed. A small change of widths counts before a small change of the share,
+/// because a share changes no thread's size.
 fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn(&Change) -> f32) -> Change {
     let cost = |change: &Change| {
         let excess = (worst(change) - 1.0).max(0.0);
@@ -253,7 +261,7 @@ fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn
     found.1
 }
 
-/// Tightness of ends and picks; `share` is the warp's.
+/// Tightness of ends and picks. `share` is the warp's share of the crimp.
 fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> BySet<Tightness> {
     let set = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
         let mut found = Tightness { jammed: 0, tightest: None, pitch_min_mm: 0.0, pitch_mm: 0.0 };

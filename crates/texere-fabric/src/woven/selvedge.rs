@@ -6,11 +6,11 @@ use texere_core::{ControlPoint, Halves};
 
 use super::thread::Thread;
 
-/// Control points of a turn, on a half circle.
+/// Number of control points of a turn, which lie on a half circle.
 pub(super) const TURN_POINTS: usize = 5;
 
-/// The picks of each yarn: each pick by itself, or with `selvedge` each run of picks alike in
-/// material, section and twist.
+/// The picks of each yarn. Without `selvedge` each pick is a yarn. With it, each run of picks alike
+/// in material, section and twist is one yarn.
 pub(super) fn runs(weft: &[Thread], selvedge: bool) -> Vec<Range<usize>> {
     let goes_on = |a: &Thread, b: &Thread| {
         selvedge && (a.material, a.section) == (b.material, b.section) && a.twist == b.twist
@@ -24,25 +24,25 @@ pub(super) fn runs(weft: &[Thread], selvedge: bool) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether a pick runs to the left. With a selvedge every other pick does, whatever yarn it belongs
-/// to.
+/// Whether a pick runs to the left. With a selvedge every other pick runs to the left, whatever
+/// yarn it belongs to.
 pub(super) const fn runs_left(pick: usize, selvedge: bool) -> bool {
     selvedge && pick % 2 == 1
 }
 
 /// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`. `outwards`
-/// is +1 at the right edge, -1 at the left. Height and sizes pass evenly from one pick's to the
-/// other's.
+/// is +1 at the right edge and -1 at the left. Heights and sizes change steadily from those of one
+/// pick to those of the other.
 ///
-/// Where the two picks lie on different sides of the edge end, the turn is level with that end half
-/// way round, at its greatest distance from it.
+/// If the two picks lie on different sides of the edge end, the turn is level with that end half
+/// way round, where it is furthest from the end.
 pub(super) fn turn(
     x: f32,
     outwards: f32,
     from: &ControlPoint,
     to: &ControlPoint,
 ) -> [ControlPoint; TURN_POINTS] {
-    // Sines of 0 to 180 degrees in steps of 45; the cosines are those of a quarter turn on.
+    // Sines and cosines of 0 to 180 degrees in steps of 45 degrees.
     const SIN: [f32; TURN_POINTS] =
         [0.0, std::f32::consts::FRAC_1_SQRT_2, 1.0, std::f32::consts::FRAC_1_SQRT_2, 0.0];
     const COS: [f32; TURN_POINTS] =

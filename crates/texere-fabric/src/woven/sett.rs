@@ -2,7 +2,7 @@
 
 use super::{BySet, Thread, Woven};
 
-/// How close the threads of a set lie, and how close they may lie in their weave, threads to the
+/// How close the threads of a set lie, and how close they may lie in their weave, in threads to the
 /// cm.
 ///
 /// ```
@@ -20,33 +20,33 @@ use super::{BySet, Thread, Woven};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sett {
-    /// Threads to the cm, in the mean.
+    /// Mean number of threads to the cm.
     pub per_cm: f64,
-    /// How often a thread of the other set changes sides on its way over one of this set, 0 to 1: 1
-    /// in plain weave, 2/n in a satin of n. In a cloth of several levels, changes within each level
-    /// count, in the mean.
+    /// How often a thread of the other set changes sides from one thread of this set to the next,
+    /// from 0 to 1. It is 1 in plain weave and 2/n in a satin of n ends. In a cloth of several
+    /// levels, it is the mean over the levels, and only changes within each level count.
     pub interlacings: f64,
     /// The greatest sett by the rule of ends and intersections: where a thread changes sides it
-    /// takes the room of one more thread. Levels have it each, so that a double cloth has room for
-    /// twice as many threads ([`Drawdown::levels`](crate::Drawdown::levels)).
+    /// takes the room of one more thread. Each level of a cloth has this sett, so that a double
+    /// cloth has room for twice as many threads ([`Drawdown::levels`](crate::Drawdown::levels)).
     ///
     /// **Source**: T. R. Ashenhurst, "A treatise on textile calculations and the structure of
     /// fabrics", 1884: diameters to the inch × ends of a repeat / (ends + intersections). J. T.
-    /// Taylor, "Cotton weaving and designing", 6th edition 1909, counts "firmness" so.
+    /// Taylor, "Cotton weaving and designing", 6th edition 1909, counts "firmness" in the same way.
     pub greatest_per_cm: f64,
-    /// The sett at which the threads of plain weave jam as they lie between those of the other set
-    /// at its own sett; none in other weaves, and none of several levels.
+    /// The sett at which the threads of plain weave jam, if the other set keeps its own sett. None
+    /// in other weaves and in a cloth of several levels.
     ///
     /// **Source**: F. T. Peirce, "The geometry of cloth structure", Journal of the Textile
-    /// Institute 28, 1937, of round threads; A. Kemp, "An extension of Peirce's cloth geometry to
-    /// the treatment of non-circular threads", the same 49, 1958, of flat ones
-    /// ([`Thread::flatness`](crate::Thread)): as round ones that are as thick as they are high,
-    /// further apart by what is left of their width.
+    /// Institute 28, 1937, for round threads; A. Kemp, "An extension of Peirce's cloth geometry to
+    /// the treatment of non-circular threads", Journal of the Textile Institute 49, 1958, for flat
+    /// ones ([`Thread::flatness`](crate::Thread)). A flat thread counts as a round thread as thick
+    /// as the flat one is high. The rest of its width is added to the pitch.
     pub jammed_per_cm: Option<f64>,
 }
 
 impl Sett {
-    /// The sett as a share of the greatest one: above 1 the cloth is jammed unless its yarns
+    /// The sett as a share of the greatest sett. Above 1 the cloth is jammed unless its yarns
     /// flatten.
     #[must_use]
     pub fn share(&self) -> f64 {
@@ -55,7 +55,8 @@ impl Sett {
 }
 
 impl Woven {
-    /// The setts of warp and weft, with the diameters of the round yarns.
+    /// The setts of warp and weft, worked out with the diameters that the yarns have when they are
+    /// round.
     #[must_use]
     pub fn setts(&self) -> BySet<Sett> {
         let whole = self.whole();
@@ -82,7 +83,8 @@ impl Woven {
     }
 
     /// The interlacings of each level of each set: how often threads of the other set change sides
-    /// between neighbours. Where a level of both sets is a layer, only threads within it count.
+    /// between neighbours. If both sets have equally many levels, a level of both is a layer, and
+    /// only threads within the layer count.
     fn interlacings(&self) -> [Vec<Level>; 2] {
         let repeat = self.repeat();
         let levels = self.levels(repeat);
@@ -123,9 +125,9 @@ struct Level {
     interlacings: f64,
 }
 
-/// The pitch at which threads of plain weave jam between those of the other set, mm. It solves cos
-/// θ₁ + cos θ₂ = 1, where each set's pitch is the sum of both heights times sin θ, and the excess
-/// of its width over its height.
+/// The pitch at which the threads of plain weave jam between those of the other set, mm. It solves
+/// cos θ₁ + cos θ₂ = 1. The pitch of each set is the sum of both heights times sin θ, plus the
+/// excess of the set's width over its height.
 fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
     let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
         let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));
@@ -133,7 +135,8 @@ fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
         sum.map(|sum| sum / threads.len() as f64)
     });
     let both = high + other_high;
-    // The other set's threads lie so far apart that these may lie side by side.
+    // At 1, the threads of the other set lie so far apart that the threads of this set may lie side
+    // by side.
     let other = ((pitch - other_wide + other_high) / both).clamp(0.0, 1.0);
     let left = 1.0 - (1.0 - other * other).sqrt();
     (wide - high + both * (1.0 - left * left).sqrt()).max(wide)

@@ -1,4 +1,4 @@
-//! Shapes of cloth, and the threads of one direction as crossing threads see them.
+//! Shapes of cloth, and tables of the threads of one direction for the threads that cross them.
 
 use texere_core::Section;
 
@@ -24,30 +24,30 @@ use crate::reach::Reach;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Shape {
-    /// One control point a crossing, and one before and after: the paper's count. Threads swing out
-    /// further than they are thick, so that the corners that the spline cuts stay clear. Floats
-    /// bulge.
+    /// One control point at each crossing, and one before and after all crossings, as in the paper
+    /// that texere implements (README.md). Threads swing out further than they are thick, because
+    /// the spline cuts corners. Floats bulge.
     Crossing,
-    /// Threads bend round one another as round threads do, and floats lie flat. It takes three more
-    /// control points wherever a thread changes sides, and a few within floats that are long beside
-    /// a close pitch.
+    /// Threads bend round one another as round threads do, and floats lie flat. There are three
+    /// more control points wherever a thread changes sides, and a few more within floats that are
+    /// long compared with the pitch beside them.
     #[default]
     Round,
 }
 
-/// The threads of one direction, as tables for those that cross them.
+/// The threads of one direction, as tables for the threads that cross them.
 #[derive(Debug, Clone)]
 pub(super) struct Set {
-    /// Where each thread lies, mm.
+    /// The place of each thread, mm.
     pub(super) at: Vec<f32>,
-    /// Half the width of each thread's room, mm. The room is an ellipse that holds the section
-    /// however twist turns it.
+    /// Half the width of each thread's room, mm. The room is an ellipse that holds the section in
+    /// every position to which twist turns it.
     pub(super) half_width: Vec<f32>,
     /// Half the height of each thread's room, mm.
     pub(super) half_height: Vec<f32>,
     /// Mean distance of each thread to its neighbours, mm.
     pub(super) pitch: Vec<f32>,
-    /// Sum of all spacings, mm: where a yarn that crosses them ends.
+    /// Sum of all spacings, mm. A yarn that crosses these threads ends there.
     pub(super) extent: f32,
 }
 
@@ -56,7 +56,7 @@ impl Set {
         let reaches: Vec<Reach> = sections.iter().map(Reach::new).collect();
         let [first, last] =
             [threads.first(), threads.last()].map(|thread| thread.map_or(0.0, |thread| thread.spacing_mm));
-        // Edge threads have neighbours like themselves beyond the edge.
+        // An edge thread is treated as if a thread like itself lay beyond the edge.
         let before = [first].into_iter().chain(pitches(threads));
         let after = pitches(threads).chain([last]);
         let room = |half: usize| {

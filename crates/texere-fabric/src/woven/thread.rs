@@ -1,23 +1,23 @@
-//! Threads of a cloth, and where their spacings put them.
+//! Threads of a cloth, and their places, which follow from their spacings.
 
 use texere_core::Halves;
 
 /// The least spacing of a thread, mm: a nanometre.
 pub const SPACING_MIN: f64 = 1e-6;
 
-/// The most spacing of a thread, mm: a kilometre.
+/// The largest spacing of a thread, mm: a kilometre.
 pub const SPACING_MAX: f64 = 1e6;
 
 /// The least flatness of a thread: ten times as high as wide.
 pub(super) const FLATNESS_MIN: f32 = 0.1;
 
-/// The most flatness of a thread: ten times as wide as high.
+/// The largest flatness of a thread: ten times as wide as high.
 pub(super) const FLATNESS_MAX: f32 = 10.0;
 
-/// The least stiffness of a thread, in that of cotton.
+/// The least stiffness of a thread, as a multiple of that of cotton.
 pub(super) const STIFFNESS_MIN: f32 = 0.01;
 
-/// The most stiffness of a thread, in that of cotton.
+/// The largest stiffness of a thread, as a multiple of that of cotton.
 pub(super) const STIFFNESS_MAX: f32 = 100.0;
 
 /// One end or one pick: its yarn, and the width of its column of the cloth.
@@ -29,16 +29,17 @@ pub(super) const STIFFNESS_MAX: f32 = 100.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thread {
-    /// Width of its column of the cloth, mm. The thread lies in the middle, so that two neighbours
-    /// are half of each spacing apart.
+    /// Width of the thread's column of the cloth, mm. The thread lies in the middle of its column,
+    /// so that two neighbours are half of each spacing apart.
     pub spacing_mm: f64,
-    /// Radius of the yarn where it is round, mm.
+    /// Radius of the yarn when it is round, mm.
     pub radius_mm: f32,
-    /// Width over height in the cloth, from 0.1 to 10, 1 for a round thread. The area stays that of
-    /// the round yarn. The section, and what turns with the twist, is inside that outline.
+    /// Width over height in the cloth, from 0.1 to 10; 1 for a round thread. The thread keeps the
+    /// area of the round yarn. Its section stays inside the flattened outline, also where it turns
+    /// with the twist.
     pub flatness: f32,
-    /// Stiffness against bending where the cloth comes to rest, from 0.01 to 100: 1 for a cotton
-    /// yarn of its diameter.
+    /// Stiffness against bending when the cloth comes to rest, from 0.01 to 100; 1 for a cotton
+    /// yarn of the same diameter.
     pub stiffness: f32,
     /// Index into the materials.
     pub material: u32,
@@ -56,14 +57,14 @@ impl Thread {
         Self { spacing_mm, radius_mm, flatness: 1.0, stiffness: 1.0, material: 0, section: 0, twist: 0.0 }
     }
 
-    /// Half its width and half its height in the cloth, mm, of a circular section.
+    /// Half the thread's width and half its height in the cloth, mm, for a circular section.
     #[must_use]
     pub fn halves_mm(&self) -> [f32; 2] {
         let flatter = self.flatness.sqrt();
         [self.radius_mm * flatter, self.radius_mm / flatter]
     }
 
-    /// Half its width and half its height as control points hold them.
+    /// Half the thread's width and half its height, as half floats of control points.
     pub(super) fn halves(&self) -> Halves {
         let [width, height] = self.halves_mm();
         Halves::new(width, height)

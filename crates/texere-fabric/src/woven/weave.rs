@@ -1,4 +1,4 @@
-//! The weave: one repeat, by its usual notation.
+//! The weave: one repeat, given by its usual notation.
 
 use std::fmt;
 use std::str::FromStr;
@@ -22,32 +22,33 @@ use crate::{Drawdown, FabricError, WovenError};
 /// number = 1 to 4096
 /// ```
 ///
-/// Spaces may stand between any two parts, and case does not matter. The first pick is the bottom
-/// row, the first end the left column.
+/// Spaces may stand between any two parts, and case does not matter. In a drawing of the weave, the
+/// first pick is the bottom row and the first end is the left column.
 ///
-/// - **Twill** `U/D(M)`: in the first pick U ends are up, the next D down; each pick moves that M
-///   ends further to the right (1 where no move is given). A positive move is a right-hand (Z)
-///   twill, a negative one left-hand (S). `U1/D1*U2/D2` strings several floats together. The hand
-///   may be said in words: `2/2 S`, `twill 2/2 left`.
-/// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends the
-///   other way round. `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave. By its name a
-///   matt has as many ends together as picks: `matt 2` is `2/2(2+2)`, and `hopsack 3/2` is
-///   `3/2(3+2)`.
-/// - **Satin** `N(M)` is warp-faced, (N-1)/1, **sateen** weft-faced, 1/(N-1). M shares no factor
-///   with N and is neither 1 nor N-1; without it the smallest such move is taken. An irregular one
-///   names the end that each pick binds: `satin 6(1 3 5 2 6 4)`.
+/// - **Twill** `U/D(M)`: in the first pick U ends are up, the next D down; each pick moves this
+///   pattern M ends further to the right (1 if no move is given). A positive move makes a
+///   right-hand (Z) twill, a negative move a left-hand (S) twill. `U1/D1*U2/D2` strings several
+///   floats together. The hand may be given in words: `2/2 S`, `twill 2/2 left`.
+/// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends are
+///   the other way round. `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave. A matt
+///   that is written by name has equal floats in both directions: `matt 2` is `2/2(2+2)`, and
+///   `hopsack 3/2` is `3/2(3+2)`.
+/// - **Satin** `N(M)` has N ends and is warp-faced: (N-1)/1. **Sateen** `N(M)` is weft-faced:
+///   1/(N-1). Each pick moves the binding point M ends further to the right. M must share no factor
+///   with N, and must be neither 1 nor N-1. Without M, the smallest such move is used. An irregular
+///   satin names the end that each pick binds: `satin 6(1 3 5 2 6 4)`.
 /// - **Herringbone** `U/D(N)` is the twill `U/D`, right-hand for N ends and left-hand for the next
-///   N. Where the line turns it is cut: the other way starts half a repeat of the twill further on,
-///   so that in a balanced twill warp floats meet weft floats. `herringbone 2/2(2)` is the broken
-///   twill. N is at least half the ends of the twill's repeat.
-/// - **Pointed** `U/D(N)` turns at a single end instead, N ends from point to point with both of
-///   them; N is at least the ends of the twill's repeat.
-/// - **Honeycomb** (waffle) is the common one on eight ends and eight picks, ridges of floats round
-///   a plain hollow.
-/// - **Other names**: tabby is plain, waffle honeycomb, panama hopsack, point pointed, and crape
-///   and oatmeal are crepe.
-/// - **Crepe** is one on eight ends, made of the twill `2/2*1/1*1/1` with its ends in the order of
-///   a satin.
+///   N. Where the direction changes, the next end is taken half a repeat of the twill further on.
+///   In a balanced twill, warp floats therefore lie beside weft floats. `herringbone 2/2(2)` is the
+///   broken twill. N is at least half the ends of the twill's repeat.
+/// - **Pointed** `U/D(N)` turns at a single end instead. From one point to the next there are N
+///   ends, both points included. N is at least the number of ends of the twill's repeat.
+/// - **Honeycomb** (waffle) is the usual one on eight ends and eight picks: ridges of floats round
+///   a hollow of plain weave.
+/// - **Other names**: tabby is another name of plain, waffle of honeycomb, panama of hopsack, point
+///   of pointed, and crape and oatmeal of crepe.
+/// - **Crepe** is a weave on eight ends: the twill `2/2*1/1*1/1` with its ends in the order of a
+///   satin.
 ///
 /// ```
 /// use texere_fabric::Weave;
@@ -62,8 +63,9 @@ pub struct Weave {
     repeat: Repeat,
 }
 
-/// The repeat. A notation is kept as one: the drawdown of a satin of 4,095 ends would fill two
-/// megabytes, of which a small cloth needs little.
+/// The repeat of a weave. A weave that was read from notation keeps the notation instead of a
+/// drawdown. The drawdown of a satin of 4,095 ends would fill two megabytes, and a small cloth uses
+/// little of it.
 #[derive(Clone)]
 enum Repeat {
     Written(Notation),
@@ -77,7 +79,7 @@ impl fmt::Debug for Weave {
     }
 }
 
-/// Weaves are equal where all crossings of their repeats are, whatever their notation.
+/// Weaves are equal if all crossings of their repeats are equal, whatever their notation.
 impl PartialEq for Weave {
     fn eq(&self, other: &Self) -> bool {
         let (ends, picks) = self.repeat();
@@ -99,10 +101,10 @@ impl Weave {
     /// Reads the notation of a weave.
     ///
     /// **Errors**: [`WovenError::NoWeave`] for a name that no weave has, [`WovenError::Hyphen`] and
-    /// [`WovenError::Slash`] for signs that only look like these, [`WovenError::Notation`] where
-    /// the text departs from the grammar otherwise, [`WovenError::SatinMove`],
-    /// [`WovenError::NoSatin`] and [`WovenError::TwillMove`] for what can't be woven,
-    /// [`WovenError::Repeat`].
+    /// [`WovenError::Slash`] for characters that only look like a hyphen or a slash,
+    /// [`WovenError::Notation`] if the text departs from the grammar in another way,
+    /// [`WovenError::SatinMove`], [`WovenError::NoSatin`] and [`WovenError::TwillMove`] for weaves
+    /// that can't be woven, and [`WovenError::Repeat`] for more than 4096 ends or picks.
     pub fn parse(text: &str) -> Result<Self, WovenError> {
         Self { repeat: Repeat::Written(notation::parse(text)?) }.checked()
     }
@@ -115,7 +117,8 @@ impl Weave {
         Ok(self)
     }
 
-    /// Whether the warp is up where `end` and `pick` of an endless cloth cross, both from 0.
+    /// Whether the warp is up where `end` and `pick` of an endless cloth, both counted from 0,
+    /// cross.
     #[must_use]
     pub fn up(&self, end: usize, pick: usize) -> bool {
         let (ends, picks) = self.repeat();

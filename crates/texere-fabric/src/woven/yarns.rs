@@ -1,4 +1,4 @@
-//! From cloth to yarns: the control points of every end and every pick.
+//! The yarns of a cloth: the control points of every end and every pick.
 
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven};
 use crate::{FabricError, WovenError};
 
-/// The source of a control point next to no crossing: a yarn's first and last point, and its turns
-/// at a selvedge.
+/// The source of a control point that belongs to no crossing: the first and the last point of a
+/// yarn, and the points of its turns at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;
 
 /// A cloth has at least two control points a crossing, so no crossing's number reaches
@@ -25,11 +25,11 @@ const _: () = assert!(POINTS_MAX / 2 < NO_CROSSING as u64);
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Pass {
     End(usize),
-    /// A pick, and whether it is cut off at its beginning and at its end.
+    /// A pick, and whether the yarn is cut off at the pick's beginning and at its end.
     Pick(usize, [bool; 2]),
 }
 
-/// Everything but the drawdown that the paths of a cloth's threads depend on.
+/// Everything that the paths of a cloth's threads depend on, except the drawdown.
 #[derive(Debug, Clone)]
 pub(super) struct Measured {
     warp: Set,
@@ -37,38 +37,41 @@ pub(super) struct Measured {
     warp_share: f32,
 }
 
-/// A cloth's threads on their way to yarns.
+/// A cloth whose threads are to be laid, with its measures.
 #[derive(Clone, Copy)]
 pub(super) struct Laying<'a> {
     cloth: &'a Woven,
     measured: &'a Measured,
 }
 
-/// Threads that share a path: ends or picks, running left or right, of one half height.
+/// Threads that share a path: whether they are picks, whether they run to the left, and the bits of
+/// their half height.
 pub(super) type Kind = (bool, bool, u32);
 
 impl Woven {
     /// The yarns of the cloth: all ends, then all picks.
     ///
-    /// An end runs along +y, from half a pitch before the first pick to half a pitch after the
-    /// last; a pick likewise along +x. The cloth spans \[0, width\] × \[0, height\] (see
-    /// [`Woven::size_mm`]). At a crossing the upper thread is at +z and the lower at -z, far enough
-    /// apart for their sections' heights ([`Crimp`](crate::Crimp) says how far each). Between
-    /// crossings threads go as [`Shape`](crate::Shape) says. Origins are [`Origin::End`] and
-    /// [`Origin::Pick`]. The source of a control point is the number, pick × ends + end, both from
-    /// 0, of the crossing at which it lies or next to which it bends (half way between two, of the
-    /// first along the yarn), or [`NO_CROSSING`] at the yarn's ends.
+    /// An end runs along +y from the lower edge of the cloth to its upper edge, and a pick along +x
+    /// from the left edge to the right one. The cloth spans \[0, width\] × \[0, height\] (see
+    /// [`Woven::size_mm`]). At a crossing the upper thread is at +z and the lower one at -z. They
+    /// are far enough apart for the heights of their sections, and [`Crimp`](crate::Crimp) says how
+    /// they share this distance. Between crossings threads run as [`Shape`](crate::Shape) says.
+    /// Origins are [`Origin::End`] and [`Origin::Pick`]. The source of a control point is the
+    /// number of the crossing at which it lies or beside which it bends: pick × ends + end, both
+    /// counted from 0. A point half way between two crossings has the number of the first one along
+    /// the yarn. The ends of a yarn have [`NO_CROSSING`].
     ///
     /// With a selvedge ([`Woven::set_selvedge`]) consecutive picks that are alike in material,
-    /// section and twist are one yarn, whose origin is its first pick. Odd picks run along +x, even
-    /// ones back.
+    /// section and twist are one yarn, whose origin is its first pick. Picks are counted from 1.
+    /// Odd picks run along +x, even ones along -x.
     ///
     /// **Errors**: [`WovenError::Points`] for more than 2³² control points,
-    /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for what only the whole shows.
+    /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     ///
-    /// **Source**: one control point a crossing is the paper's count; the height of a crossing and
-    /// round threads follow Peirce, "The geometry of cloth structure", Journal of the Textile
-    /// Institute 28, 1937 (h₁ + h₂ = d₁ + d₂).
+    /// **Source**: one control point at each crossing is the number of the paper that texere
+    /// implements (README.md). The heights at a crossing and the bends of round threads follow
+    /// Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ +
+    /// h₂ = d₁ + d₂).
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let (measured, passes) = (self.measured(), self.passes());
         let laying = self.laying(&measured);
@@ -100,7 +103,7 @@ impl Woven {
         Ok(Yarns::new(layout, self.materials().to_vec(), points)?.with_sources(sources)?)
     }
 
-    /// Control points of all yarns, in the present [`Shape`](crate::Shape) and with or without
+    /// Number of control points of all yarns, with the cloth's present [`Shape`](crate::Shape) and
     /// selvedge.
     #[must_use]
     pub fn point_count(&self) -> u64 {
@@ -130,7 +133,8 @@ impl Woven {
         ends.chain(picks).collect()
     }
 
-    /// The set (0 for ends and 1 for picks) and the yarn of each end and each pick.
+    /// For each end and then each pick, its set (0 for ends and 1 for picks) and the number of its
+    /// yarn.
     pub(crate) fn yarns_of_threads(&self) -> impl Iterator<Item = (usize, usize)> {
         let mut yarns = 0;
         self.passes().into_iter().map(move |pass| {
@@ -139,7 +143,7 @@ impl Woven {
         })
     }
 
-    /// **Errors**: [`WovenError::OtherCloth`] where `yarns` are not the cloth's.
+    /// **Errors**: [`WovenError::OtherCloth`] if `yarns` are not the cloth's.
     pub(crate) fn owns(&self, yarns: &Yarns) -> Result<(), WovenError> {
         let own = self.passes().into_iter().filter_map(|pass| self.yarn(&pass));
         let (mut own, mut theirs) = (own, yarns.layout().yarns().iter());
@@ -153,7 +157,8 @@ impl Woven {
         Ok(())
     }
 
-    /// The yarn that begins with a pass, without its control points. None where no yarn begins.
+    /// The yarn that begins with a pass, without its control points. None if no yarn begins with
+    /// the pass.
     pub(super) fn yarn(&self, pass: &Pass) -> Option<Yarn> {
         let (thread, origin): (Thread, _) = match *pass {
             Pass::End(end) => (self.warp()[end], Origin::End(end as u32 + 1)),
@@ -171,8 +176,8 @@ impl Woven {
 }
 
 impl<'a> Laying<'a> {
-    /// Calls `work` on all threads for each pass and what there is for it, with the path that
-    /// passes of its kind take.
+    /// Calls `work`, in parallel, for each pass with its path and its value of `with`. The path is
+    /// computed once for all passes of a kind.
     fn each<T: Send>(
         &self,
         passes: &[Pass],
@@ -206,12 +211,12 @@ impl<'a> Laying<'a> {
         path::stations(&self.bend(pass), self.kind(pass).1)
     }
 
-    /// The path itself.
+    /// The path of a pass, made of the stations of its kind.
     pub(super) fn path(&self, pass: Pass, stations: Arc<[Station]>) -> ThreadPath<'a> {
         ThreadPath::new(self.bend(pass), stations, self.kind(pass).1)
     }
 
-    /// Control points of each pass.
+    /// Number of control points of each pass.
     fn counts(&self, passes: &[Pass]) -> Vec<usize> {
         let mut counts = vec![0; passes.len()];
         self.each(passes, &mut counts, |path, pass, count| match path.fixed_count(pass.cut()) {
@@ -266,10 +271,10 @@ impl<'a> Laying<'a> {
         selvedge::runs_left(pick, self.cloth.selvedge())
     }
 
-    /// The turn from the pick before to `pick`. It begins beyond the edge end by half the widths of
-    /// both threads, so that the two can't touch whatever the end's height. Where a quarter of the
-    /// picks' distance is more it begins that far out, so that the turn's steps are not much longer
-    /// than the step that leads to it.
+    /// The turn from the pick before to `pick`. It begins half the widths of both threads beyond
+    /// the edge end, so that the two can't touch, whatever the end's height. If a quarter of the
+    /// distance between the picks is more, the turn begins that far out. The turn's steps are then
+    /// not much longer than the step that leads to the turn.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let Measured { warp, weft, .. } = self.measured;
         let right = self.runs_left(pick);
@@ -288,7 +293,7 @@ impl<'a> Laying<'a> {
 }
 
 impl Pass {
-    /// Whether it is cut off at its beginning, and at its end.
+    /// Whether the yarn is cut off at the pass's beginning, and at its end.
     pub(super) const fn cut(self) -> [bool; 2] {
         match self {
             Self::End(_) => [true; 2],
@@ -296,13 +301,13 @@ impl Pass {
         }
     }
 
-    /// Whether a turn leads to it.
+    /// Whether a turn leads to the pass.
     pub(super) const fn turns(self) -> bool {
         !self.cut()[0]
     }
 }
 
-/// Writes one pass's control points and sources, one after another.
+/// Writes the control points and sources of one pass, one after another.
 pub(super) struct Pen<'a> {
     points: std::slice::IterMut<'a, ControlPoint>,
     sources: std::slice::IterMut<'a, u32>,

@@ -17,20 +17,20 @@ fn twill(end: usize, pick: usize) -> bool {
     (end + 64 - pick) % 4 < 2
 }
 
-/// Two layers of one weave. Ends and picks belong to the face and to the back by turns, the face
-/// first. Where `stitched`, some back ends are lifted over a face pick.
+/// Two layers of one weave. Ends and picks belong alternately to the face and to the back, the face
+/// first. If `stitched`, some back ends are lifted over a face pick.
 fn double(weave: fn(usize, usize) -> bool, stitched: bool) -> Drawdown {
     let up = move |end: usize, pick: usize| match [end % 2, pick % 2] {
         [0, 0] | [1, 1] => weave(end / 2, pick / 2),
         [0, _] => true,
-        // A stitch: the ends beside it float over that pick, and the back end lies over the picks
-        // beside it.
+        // A stitch lies where the ends beside it float over the face pick, and where the back end
+        // lies over the picks beside the face pick.
         _ => stitched && (end / 2).is_multiple_of(4) && (end / 2 + 64 - pick / 2).is_multiple_of(8),
     };
     Drawdown::from_fn(THREADS, THREADS, up).unwrap()
 }
 
-/// Picks by turns of the face, which is a weft-faced twill, and of the back, a warp-faced one.
+/// Picks belong alternately to the face, a weft-faced twill, and to the back, a warp-faced twill.
 fn weft_backed(end: usize, pick: usize) -> bool {
     let step = (end + 64 - pick / 2) % 4;
     if pick.is_multiple_of(2) { step == 0 } else { step != 2 }
@@ -88,8 +88,8 @@ fn layers_lie_on_one_another() {
     }
 }
 
-/// At every crossing the thread that the drawdown puts on top lies higher, in whichever layer it
-/// is.
+/// Checks that at every crossing the thread that the drawdown puts on top lies higher, whatever its
+/// layer.
 fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
     let path = |yarn: usize| -> Vec<[f64; 3]> {
         let points = rest.yarns.yarn_points(yarn).unwrap();
@@ -101,7 +101,8 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
         let [one, two] = [path[after - 1], path[after]];
         one[2] + (at - one[axis]) / (two[axis] - one[axis]) * (two[2] - one[2])
     };
-    // Threads shift sideways: the point of an end that lies nearest to the pick counts.
+    // Threads shift sideways, so the point of a thread that lies nearest to the other thread
+    // counts.
     let place = |path: &[[f64; 3]], axis: usize, along: usize, at: f64| {
         let near = path.iter().min_by(|one, two| (one[along] - at).abs().total_cmp(&(two[along] - at).abs()));
         near.unwrap()[axis]
@@ -120,7 +121,7 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
     }
 }
 
-/// Layers that are laid into one plane are far from clear: the test is able to fail.
+/// The measure is able to fail: layers that are laid into one plane pierce one another.
 #[test]
 fn layers_in_one_place_pierce() {
     let clearance = Surfaces::new(&cloth(double(plain, false), 2.0).yarns().unwrap()).clearance();

@@ -1,4 +1,5 @@
-//! Commercial cloths at rest, as drawn, measured by sections that the test samples itself.
+//! Commercial cloths at rest. Their surfaces, as drawn, are measured with sections that the test
+//! samples itself.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -28,7 +29,7 @@ struct Cloth {
     /// The least share that is left of the sections' area in warp and in weft.
     area: [f64; 2],
     /// Published crimp of warp and weft, per cent. Measured crimp has to lie within four points of
-    /// it.
+    /// the published one.
     crimp: [Option<f64>; 2],
 }
 
@@ -135,7 +136,7 @@ fn tightest(yarns: &Yarns) -> f64 {
     clearance(yarns, &Settings::default()).unwrap().curvature_min
 }
 
-/// Weight by count, sett and a crimp of 6 %: (ends / count + picks / count) x 1.06 x 23.27
+/// Weight from count, sett and a crimp of 6 %: (ends / count + picks / count) x 1.06 x 23.27
 /// (<https://apparel-analysis.blogspot.com/2013/06/how-to-determine-gsm-of-woven-fabric.html>).
 fn usual_weight(cloth: &Cloth) -> f64 {
     let sets = [(cloth.woven.warp(), cloth.tex[0]), (cloth.woven.weft(), cloth.tex[1])];
@@ -196,7 +197,7 @@ fn cloths_of_the_mills_come_to_rest() {
             assert!(off.abs() < 4.0, "{name}: crimp {crimp:?}");
         }
         assert!((weight / usual_weight(&cloth) - 1.0).abs() < 0.1, "{name}: {weight} g/m2");
-        // Widths of the Jacquard's threads change where its weaves meet.
+        // The widths of the Jacquard's threads change where its weaves border on one another.
         let even = *name != "Jacquard";
         assert!(!even || (1.0 - ground - cover).abs() < 0.02, "{name}: cover {} and {cover}", 1.0 - ground);
         assert!(
@@ -206,8 +207,8 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// Without any room, settling does not thin threads away, and its result is no worse than what it
-/// was given.
+/// In cloth without any room, settling does not make threads vanishingly thin, and its result is no
+/// worse than the cloth before.
 #[test]
 fn cloth_without_room_is_no_worse() {
     let thread = |pitch: f64| vec![Thread::new(pitch, 0.0837); 8];
@@ -243,7 +244,8 @@ fn chance(seed: &mut u64) -> f64 {
     (*seed >> 40) as f64 / (1_u64 << 24) as f64
 }
 
-/// Threads and crossings at random: nothing repeats, and every thread begins and ends at an edge.
+/// Cloth of random threads and crossings, in which nothing repeats. Every thread begins and ends at
+/// an edge.
 #[test]
 fn uneven_cloth_comes_to_rest_whole() {
     let mut seed = 11;
@@ -330,7 +332,7 @@ fn a_woven_structure_comes_to_rest() {
     }
 }
 
-/// Stiff threads stay straight, and threads that cross them crimp. With equal stiffness both ways
+/// Stiff threads stay straight, and threads that cross them crimp. If both sets are equally stiff,
 /// the cloth is as balanced as before.
 #[test]
 fn stiff_threads_stay_straight() {

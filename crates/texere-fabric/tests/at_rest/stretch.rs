@@ -14,8 +14,9 @@ fn stretched(cloth: &Woven, along: Set, by: f64) -> Result<(Woven, Finish), Fini
     cloth.stretched(&Finish::default(), Stretch { along, by }, 0.0, &device, |_| ControlFlow::Continue(()))
 }
 
-/// Threads keep their length, which the test measures along yarns at rest. Pulled threads
-/// straighten. The cloth narrows, because threads across need more length for their crimp.
+/// Threads keep their lengths, which the test measures along yarns at rest. Pulled threads
+/// straighten. The cloth becomes narrower, because the threads that cross them need more length for
+/// their crimp.
 #[test]
 fn threads_keep_their_length() {
     for (name, along, by) in [

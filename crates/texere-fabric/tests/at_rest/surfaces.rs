@@ -1,13 +1,14 @@
-//! The surfaces of yarns as they are drawn, sampled by code of the test's own: how near they come
-//! to one another, and what is seen from above.
+//! The surfaces of yarns as they are drawn, sampled by separate code of this test: how near they
+//! come to one another, and what shows from above.
 
 use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 use texere_core::{Origin, Yarns};
 
-/// Rings per interval, and points of a section.
+/// Number of rings per interval.
 const RINGS: usize = 12;
+/// Number of points of a section.
 const SIDES: usize = 40;
 
 /// A ring: its middle, its tangent, and its axes with the lengths of half width and half height.
@@ -79,7 +80,8 @@ impl Surfaces {
         Self { yarns: all.collect(), warp: warp.collect() }
     }
 
-    /// The factor by which all sections could grow until two surfaces touch, within [0.5, 1.03].
+    /// The factor by which all sections would have to grow until two surfaces touch, kept within
+    /// [0.5, 1.03].
     pub(crate) fn clearance(&self) -> f64 {
         let cell = 1.2
             * self
@@ -99,8 +101,8 @@ impl Surfaces {
         for (yarn, rings) in self.yarns.iter().enumerate() {
             for ring in rings {
                 let [x, y] = key(ring.middle);
-                // For every other yarn, the ring nearest to the middle of this one. The search of
-                // that yarn's surface begins there.
+                // For every other yarn, the ring nearest to the middle of this ring. The search of
+                // the other yarn's surface begins there.
                 let mut near: HashMap<usize, Vec<usize>> = HashMap::new();
                 for (dx, dy) in (-2..=2).flat_map(|dx| (-2..=2).map(move |dy| (dx, dy))) {
                     for &(other, number) in cells.get(&[x + dx, y + dy]).into_iter().flatten() {
@@ -116,8 +118,8 @@ impl Surfaces {
                     for side in 0..SIDES {
                         let (sin, cos) = (side as f64 / SIDES as f64 * std::f64::consts::TAU).sin_cos();
                         let out = ring.side * cos + ring.up * sin;
-                        // The growth at which the other's section reaches the point, less the
-                        // growth of both.
+                        // The factor at which the section of the other yarn reaches the point of
+                        // this one, less the factor by which both have grown.
                         let left =
                             |growth: f64| inside(rings, ring.middle + out * growth).map(|far| far - growth);
                         if left(least).is_some_and(|left| left < 0.0) {
@@ -173,8 +175,8 @@ impl Surfaces {
         high - low
     }
 
-    /// Share of ground and share of weft, seen straight from above in the window between two
-    /// corners.
+    /// Shares of the area between two corners that show the ground and the weft, seen straight from
+    /// above.
     pub(crate) fn seen(&self, corners: [DVec2; 2], pixels: usize) -> [f64; 2] {
         let mut screen = vec![(f64::NEG_INFINITY, false); pixels * pixels];
         let scale = (corners[1] - corners[0]) / pixels as f64;

@@ -1,4 +1,4 @@
-//! Weaves that every shape has to keep clear, and cloths of them.
+//! Weaves whose threads every shape has to keep clear, and cloths in these weaves.
 
 #![allow(dead_code, reason = "no test needs all of it")]
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
@@ -6,8 +6,8 @@
 use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, Shape, Thread, Weave, Woven};
 
-/// A random weave, by Knuth's multiplicative congruential generator. Its high bits are random
-/// enough for a weave.
+/// Random bits, by Knuth's multiplicative congruential generator. Its high bits are random enough
+/// for a weave.
 pub(crate) fn random_bits(seed: u64) -> impl FnMut() -> bool {
     let mut state = seed;
     move || {
@@ -25,7 +25,7 @@ pub(crate) fn random_weave(seed: u64) -> Drawdown {
     Drawdown::from_fn(10, 10, |_, _| bits()).unwrap()
 }
 
-/// Warp satin beside weft satin, with boundaries along ends and along picks, as all around a
+/// Warp satin beside weft satin, with boundaries along ends and along picks, as at the edge of a
 /// damask's figure.
 fn damask() -> Drawdown {
     let (satin, sateen) = (weave("satin 5"), weave("sateen 5"));
@@ -40,7 +40,7 @@ pub(crate) fn weaves() -> Vec<(String, Drawdown)> {
     named.chain([("damask".to_owned(), damask())]).chain(random).collect()
 }
 
-/// A cloth whose ends are all alike, and whose picks are.
+/// A cloth whose ends are all alike, and whose picks are all alike.
 pub(crate) fn cloth(shape: Shape, drawdown: Drawdown, [end, pick]: [Thread; 2], section: Section) -> Woven {
     let (warp, weft) = (vec![end; drawdown.ends()], vec![pick; drawdown.picks()]);
     let mut cloth = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![section]).unwrap();

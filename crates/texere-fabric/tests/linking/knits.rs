@@ -1,4 +1,4 @@
-//! Small knits, made from the control points of one loop.
+//! Small knits that are made from the control points of one loop.
 
 use texere_core::{ControlPoint, Origin, Yarn, Yarns};
 
@@ -9,7 +9,8 @@ pub(crate) const D: f32 = 0.2;
 /// before.
 #[derive(Debug, Clone)]
 pub(crate) struct Knit {
-    /// Control points of one loop, mm. The first lies half way between it and the loop before.
+    /// Control points of one loop, mm. The first lies half way between this loop and the loop
+    /// before.
     loop_points: Vec<[f32; 3]>,
     /// Distance from one loop to the next, mm.
     pub(crate) wale: f32,
@@ -19,14 +20,15 @@ pub(crate) struct Knit {
     pub(crate) courses: usize,
 }
 
-/// A whole loop from its first half, whose last point is the head. The second half is mirrored.
+/// A whole loop from its first half, whose last point is the head. The second half is the mirror
+/// image of the first.
 fn whole(half: &[[f32; 3]], wale: f32) -> Vec<[f32; 3]> {
     let mirrored = half[1..half.len() - 1].iter().rev().map(|[x, y, z]| [wale - x, *y, *z]);
     half.iter().copied().chain(mirrored).collect()
 }
 
 impl Knit {
-    /// Plain jersey of 12 points a loop, whose wales are `pitch` diameters wide.
+    /// Plain jersey with 12 points for each loop, whose wales are `pitch` diameters wide.
     pub(crate) fn jersey(pitch: f32, wales: usize, courses: usize) -> Self {
         let (wale, course, deep) = (pitch * D, 0.75 * pitch * D, 0.66 * D);
         let (height, neck) = (1.76 * course, (0.53 * D).max(0.09 * wale));
@@ -43,7 +45,7 @@ impl Knit {
         Self { loop_points: whole(&half, wale), wale, course, wales, courses }
     }
 
-    /// Plain jersey of 8 points a loop.
+    /// Plain jersey with 8 points for each loop, whose wales are `pitch` diameters wide.
     pub(crate) fn coarse_jersey(pitch: f32, wales: usize, courses: usize) -> Self {
         let (wale, course) = (pitch * D, 0.75 * pitch * D);
         let (height, half_gap, deep) = (1.7 * course, (0.9 * D).min(wale / 4.0 - 0.55 * D), 0.8 * D);
@@ -57,14 +59,14 @@ impl Knit {
         Self { loop_points: whole(&half, wale), wale, course, wales, courses }
     }
 
-    /// Control points of a loop.
+    /// Number of control points of a loop.
     pub(crate) fn points(&self) -> usize {
         self.loop_points.len()
     }
 
-    /// Points of all courses, moved by `to`. It gets the course, the wale, the number of the point
-    /// in its loop, and its position relative to the loop's start. A yarn ends with the first point
-    /// of the loop after its last one, unless it `repeats`.
+    /// Points of all courses, moved by `to`. `to` gets the course and the wale, the number of the
+    /// point in its loop, and the position of the point relative to the loop's start. Unless yarns
+    /// repeat (`repeats`), each ends with the first point of the loop after its last one.
     fn lines(
         &self,
         repeats: bool,
@@ -87,7 +89,7 @@ impl Knit {
         courses(self.lines(false, to).iter().map(|line| refined(line, finer)))
     }
 
-    /// The yarns of a repeat, moved by `to`. Each goes on one repeat further along x.
+    /// The yarns of a repeat, moved by `to`. Each yarn goes on in the next repeat along x.
     pub(crate) fn repeat(&self, to: impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3]) -> Yarns {
         courses(self.lines(true, to))
     }
@@ -101,7 +103,7 @@ impl Knit {
         }
     }
 
-    /// Pulls one loop straight: out of the loop that it was drawn through, and out of the one that
+    /// Pulls one loop straight: out of the loop that it was drawn through, and out of the loop that
     /// was drawn through it.
     pub(crate) fn pulled(&self, at: [usize; 2]) -> impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3] {
         let foot = self.loop_points[0][2];
@@ -138,8 +140,8 @@ fn refined(line: &[[f32; 3]], finer: usize) -> Vec<[f32; 3]> {
     points
 }
 
-/// Closed tricot of 9 points a course. Each guide laps one needle to the left, then one to the
-/// right. `to` moves points as in [`Knit::yarns`], by guide and course.
+/// Closed tricot with 9 points for each course. Each guide laps one needle to the left, then one to
+/// the right. `to` moves points as in [`Knit::yarns`], by guide and course.
 pub(crate) fn tricot(
     guides: usize,
     courses: usize,
@@ -172,7 +174,7 @@ pub(crate) fn tricot(
     yarns.build().unwrap()
 }
 
-/// Moves nothing.
+/// A movement that leaves every point where it is.
 pub(crate) fn as_it_is(_: [usize; 2], _: usize, at: [f32; 3]) -> [f32; 3] {
     at
 }

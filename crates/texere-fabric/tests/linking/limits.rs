@@ -1,5 +1,5 @@
 //! Refusals, the most work that linking takes, and results that depend neither on the number of
-//! threads nor on the size of the cloth.
+//! processor threads nor on the size of the cloth.
 
 use std::ops::ControlFlow;
 
@@ -26,7 +26,7 @@ fn the_same_is_found_whatever_the_threads() {
 
 #[test]
 fn work_is_bounded_and_told_and_can_be_stopped() {
-    // Fifteen hundred intervals in one place, all of which move.
+    // Fifteen hundred intervals lie in one place, and all of them move.
     let line = |sign: f32| {
         let point =
             |k: u32| [sign * (k % 7) as f32, sign * (k % 5) as f32, (k % 3) as f32].map(|each| each * 1e-3);
@@ -90,7 +90,7 @@ fn far_from_the_origin_and_in_tiny_yarns_nothing_overflows() {
     }
 }
 
-/// Numbers at the limits of what yarns take, and between.
+/// Numbers at the limits that yarns allow, and between them.
 fn extreme() -> impl Strategy<Value = f32> {
     prop_oneof![Just(0.0f32), Just(1e9), Just(-1e9), Just(1e-6), -1.0..1.0f32, -1.0..1.0f32, -1e6..1e6f32]
 }

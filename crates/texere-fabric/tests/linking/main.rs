@@ -1,5 +1,5 @@
-//! Yarns that pass through one another are found, and no others. This file has rings, weaves and
-//! layers; the modules have knits, repeats and refusals.
+//! Linking names the yarns that pass through one another, and no others. This file has rings,
+//! weaves and layers. The modules have knits, repeats and refusals.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
@@ -20,10 +20,11 @@ use texere_fabric::{Shape, Thread, Woven};
 use cloths::{cloth, random_bits, weaves};
 use knits::D;
 
-/// The largest change of a window pair's linking in cloth that was only bent, stretched or sheared.
+/// The largest change of the linking of a pair of windows in cloth that was only bent, stretched or
+/// sheared. A window is a piece of a yarn whose linking with pieces of other yarns is compared.
 const HARMLESS: f64 = 0.15;
 
-/// The least change by a passage, in the pair of windows that changes most.
+/// The least change of linking by a passage, in the pair of windows that changes most.
 const SEEN: f64 = 0.8;
 
 fn yarns_of(lines: &[(bool, Vec<[f32; 3]>)], radius: f32) -> Yarns {
@@ -35,8 +36,8 @@ fn yarns_of(lines: &[(bool, Vec<[f32; 3]>)], radius: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Moves every control point by `to`, which gets the yarn, the number of the point in it, and its
-/// position.
+/// Moves every control point by `to`, which gets the number of the yarn, the number of the point in
+/// the yarn, and its position.
 fn moved(yarns: &Yarns, mut to: impl FnMut(usize, usize, [f32; 3]) -> [f32; 3]) -> Yarns {
     let mut after = yarns.clone();
     for yarn in 0..yarns.layout().yarns().len() {
@@ -53,7 +54,7 @@ fn compared(before: &Yarns, after: &Yarns) -> Linking {
     linking(before, after, &Boundary::without_repeat(before.layout())).unwrap()
 }
 
-/// Pairs of yarns that have passed through one another, by the report.
+/// Pairs of yarns that have passed through one another, according to the report.
 fn pairs(found: &Linking) -> Vec<[usize; 2]> {
     let pairs: BTreeSet<_> = found.worst.iter().map(|each| each.places.map(|place| place.yarn)).collect();
     assert_eq!(found.passages == 0, pairs.is_empty());
@@ -66,7 +67,7 @@ fn pairs(found: &Linking) -> Vec<[usize; 2]> {
     pairs.into_iter().collect()
 }
 
-/// Numbers from -1 to 1.
+/// Random numbers from -1 to 1.
 fn noise(seed: u64) -> impl FnMut() -> f32 {
     let mut bits = random_bits(seed);
     move || (0..16).fold(0.0, |sum, place| sum + if bits() { 0.5_f32.powi(place) } else { 0.0 }) - 1.0
@@ -102,7 +103,7 @@ fn harmless(d: f32, size: f32) -> Vec<(&'static str, Move)> {
     ]
 }
 
-/// Checks that movements without harm are no passages.
+/// Checks that harmless movements are not taken for passages.
 fn stays_linked(name: &str, yarns: &Yarns, d: f32, size: f32) {
     for (change, mut to) in harmless(d, size) {
         let found = compared(yarns, &moved(yarns, |_, _, at| to(at)));
@@ -169,7 +170,7 @@ fn a_flipped_end_is_told() {
             for pitch in [1.8, 2.5, 4.0, 8.0] {
                 let threads = [Thread::new(pitch * 0.2, 0.1); 2];
                 let cloth = cloth(shape, drawdown.clone(), threads, Section::Circle);
-                // In the middle and at the edge.
+                // One crossing in the middle of the cloth, and two at its edges.
                 for (end, pick) in [(4, 5), (0, 6), (7, 0)] {
                     let [before, after] = flipped(&cloth, end, pick);
                     let found = compared(&before, &after);
@@ -190,8 +191,8 @@ fn a_flipped_end_is_told() {
     }
 }
 
-/// Two layers of plain weave, each of eight ends and eight picks. Where `stitched`, some ends of
-/// the lower layer rise over picks of the upper one.
+/// Two layers of plain weave, each of eight ends and eight picks. If `stitched`, some ends of the
+/// lower layer rise over picks of the upper one.
 fn layers(stitched: bool) -> Yarns {
     let pitch = 2.5 * D;
     let place = |thread: usize| (thread as f32 + 0.5) * pitch;

@@ -1,4 +1,4 @@
-//! Linking in repeats: yarns that meet copies of their neighbours, and go on beyond the edge.
+//! Linking in repeats, whose yarns come near copies of their neighbours and go on beyond the edge.
 
 use texere_contact::{LINKING_CHANGE, Linking, linking};
 use texere_core::{Boundary, Ends, Yarns};
@@ -6,8 +6,8 @@ use texere_core::{Boundary, Ends, Yarns};
 use crate::knits::{D, Knit, as_it_is};
 use crate::{HARMLESS, SEEN, moved, noise, pairs, yarns_of};
 
-/// The `pairs` of a jersey's repeat of 4 wales and `courses` courses after a movement by `to`.
-/// Where `above` is set, it repeats along y, too.
+/// The linking of a jersey's repeat of 4 wales and `courses` courses after the movement `to`. If
+/// `above` is set, the jersey repeats along y, too.
 fn repeated(courses: usize, above: bool, to: impl FnOnce(&Knit) -> Yarns) -> Linking {
     let knit = Knit::jersey(5.0, 4, courses);
     let before = knit.repeat(as_it_is);
@@ -24,16 +24,16 @@ fn yarns_meet_over_the_edge_of_a_repeat() {
     let found = repeated(3, true, dropped);
     assert_eq!(pairs(&found), [[0, 2]], "{found:?}");
     assert!(found.largest > SEEN, "{found:?}");
-    // Both places lie beside one another. The second one is in the copy in which its yarn lies.
+    // Both places lie beside one another, the second one in the right copy of its yarn.
     let [one, other] = found.worst[0].places.map(|place| place.position);
     assert!((0..3).all(|axis| (one[axis] - other[axis]).abs() < 0.5), "{found:?}");
     assert_eq!(pairs(&repeated(3, false, dropped)), [] as [[usize; 2]; 0]);
 
-    // A repeat of one course holds itself.
+    // The loops of a repeat of one course are held by a copy of the same course.
     assert_eq!(pairs(&repeated(1, true, |knit| knit.repeat(knit.dropped([0, 2])))), [[0, 0]]);
     assert_eq!(pairs(&repeated(1, true, |knit| knit.repeat(knit.pulled([0, 2])))), [[0, 0]]);
 
-    // Loops beside an edge along x. Their windows go on in the next round of the yarn.
+    // Windows of loops beside an edge along x go on in the next round of the yarn.
     for wale in [0, 3] {
         let found = repeated(3, true, |knit| knit.repeat(knit.dropped([0, wale])));
         assert_eq!(pairs(&found), [[0, 1]], "{found:?}");
@@ -80,8 +80,8 @@ fn each_passage_counts_once_wherever_the_edge_lies() {
     assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
 }
 
-/// Plain weave of two ends and two picks that repeats on all sides, with one control point a
-/// crossing. `flips` moves end 1 to the other side of pick 2.
+/// Plain weave of two ends and two picks that repeats on all sides, with one control point at each
+/// crossing. If `flips` is set, end 1 lies on the other side of pick 2.
 fn weave_repeat(flips: bool) -> Yarns {
     let pitch = 2.5 * D;
     let height = |end: usize, pick: usize| {

@@ -7,8 +7,8 @@ use crate::cloths::{cloth, weave};
 use crate::knits::{D, Knit, as_it_is, tricot};
 use crate::{SEEN, compared, harmless, moved, pairs, stays_linked};
 
-/// Jerseys of 8, 12, 24, 36 and 16 points a loop, tight and loose, each with the factor by which
-/// its control points are finer.
+/// Tight and loose jerseys with 8 to 36 control points for each loop. Each comes with the factor by
+/// which its control points are refined.
 fn jerseys() -> Vec<(Knit, usize)> {
     let mut jerseys: Vec<_> = [3.6, 5.0, 8.0]
         .into_iter()
@@ -62,7 +62,7 @@ fn a_pulled_stitch_is_told() {
         let before = knit.yarns(finer, as_it_is);
         let after = knit.yarns(finer, knit.pulled([2, 2]));
         let found = compared(&before, &after);
-        // The loop has left the loop below, or the one above, or both.
+        // The loop has left the loop below, the loop above, or both.
         let pairs = pairs(&found);
         assert!(!pairs.is_empty(), "{knit:?}, {finer} times finer: {found:?}");
         assert!(pairs.iter().all(|pair| [[1, 2], [2, 3]].contains(pair)), "{knit:?}, {finer}: {found:?}");
@@ -88,7 +88,7 @@ fn stitches_of_warp_knits_are_told() {
 
 #[test]
 fn cloth_that_turns_over_in_its_plane_stays_linked() {
-    // All yarns pass through one line on the straight way to their new positions, so that every
+    // On the straight way to their new positions all yarns pass through one line, so that every
     // integral is worked out.
     let threads = [Thread::new(0.5, 0.1); 2];
     let weave = cloth(Shape::Round, weave("2/2"), threads, Section::Circle).yarns().unwrap();

@@ -37,14 +37,15 @@ fn jersey_is_drawn_through_its_own_repeat_below() {
 
 #[test]
 fn a_loop_that_leaves_its_repeat_is_held_in_the_next() {
-    // A decrease over the seam: the loop of needle 1 goes to needle 0 of the next repeat.
+    // A decrease over the edge of the repeat: the loop of needle 1 goes to needle 0 of the next
+    // repeat.
     let text = "knit + f0 1\nknit + f1 1\nxfer f1 b1\nrack 1\nxfer b1 f2\nrack 0\nknit + f0 1\nknit + f1 1";
     let Knit { stitches, faults, .. } = repeat(2, text);
     assert_eq!(faults, []);
     assert_eq!(stitches.parents_of(2), [flat(0), to(1, [-1, 0])]);
     assert_eq!(stitches.loops[1].fate, Fate::Held(to(2, [1, 0])));
     assert_eq!(stitches.loops[1].head, Head { at: 2.0, bed: Bed::Front, layer: 1, moved: 2 });
-    // The needle of the moved loop is empty then, and the next loop on it is a cast-on.
+    // After the move, needle 1 is empty, and the next loop on it is a cast-on.
     assert_eq!(stitches.parents_of(3), []);
 }
 
@@ -56,7 +57,7 @@ fn tubes_whose_sides_grow_at_different_rates_are_as_high_as_the_faster_one() {
     assert_eq!(stitches.parents_of(1), [to(1, [0, -1])]);
 }
 
-/// A case of knitout-live-visualizer's issue 11, where the tuck was shown in front.
+/// A viewer of knitout once showed the tuck of this program in front.
 #[test]
 fn a_tuck_lies_behind_the_loops_of_its_needle() {
     for bed in ["f", "b"] {
@@ -117,7 +118,7 @@ fn a_split_draws_a_loop_through_and_moves_the_old_ones() {
     assert_eq!(stitches.parents_of(2), [flat(0)]);
     assert_eq!(stitches.loops[0].fate, Fate::Held(flat(2)));
     assert_eq!(stitches.loops[0].head.bed, Bed::Back);
-    // If the loop were dropped, the split loop would hold it.
+    // After a split, the new loop holds the old one, so that dropping the old one is no fault.
     let Knit { stitches, faults, .. } =
         knit(&program("in 1\nknit + f1 1\nsplit + f1 b1 1\ndrop b1\ndrop f1\nout 1"));
     assert_eq!(stitches.loops[0].fate, Fate::Held(flat(1)));
@@ -198,7 +199,7 @@ fn faults_are_named() {
         let Knit { faults, .. } = knit(&program(&(none.to_owned() + text)));
         let found = faults.iter().find(|fault| fault.kind == kind);
         assert_eq!(found.map(|fault| fault.source), Some(line), "{text}: {faults:?}");
-        // No other fault of that severity occurs, except what a case leaves undone at its end.
+        // No other error occurs, except with stitches on sliders.
         let others = faults.iter().filter(|fault| fault.kind != kind);
         assert!(
             others.clone().all(|fault| !fault.kind.is_error() || kind == FaultKind::OnSlider),
@@ -217,7 +218,7 @@ fn needles_that_never_knit_are_faults_of_a_repeat() {
     assert_eq!(stitches.loops[0].fate, Fate::Held(to(0, [0, 1])));
 }
 
-/// Stitches that may come undone are reported once, with their number. Usual cast-ons are not
+/// Cast-ons that may come undone are reported once, with their number. Usual cast-ons are not
 /// reported.
 #[test]
 fn risky_cast_ons_are_told() {
@@ -241,14 +242,14 @@ fn risky_cast_ons_are_told() {
         [(4, FaultKind::OnlyLoop { others: 1 })]
     );
     for usual in [
-        // Every other needle, and the rest on the way back.
+        // Every other needle on the way out, and the rest on the way back.
         "in 1\ntuck - f4 1\ntuck - f2 1\ntuck + f1 1\ntuck + f3 1\nknit - f4 1\nknit - f3 1\nknit - f2 1\nknit - f1 1",
-        // From bed to bed.
+        // Needles of both beds in turn.
         "in 1\nknit - f4 1\nknit - b3 1\nknit - f2 1\nknit - b1 1\nknit + f1 1\nknit + b2 1\nknit + f3 1\nknit + b4 1",
         "in 1\nrack 0.25\ntuck + f1 1\ntuck + b1 1\ntuck + f2 1\ntuck + b2 1",
         // One more needle at the edge.
         "in 1\ntuck + f1 1\ntuck + f3 1\ntuck - f2 1\nknit + f1 1\nknit + f2 1\nknit + f3 1\nknit + f4 1",
-        // Two steps forth and one back.
+        // Two needles forward and one back.
         "in 1\ntuck + f1 1\ntuck - f0 1\ntuck + f3 1\ntuck - f2 1",
     ] {
         assert_eq!(told(usual), [], "{usual}");

@@ -1,4 +1,4 @@
-//! Laws of every program, however odd: no loop is lost, and none comes from nothing.
+//! Laws that hold for every program: no loop is lost, and none is made without an operation.
 
 use std::collections::HashMap;
 
@@ -45,7 +45,7 @@ fn instructions(range: std::ops::Range<i32>) -> impl Strategy<Value = Instructio
     ]
 }
 
-/// The sets of carriers of all programs here.
+/// The sets of carriers of all programs in this file.
 fn sets() -> Vec<Vec<u32>> {
     vec![vec![], vec![0], vec![1], vec![2], vec![0, 1], vec![2, 1, 0]]
 }
@@ -69,7 +69,7 @@ pub(crate) fn programs() -> impl Strategy<Value = Program> {
     prop::collection::vec((instructions(-3..6), 0..sets), 0..60).prop_map(|list| program(list, None))
 }
 
-/// Programs of one repeat. Most of them knit all needles in the end, so that loops do not pile up.
+/// Programs of one repeat. Most of them knit all needles at the end, so that loops do not pile up.
 fn repeats() -> impl Strategy<Value = Program> {
     (1..4_i32, 0..8_u32).prop_flat_map(|(width, knits)| {
         let sets = sets().len() as u32;
@@ -114,8 +114,8 @@ fn back(other: LoopRef, number: usize) -> LoopRef {
     LoopRef { number: number as u32, repeat: other.repeat.map(|repeats| -repeats) }
 }
 
-/// Checks the laws of all stitches. In a repeat where needles never knit, some loops are held by no
-/// loop.
+/// Checks the laws for all stitches. In a repeat where needles never knit, some loops are not held
+/// by any loop.
 fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     prop_assert!(names(program, stitches).is_sorted_by(|one, other| one < other), "loops in their order");
     let mut seen = vec![0; stitches.loops.len()];
@@ -158,7 +158,7 @@ fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Loops of the naive machine, as seen from a loop of `round` in repeat 0.
+/// Compares stitches with the loops that the naive machine has in `round` and repeat 0.
 fn compare(
     program: &Program,
     stitches: &Stitches,
@@ -166,7 +166,8 @@ fn compare(
     round: i32,
 ) -> Result<(), TestCaseError> {
     let names = names(program, stitches);
-    // A loop that is left out was drawn through nothing, nothing was drawn through it, and it fell.
+    // A loop that is left out of the stitches was drawn through nothing and fell, and nothing was
+    // drawn through it.
     for name in (0..made(program).len()).filter(|name| names.binary_search(name).is_err()) {
         let known = &naive[&(name, 0, round)];
         prop_assert!(known.dropped && known.held.is_none() && known.parents.is_empty(), "loop {}", name);
@@ -221,7 +222,7 @@ proptest! {
             return Ok(());
         }
         lawful(&program, &stitches)?;
-        // Enough rounds and repeats that those in the middle do not meet an edge.
+        // With so many rounds and repeats, the ones in the middle do not depend on the edges.
         compare(&program, &stitches, &naive::run(&program, 24, 16), 12)?;
     }
 }

@@ -1,4 +1,5 @@
-//! Refusals by name, and large programs that take time in proportion to their length.
+//! Refusals that name what is too large, and large programs that take time in proportion to their
+//! length.
 
 use texere_fabric::FabricError;
 use texere_fabric::weft::{
@@ -67,8 +68,8 @@ fn racks_that_are_no_numbers_are_faults_and_move_nothing() {
     }
 }
 
-/// Three million operations of each kind. If one took time that grows with the program, this test
-/// would not end.
+/// Up to three million operations of each kind. If one operation took time that grows with the
+/// program, this test would not end.
 #[test]
 fn large_programs_are_run_in_time_that_grows_with_them() {
     const COUNT: i32 = 3_000_000;
@@ -78,7 +79,7 @@ fn large_programs_are_run_in_time_that_grows_with_them() {
     assert_eq!(all.loops.len(), COUNT as usize);
     assert_eq!(all.loops.last().map(|stitch| stitch.course), Some(2999));
 
-    // A full needle that goes to and fro.
+    // A full needle whose loops are moved to and fro.
     let tucks = (0..STACK_MAX as i32).map(|_| Instruction::Tuck(right, Needle::front(0)));
     let moves = (0..COUNT / 10).flat_map(|_| {
         let (front, back) = (Needle::front(0), Needle::back(0));
@@ -86,7 +87,7 @@ fn large_programs_are_run_in_time_that_grows_with_them() {
     });
     assert!(Machine::default().knit(&program(tucks.chain(moves))).is_ok());
 
-    // A hook that takes the same carrier many times, and lets go of others.
+    // A hook that takes the same carrier many times, and releases other carriers.
     let hooks = (0..COUNT / 10).map(|_| Instruction::InHook);
     let mut hooks = program(hooks.chain((0..COUNT / 10).map(|_| Instruction::ReleaseHook)));
     let names = 0..60_000;

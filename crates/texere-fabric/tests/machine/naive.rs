@@ -1,5 +1,5 @@
-//! A naive machine as an oracle, with code of its own. Every needle of every repeat has a list of
-//! loops, and every round is kept.
+//! A simple machine as an oracle, with code of its own. Every needle of every repeat has its own
+//! list of loops, and the loops of all rounds are kept.
 
 use std::collections::HashMap;
 
@@ -8,16 +8,16 @@ use texere_fabric::weft::{Bed, Instruction, Needle, Program};
 /// A loop: its number within its round, its repeat along x, and its round.
 pub(crate) type Id = (usize, i32, i32);
 
-/// The record of a loop.
+/// What is known of a loop.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Known {
     pub(crate) carrier: u32,
     pub(crate) at: f64,
     pub(crate) parents: Vec<Id>,
-    /// The loop that holds it in the end.
+    /// The loop that holds this loop at the end.
     pub(crate) held: Option<Id>,
     pub(crate) dropped: bool,
-    /// Place, bed and layer of its head.
+    /// Place, bed and layer of the loop's head.
     pub(crate) head: (f64, Bed, usize),
 }
 

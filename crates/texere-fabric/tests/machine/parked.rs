@@ -25,8 +25,8 @@ fn bare(mut stitches: Stitches) -> Stitches {
     stitches
 }
 
-/// Rows of knitting to and fro with `carriers`, over needles 1 to 4 of a bed. `right` and `left`
-/// are the operations at the end of each row.
+/// Two rows of knitting with `carriers`, to and fro over needles 1 to 4 of a bed. `right` and
+/// `left` are the operations at the end of a row in that direction.
 fn rows(bed: &str, carriers: &str, [right, left]: [&str; 2]) -> String {
     let row = |way: &str, needles: [u32; 4], end: &str| {
         let knits = needles.map(|needle| format!("knit {way} {bed}{needle} {carriers}\n"));
@@ -75,7 +75,7 @@ fn a_carrier_that_is_parked_beyond_the_cloth_draws_its_yarn_back() {
     }
 }
 
-/// Carriers of a set lay their yarns side by side in one stitch. None is caught behind another.
+/// Carriers of a set lay their yarns side by side in one stitch. No yarn is caught behind another.
 #[test]
 fn carriers_of_a_set_act_at_once() {
     let tangled = |text: &str| {
@@ -119,16 +119,16 @@ fn floats_between_loops_stay() {
         stitches.strands[0].steps.iter().map(|step| stitches.visit(step).at).collect()
     };
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f2 1\nmiss + f3 1\nknit + f4 1"), [1.0, 2.0, 3.0, 4.0]);
-    // The carrier passes on its way out to a loop that is made on the way back, and on its way back
-    // to a loop further in.
+    // First the carrier passes the needle on its way out, and makes a loop on its way back. Then it
+    // passes a needle on its way back, to a loop further in.
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f3 1\nmiss + f9 1\nknit - f5 1"), [1.0, 3.0, 5.0]);
     assert_eq!(places("in 1\nknit + f5 1\nmiss + f9 1\nmiss - f3 1\nknit - f1 1"), [5.0, 3.0, 1.0]);
-    // A loop that falls off a needle there becomes a float.
+    // A loop that falls off a needle between two loops becomes a float.
     assert_eq!(places("in 1\nknit + f1 1\ntuck + f2 1\nknit + f3 1\ndrop f2"), [1.0, 2.0, 3.0]);
 }
 
-/// Carrier 1 waits between needles 4 and 5, and carrier 2 lays its yarn over it. The yarn of
-/// carrier 1 can't be drawn back then.
+/// Carrier 1 waits between needles 4 and 5, and carrier 2 lays its yarn on both sides of it. The
+/// yarn of carrier 1 then can't be drawn back.
 #[test]
 fn yarn_that_another_has_caught_is_held_there() {
     let text = "in 1\nin 2\nknit + f2 1\nmiss + f4 1\nknit + f1 2\nknit + f3 2\nknit + f5 2\nknit - f2 1";
@@ -149,8 +149,8 @@ fn yarn_that_no_loop_holds_is_left_out_and_told() {
 }
 
 proptest! {
-    /// For any paths of carriers, yarn begins and ends in loops and lies between them, unless
-    /// others catch it.
+    /// For any paths of carriers, a yarn begins and ends in loops, and lies between them, unless
+    /// another yarn catches it.
     #[test]
     fn yarns_are_taut(program in programs()) {
         let Knit { stitches, faults, .. } = Machine::default().knit(&program).expect("a knit");

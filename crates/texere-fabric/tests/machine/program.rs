@@ -1,8 +1,8 @@
-//! Programs in knitout's words, for tests. The text is not checked.
+//! Programs written in the words of knitout, for tests. The text is not checked.
 
 use texere_fabric::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 
-/// A program of carriers `1` to `4`. Its sources are lines, from 1.
+/// A program of carriers `1` to `4`. Its sources are the numbers of lines, counted from 1.
 pub(crate) fn program(text: &str) -> Program {
     let mut program = Program {
         carriers: (1..5).map(|name| name.to_string()).collect(),

@@ -1,5 +1,5 @@
-//! The centreline of a yarn by the Catmull-Rom spline's own polynomials, its bends, and the way
-//! downhill from a contact: an oracle for `contacts.rs`.
+//! An oracle for `contacts.rs`: the centreline of a yarn by the polynomials of the Catmull-Rom
+//! spline, its bends, and the way downhill from a contact to the nearest approach.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,7 +8,7 @@ use texere_contact::Contact;
 use texere_core::definitions::Segment;
 use texere_core::{ControlPoint, Yarns};
 
-/// The control points that steer an interval.
+/// The four control points that shape an interval.
 pub(crate) fn four(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
     let count = points.len() as isize;
     let at = |k: isize| match k {
@@ -34,8 +34,9 @@ pub(crate) fn place(tangle: &Yarns, yarn: usize, at: f64) -> (DVec3, f64) {
     (place.xyz(), place.w)
 }
 
-/// The ratio where the way downhill ends in `tangle`, from a contact of a similar tangle. None
-/// where both places are so near along one yarn that they are no contact, or hardly one.
+/// The ratio at the end of the way downhill in `tangle`, from a contact of a similar tangle. None
+/// if the places at the end are so near one another along one yarn that they are no contact, or
+/// almost none.
 pub(crate) fn downhill(tangle: &Yarns, from: &Contact) -> Option<f64> {
     let [one, other] = from.places.each_ref().map(|place| place.yarn);
     let ratio = |[s, t]: [f64; 2]| {

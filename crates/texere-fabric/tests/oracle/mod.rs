@@ -98,8 +98,8 @@ pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
     least
 }
 
-/// [`round_clearance`], refined: the nearest samples of each two intervals move to where the
-/// intervals are nearest.
+/// [`round_clearance`], refined: for each pair of intervals, the nearest samples are moved to the
+/// place where the intervals are nearest.
 pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
     let thickest = yarns
         .points()
@@ -122,8 +122,8 @@ pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
                 }
             }
         }
-        // Compass search: it moves to the best of the places around, with smaller and smaller
-        // steps.
+        // Compass search: the places move to the best of the places around them, in smaller and
+        // smaller steps.
         let mut step = 1.0 / samples as f64;
         while best.0 < 2.0 && step > 1e-6 {
             let before = best.0;
@@ -145,9 +145,9 @@ pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
     least
 }
 
-/// Whether two yarns pierce one another when their sections are scaled by `scale`: whether a point
-/// of one surface lies inside the other yarn. There are `samples` steps per interval, and `sides`
-/// points around a section.
+/// Whether any two yarns pierce one another when their sections are scaled by `scale`: whether a
+/// point of one surface lies inside the other yarn. Intervals have `samples` steps, and sections
+/// have `sides` points.
 pub(crate) fn pierce(yarns: &Yarns, samples: usize, sides: u32, scale: f64) -> bool {
     let sections = yarns.layout().sections();
     let outlines: Vec<Vec<DVec2>> = sections

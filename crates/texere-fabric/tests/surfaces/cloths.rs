@@ -8,15 +8,14 @@ use crate::outline::Outline;
 /// Radius of every yarn, mm.
 pub(crate) const RADIUS: f32 = 0.125;
 
-/// `size` threads, whose distances from the thread before are `setts` diameters in turn. `twist` in
-/// turns per metre.
+/// `size` threads with spacings of `setts` diameters in turn. `twist` is in turns per metre.
 pub(crate) fn set(size: usize, setts: [f64; 2], radius: f32, twist: f32) -> Vec<Thread> {
     let twist = radians_a_mm(twist);
     let thread = |sett| Thread { twist, ..Thread::new(sett * 2.0 * f64::from(radius), radius) };
     setts.into_iter().cycle().map(thread).take(size).collect()
 }
 
-/// Equally many ends and picks, all alike.
+/// Cloth in which `threads` are both the ends and the picks.
 pub(crate) fn woven(weave: &str, threads: Vec<Thread>, section: Section) -> Yarns {
     let size = threads.len();
     let drawdown = Weave::parse(weave).unwrap().drawdown(size, size).unwrap();
@@ -30,10 +29,10 @@ fn radians_a_mm(turns_a_metre: f32) -> f32 {
     turns_a_metre * 1e-3 * std::f32::consts::TAU
 }
 
-/// A cloth whose yarns touch or pierce a little. `twist` in turns per metre.
+/// A cloth whose yarns touch or pierce a little. `twist` is in turns per metre.
 ///
 /// Untwisted yarns lie in the room that [`Woven`] makes, pressed to nine tenths of its height.
-/// Twisted yarns follow the paths of round yarns that hold them just or nearly.
+/// Twisted yarns follow the paths of round yarns, which contain them or almost contain them.
 pub(crate) fn close(weave: &str, section: &Section, twist: f32) -> Yarns {
     let (size, sett) = match weave {
         "plain" => (4, 1.75),
@@ -59,7 +58,7 @@ pub(crate) fn close(weave: &str, section: &Section, twist: f32) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A plain weave of flattened threads, half again as wide as high, pressed to nine tenths of its
+/// A plain weave of flattened threads, 1.5 times as wide as high, pressed to nine tenths of its
 /// height.
 pub(crate) fn flattened(section: &Section, twist: f32) -> Yarns {
     let threads: Vec<_> = set(4, [2.5; 2], RADIUS, twist)

@@ -21,7 +21,7 @@ use outline::Outline;
 use ratio::{hull_ratio, surface_ratio};
 use tube::Tube;
 
-/// Settings whose rings lie a twenty-fifth of a diameter apart, or nearer.
+/// Settings whose rings lie at most a twenty-fifth of a diameter apart.
 fn dense(yarns: &Yarns) -> Settings {
     let longest = (0..yarns.layout().yarns().len())
         .flat_map(|yarn| yarns.yarn_points(yarn).unwrap().windows(2))
@@ -50,8 +50,8 @@ fn assert_near(ratio: f64, expected: f64) {
     assert!((ratio - expected).abs() < 5e-4, "{ratio} instead of {expected}");
 }
 
-/// The oracle's tube is the one that a backend makes vertices of, on rings and half way between
-/// them. Yarns are bent, flattened, and twisted either way.
+/// The oracle's tube is the tube whose vertices a backend makes, on rings and half way between
+/// them. Yarns are bent, flattened, and twisted in either direction.
 #[test]
 fn vertices_lie_on_the_surface() {
     const SIDES: u32 = 48;
@@ -83,7 +83,7 @@ fn vertices_lie_on_the_surface() {
     }
 }
 
-/// Round yarns touch where their radii add up to the distance.
+/// Round yarns touch if their radii add up to the distance.
 #[test]
 fn round_yarns_that_cross() {
     for distance in [0.2, 0.25, 0.27] {
@@ -113,7 +113,8 @@ fn flat_yarns_that_cross() {
     }
 }
 
-/// Flat yarns with the same twist turn alike. Side by side they touch where both lie flat.
+/// Flat yarns with the same twist turn alike. Side by side they touch at places where both lie
+/// flat.
 #[test]
 fn twisted_yarns_side_by_side() {
     let width = f64::from(RADIUS) * 2f64.sqrt();
@@ -123,8 +124,9 @@ fn twisted_yarns_side_by_side() {
     assert_near(surface_ratio(&yarns, dense(&yarns)), 0.8);
 }
 
-/// Two straight yarns of two plies side by side, 1.95 radii apart. The ply of the short one points
-/// at the other. The other has made a quarter turn there, and shows it a furrow.
+/// Two straight yarns of two plies side by side, 1.95 radii apart. A ply of the short yarn points
+/// at the other yarn. The other yarn has made a quarter turn there, so that its furrow faces the
+/// ply.
 fn furrow_and_ply() -> Yarns {
     let (lead, apart) = (5.0, 1.95 * RADIUS);
     let ply = straight([0.0, 0.0, 0.0], [0.0, 0.01, 0.0], 0, 0.0);
@@ -132,19 +134,19 @@ fn furrow_and_ply() -> Yarns {
     yarns(Section::Lobed { plies: 2 }, &[ply, furrow])
 }
 
-/// A ply fits into a furrow. Hulls do not show that.
+/// A ply fits into a furrow. Hulls of sections have no furrows, and touch earlier.
 #[test]
 fn a_ply_lies_in_a_furrow() {
     let yarns = furrow_and_ply();
-    // r(θ) = 1 - depth (1 - cos 2θ) with a depth of 1/4, made as large as the circle: its plies
-    // reach to 1.2978, its furrows down to half of that. The hull lies over the furrows at
-    // (2/3)^(3/2) of the plies.
+    // The outline is r(θ) = 1 - depth (1 - cos 2θ) with a depth of 1/4, scaled to the area of the
+    // circle. Its plies reach to 1.2978, its furrows to half of that. Over the furrows, the hull
+    // lies at (2/3)^(3/2) of the reach of the plies.
     let ply = (0.75f64 * 0.75 + 0.25 * 0.25 / 2.0).sqrt().recip();
     assert_near(surface_ratio(&yarns, dense(&yarns)), 1.95 / (ply * 1.5));
     assert_near(hull_ratio(&yarns, dense(&yarns)), 1.95 / (ply * (1.0 + (2.0f64 / 3.0).powf(1.5))));
 }
 
-/// The clearance that the crate measures.
+/// The clearance that texere-contact measures.
 fn clearance_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     clearance(yarns, &settings).unwrap().min
 }
@@ -152,7 +154,8 @@ fn clearance_ratio(yarns: &Yarns, settings: Settings) -> f64 {
 #[test]
 fn the_clearance_is_that_of_surfaces() {
     let mut cases = vec![("ply in a furrow".to_owned(), furrow_and_ply())];
-    // Ends lie in pairs, and so do picks. Plies lie in furrows all along.
+    // Ends lie in pairs, and picks, too. The plies of each thread lie in the furrows of its
+    // neighbour along the whole length.
     for plies in [3, 5] {
         let threads = set(4, [2.5, 0.95], RADIUS, 0.0);
         let doubled = woven("2/2(2+2)", threads, Section::Lobed { plies });
@@ -184,8 +187,8 @@ fn the_clearance_is_that_of_surfaces() {
 }
 
 /// A yarn that bends over backwards passes through the vertical between two rings. The upright
-/// frame flips there, and the frame that is carried along does not. A round yarn passes there, on
-/// the wide side of the section.
+/// frame flips there, and the frame that is carried along does not. A round yarn passes at that
+/// place, on the wide side of the section.
 #[test]
 fn a_carried_frame_does_not_flip_between_rings() {
     for (section, away) in [(Section::Ellipse { aspect: 3.0 }, 0.33), (Section::Lobed { plies: 2 }, 0.28)] {
@@ -218,7 +221,7 @@ fn plied_threads_in_their_own_room_stay_clear() {
                 let (oracle, crates) = (surface_ratio(&yarns, settings), clearance_ratio(&yarns, settings));
                 let name = format!("{plies} plies, twist {twist}, {sett} diameters");
                 assert!(oracle >= 0.999, "{name}: {oracle}");
-                // The search does not go further than this.
+                // Beyond `CLEARANCE_NEAR` texere-contact does not search.
                 let same = (oracle - crates).abs() <= 0.003 || oracle.min(crates) > CLEARANCE_NEAR - 0.003;
                 assert!(same, "{name}: {oracle}, clearance {crates}");
             }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 use texere_core::Section;
 
-/// Corners of the outline from which the table is made.
+/// Number of corners of the outline from which the table is made.
 const CORNERS: u32 = 4096;
 
 /// Number of angles in the table.
@@ -15,7 +15,7 @@ const ANGLES: usize = 4096;
 /// yarn.
 pub(crate) struct Outline {
     radii: Vec<f64>,
-    /// The greatest distance.
+    /// The largest distance.
     pub(crate) greatest: f64,
 }
 

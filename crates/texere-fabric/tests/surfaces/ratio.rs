@@ -1,10 +1,11 @@
 //! The factor by which the sections of two yarns have to grow until their surfaces touch, by dense
 //! sampling.
 //!
-//! The idea is simple. Sections grow about their centres, and a yarn lies within the same yarn at
-//! any greater ratio. There is thus one ratio below which no surface has a point in another yarn,
-//! and above which some have. The search comes from above. Any sample that lies in another yarn
-//! lowers the ratio to where it first touched that yarn, until no sample lies in another yarn.
+//! Sections grow about their centres, so that a yarn lies within the same yarn at any larger ratio.
+//! There is therefore one ratio below which no surface has a point in another yarn, and above which
+//! some surface has. The search starts above this ratio. Each sample that lies in another yarn
+//! lowers the ratio to the one at which the sample first touched that yarn, until no sample lies in
+//! another yarn.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -16,14 +17,14 @@ use texere_cpu::SerialBackend;
 use crate::outline::Outline;
 use crate::tube::Tube;
 
-/// The least and the greatest ratio that is found.
+/// The least and the largest ratio that the search can give.
 const RATIOS: [f64; 2] = [0.4, 1.15];
 
 /// Number of angles at which a ring is sampled.
 const ANGLES: usize = 256;
 
-/// A sample whose gauge is within this of the ratio may hide a touch between it and the next
-/// sample.
+/// If the gauge of a sample exceeds the ratio by less than this, yarns may touch between the sample
+/// and the next one.
 const DOUBT: f64 = 0.005;
 
 /// The factor by which all sections, with their furrows, grow until the first two yarns touch: 0.4
@@ -75,9 +76,9 @@ struct Search {
 struct Sample {
     yarns: [usize; 2],
     stretch: RangeInclusive<usize>,
-    /// Place in the other yarn at which the point's foot was last found.
+    /// The ring of the other yarn at which the point was last found.
     ring: usize,
-    /// Place along its own yarn, in rings.
+    /// Place of the sample along its own yarn, in rings.
     at: f64,
     angle: f64,
 }

@@ -9,7 +9,7 @@ use texere_core::definitions::Ring;
 
 use crate::outline::Outline;
 
-/// A ring in f64.
+/// A ring of a yarn, in f64.
 struct Station {
     centre: DVec3,
     tangent: DVec3,
@@ -17,13 +17,13 @@ struct Station {
     roll: f64,
 }
 
-/// One yarn.
+/// The tube of one yarn.
 pub(crate) struct Tube {
     stations: Vec<Station>,
     pub(crate) outline: Rc<Outline>,
-    /// The greatest distance of its surface from its centreline, mm.
+    /// The largest distance of the tube's surface from its centreline, mm.
     pub(crate) reach: f64,
-    /// The greatest distance from a ring to the next, mm.
+    /// The largest distance from a ring to the next, mm.
     stride: f64,
 }
 

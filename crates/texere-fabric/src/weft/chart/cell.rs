@@ -10,9 +10,10 @@ pub(super) const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
 pub enum Cell {
     /// The front needle knits: `k`.
     Knit,
-    /// The back needle knits: `p`. On one bed the loops are moved there first.
+    /// The back needle knits: `p`. On one bed the loops are first moved to the back needle.
     Purl,
-    /// Front and back needle both knit: `b`, on two beds. The beds are half a needle apart then.
+    /// Front and back needle both knit: `b`, on two beds. The back needles then stand half a needle
+    /// beside the front needles.
     Both,
     /// The needle takes the yarn and keeps its loops: `t`. On two beds it is the front needle.
     Tuck,
@@ -23,9 +24,11 @@ pub enum Cell {
     /// The front needle knits, and its loop then moves to another needle. `<` and `>` move it to
     /// the next needle, for lace. `RRrr` and `llLL` exchange two groups of loops, for cables.
     Moved {
-        /// Needles to the right, negative to the left; 256 at most either way.
+        /// Number of needles by which the loop moves to the right, negative to the left. 256 is the
+        /// most in either direction.
         by: i32,
-        /// Whether it goes behind the others: the half of a cable that lies below.
+        /// Whether the loop passes behind other loops that move. In a cable it then belongs to the
+        /// half that lies at the back.
         behind: bool,
     },
 }

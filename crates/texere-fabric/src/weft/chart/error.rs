@@ -17,17 +17,17 @@ pub enum ChartError {
         course: usize,
         /// Wales of the chart.
         wales: usize,
-        /// Its courses.
+        /// Courses of the chart.
         courses: usize,
     },
     /// A chart without stitches, or with too many wales or rows.
     #[error("a chart of {wales} and {rows}; each must be 1 to {limit}", wales = counted(*.wales, "wale"), rows = counted(*.rows, "row"))]
     Size {
-        /// Its wales.
+        /// Wales of the chart.
         wales: usize,
-        /// Its rows.
+        /// Rows of the chart.
         rows: usize,
-        /// Most taken of either.
+        /// The most wales, and the most rows, allowed.
         limit: usize,
     },
     /// Too many cells in all courses.
@@ -35,7 +35,7 @@ pub enum ChartError {
     Cells {
         /// Wales times courses.
         cells: usize,
-        /// Most taken.
+        /// The most cells allowed.
         limit: usize,
     },
     /// A row that is longer or shorter than the first.
@@ -43,7 +43,7 @@ pub enum ChartError {
     Ragged {
         /// The row.
         row: usize,
-        /// Its stitches.
+        /// Stitches of the row.
         wales: usize,
         /// Stitches of the first row.
         first: usize,
@@ -69,7 +69,7 @@ pub enum ChartError {
         row: usize,
         /// The column at which it begins.
         column: usize,
-        /// Its symbols, cut short where there are many of them.
+        /// The symbols of the half, cut short if there are many.
         symbols: String,
     },
     /// A stitch that the chart's beds can't make.
@@ -79,7 +79,7 @@ pub enum ChartError {
         row: usize,
         /// The column.
         column: usize,
-        /// What it needs.
+        /// The beds that the stitch needs.
         needs: &'static str,
     },
     /// A loop that is moved over too many needles.
@@ -90,17 +90,17 @@ pub enum ChartError {
         row: usize,
         /// The column.
         column: usize,
-        /// Needles that it moves by.
+        /// The number of needles by which the loop moves.
         by: u32,
-        /// Most taken, either way.
+        /// The most needles allowed in either direction.
         limit: u32,
     },
-    /// A yarn with too large a number: no machine has that many carriers.
+    /// A yarn with too large a number. The machine has fewer carriers.
     #[error("the chart's yarn {yarn}, counted from 0, is none of {limit}")]
     Yarn {
         /// The yarn.
         yarn: u32,
-        /// How many yarns are taken at most.
+        /// The most yarns allowed.
         limit: u32,
     },
     /// A needle that gets loops and never knits them off, or a chart in which nothing knits.
@@ -109,13 +109,13 @@ pub enum ChartError {
         /// The wale.
         wale: usize,
     },
-    /// Memory was refused.
+    /// The system refused memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
 }
 
 impl ChartError {
-    /// The error with its row counted from the bottom, for a chart of `rows` rows.
+    /// The error with its row counted from the bottom of a chart with `rows` rows.
     #[must_use]
     pub fn from_below(mut self, rows: usize) -> Self {
         if let Self::Ragged { row, .. }

@@ -4,25 +4,25 @@ use texere_core::backend::room_for;
 
 use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, known, sized};
 
-/// The back of a Jacquard picture on two beds: which back needles knit.
+/// The back of a Jacquard picture on two beds, given by the back needles that knit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Backing {
-    /// Every other needle knits, by turns from yarn to yarn and from row to row. The back shows
+    /// Every other needle knits, alternating from yarn to yarn and from row to row. The back shows
     /// flecks of all yarns.
     Birdseye,
-    /// Each of the n yarns in a row knits every n-th needle, always on the same needles. The back
-    /// is light, with upright lines.
+    /// Each of the n yarns of a row knits on every n-th needle, and always on the same needles. The
+    /// back is light, with upright lines.
     Ladder,
 }
 
 impl Chart {
-    /// A chart of a picture. `yarn` gives the yarn at a column and a row, both from 0, with row 0
-    /// at the bottom.
+    /// A chart of a picture. `yarn` gives the yarn at a column and a row, both counted from 0, with
+    /// row 0 at the bottom.
     ///
-    /// Each row of the picture becomes one course for each yarn that occurs in it, by rising
-    /// numbers of yarns. The front needles knit where the picture has the course's yarn. Elsewhere
-    /// the yarn floats without a backing. With one, back needles knit it, half a needle beside the
-    /// front needles.
+    /// Each row of the picture becomes one course for each yarn that occurs in the row, in the
+    /// order of the yarns' numbers. The front needles knit where the picture has the course's yarn.
+    /// Elsewhere the yarn floats. With a backing, some back needles also knit the yarn, half a
+    /// needle beside the front needles.
     ///
     /// **Errors**: [`ChartError::Size`], [`ChartError::Cells`], [`ChartError::Yarn`] and
     /// [`ChartError::OutOfMemory`].

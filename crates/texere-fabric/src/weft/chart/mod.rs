@@ -17,11 +17,12 @@ use texere_core::backend::{filled, room_for};
 
 use super::machine::CARRIERS_MAX;
 
-/// The most wales or rows of a chart.
+/// The most wales, and the most rows, of a chart.
 const CHART_SIDE_MAX: usize = 1 << 16;
 
-/// The most cells in all courses of a chart. Only knitting shows how many loops they make. It takes
-/// up to 160 bytes for each cell before a repeat of more than a million loops is refused.
+/// The most cells in all courses of a chart. The number of loops is known only when the chart has
+/// been knitted. Knitting takes up to 160 bytes for each cell before a repeat of more than a
+/// million loops is refused.
 const CHART_CELLS_MAX: usize = 1 << 22;
 
 /// The most yarns of a chart. Each has a carrier of its own.
@@ -31,11 +32,12 @@ const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Course {
     yarn: u32,
-    /// The row of the drawing that it comes from, from 0 at the bottom.
+    /// The row of the drawing that the course comes from, counted from 0 at the bottom.
     row: u32,
 }
 
-/// A chart: one repeat of stitches, seen from the right side. Each course is of one yarn.
+/// A chart: one repeat of stitches, seen from the right side of the cloth. Each course is of one
+/// yarn.
 ///
 /// ```
 /// use texere_fabric::weft::{Beds, Chart};
@@ -51,12 +53,12 @@ pub struct Chart {
     wales: usize,
     beds: Beds,
     courses: Vec<Course>,
-    /// Cells course by course from the first, each from left to right.
+    /// The cells of all courses from the first course on, each course from left to right.
     cells: Vec<Cell>,
 }
 
 impl Chart {
-    /// A chart of `cells`, given course by course from the first, each from left to right. All
+    /// A chart of `cells`, given course by course from the first one, each from left to right. All
     /// courses are of yarn 0.
     ///
     /// **Errors**: [`ChartError::Size`], [`ChartError::Cells`] and [`ChartError::Ragged`] for the
@@ -90,7 +92,7 @@ impl Chart {
     /// | `RRrr` | a cable: the loops under capitals cross to the right, in front of the others |
     /// | `llLL` | the loops under capitals cross to the left, in front |
     ///
-    /// **Errors**: [`ChartError`] with row, from the top, and column.
+    /// **Errors**: [`ChartError`] with the row, counted from the top, and the column.
     pub fn parse(text: &str, beds: Beds) -> Result<Self, ChartError> {
         let rows: Vec<Vec<char>> = text
             .lines()
@@ -104,10 +106,10 @@ impl Chart {
         Self::from_symbols(wales, rows.len(), beds, |column, row| rows[row][column])
     }
 
-    /// A chart from the symbol at each column and each row, both from 0 and rows from the top. The
-    /// symbols are those of [`Chart::parse`].
+    /// A chart from the symbol at each column and row. Both are counted from 0, and rows from the
+    /// top. The symbols are those of [`Chart::parse`].
     ///
-    /// **Errors**: [`ChartError`] with row, from the top, and column.
+    /// **Errors**: [`ChartError`] with the row, counted from the top, and the column.
     pub fn from_symbols(
         wales: usize,
         rows: usize,
@@ -123,11 +125,11 @@ impl Chart {
         Self::new(wales, beds, cells)
     }
 
-    /// Gives `yarns` to the courses, in turn from the first course on. Where the yarns do not go
-    /// evenly into the courses, the chart is repeated upwards until they do.
+    /// Gives `yarns` to the courses, in turn from the first course on. If the number of courses is
+    /// not a multiple of the number of yarns, the chart is repeated upwards until it is.
     ///
-    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where the repeated chart is too
-    /// large, [`ChartError::Yarn`] for a yarn beyond 65534.
+    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] if the repeated chart is too
+    /// large, and [`ChartError::Yarn`] for a yarn beyond 65534.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};
@@ -168,8 +170,8 @@ impl Chart {
         self.courses.len()
     }
 
-    /// Puts another stitch into a cell. Wales count from 0 at the left, courses from 0 at the
-    /// first.
+    /// Puts another stitch into a cell. Wales are counted from 0 at the left, courses from 0 at the
+    /// bottom.
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Cell, Chart};
@@ -181,8 +183,8 @@ impl Chart {
     /// # Ok::<(), texere_fabric::weft::ChartError>(())
     /// ```
     ///
-    /// **Errors**: [`ChartError::NoCell`] outside the chart, and the errors of [`Chart::new`]. The
-    /// chart is then unchanged.
+    /// **Errors**: [`ChartError::NoCell`] for a cell outside the chart, and the errors of
+    /// [`Chart::new`]. After an error the chart is unchanged.
     pub fn set(&mut self, wale: usize, course: usize, cell: Cell) -> Result<(), ChartError> {
         let (wales, courses) = (self.wales, self.courses());
         if wale >= wales || course >= courses {
@@ -204,8 +206,8 @@ impl Chart {
     fn checked(self) -> Result<Self, ChartError> {
         let on_two = self.beds == Beds::Two;
         let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
-        // For the front and the back needle of each wale: whether it gets loops, and whether it
-        // knits.
+        // For the front and the back needle of each wale, whether the needle gets loops without
+        // knitting, and whether it knits.
         let mut gets = filled("wales of a chart", self.wales, [false; 2])?;
         let mut knits = filled("wales of a chart", self.wales, [false; 2])?;
         for (number, &cell) in self.cells.iter().enumerate() {

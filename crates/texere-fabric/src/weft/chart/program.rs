@@ -5,7 +5,8 @@ use texere_core::backend::{filled, room_for};
 use super::{Beds, Cell, Chart, ChartError};
 use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 
-/// Rack where front and back needles both knit: back needles lie half way between front ones.
+/// Rack with which front and back needles of one wale can both knit: back needles lie half way
+/// between front needles.
 const HALF: f64 = 0.5;
 
 impl Chart {
@@ -13,8 +14,8 @@ impl Chart {
     /// number. Each carrier goes to the right in its first course, to the left in its next one, and
     /// so on.
     ///
-    /// The source of an operation is row × wales + column of its cell, both from 0 with row 0 at
-    /// the bottom. For a Jacquard picture it is that of the pixel.
+    /// The source of an operation is row × wales + column of its cell, both counted from 0, with
+    /// row 0 at the bottom. In a Jacquard picture these are the row and the column of the pixel.
     ///
     /// **Errors**: [`ChartError::OutOfMemory`].
     pub fn program(&self) -> Result<Program, ChartError> {
@@ -25,8 +26,8 @@ impl Chart {
             goes: filled("carriers", carriers as usize, Direction::Left)?,
             operations: Vec::new(),
         };
-        // At the end of a round each wale hangs on the bed of its last stitch. The next round
-        // begins there, and this one has to begin alike.
+        // At the end of a round the loops of each wale hang on the bed of its last stitch. The next
+        // round begins with these beds, and the first round has to begin in the same way.
         for course in 0..self.courses() {
             knitter.follow(course);
         }
@@ -51,7 +52,7 @@ impl Chart {
 /// The state of knitting a chart.
 struct Knitter<'a> {
     chart: &'a Chart,
-    /// The bed on which the loops of each wale hang, where the chart has one bed.
+    /// The bed on which the loops of each wale hang, if the chart has one bed.
     beds: Vec<Bed>,
     /// The last direction of each carrier.
     goes: Vec<Direction>,
@@ -92,8 +93,8 @@ impl Knitter<'_> {
     fn knit(&mut self, course: usize) -> Result<(), ChartError> {
         let chart = self.chart;
         let cells = chart.course(course);
-        // At most, each cell of a course takes a change of beds, two needles and two moves, and
-        // each kind of move takes two racks.
+        // Each cell of a course takes at most eight operations: a change of beds, two stitches,
+        // transfers and racks. The last rack comes once for the course.
         room_for(&mut self.operations, 8 * cells.len() + 1, "a knitting program")?;
         if chart.beds == Beds::One {
             self.change_beds(course, cells);
@@ -156,8 +157,8 @@ impl Knitter<'_> {
         }
     }
 
-    /// Moves loops to other needles by way of the back bed. Loops that come back first lie in
-    /// front.
+    /// Moves loops to other needles by way of the back bed. Loops that come back from the back bed
+    /// first lie in front.
     fn move_loops(&mut self, course: usize, cells: &[Cell]) {
         let mut moves = Vec::new();
         for (wale, cell) in cells.iter().enumerate() {
@@ -178,8 +179,8 @@ impl Knitter<'_> {
         for &(_, _, wale) in &moves {
             self.transfer(wale as i32, Bed::Front, wale as i32, self.source(course, wale));
         }
-        // Moves to the right come before moves to the left. Where two loops come to one needle, the
-        // left one thus comes first.
+        // Moves to the right come before moves to the left. If two loops come to one needle, the
+        // one from the left therefore comes first.
         moves.sort_by_key(|&(behind, by, wale)| (behind, -by, wale));
         let mut racked = 0;
         for (_, by, wale) in moves {

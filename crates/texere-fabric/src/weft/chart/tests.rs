@@ -29,7 +29,7 @@ fn courses_go_to_and_fro() {
     );
     let sources: Vec<_> = chart.program().unwrap().operations.iter().map(|each| each.source).collect();
     assert_eq!(sources, [0, 1, 2, 3, 5, 4, 7, 6]);
-    // Two rows with three yarns in turn repeat after six.
+    // Two rows with three yarns in turn repeat after six courses.
     let chart = Chart::parse("k\nk", Beds::One).unwrap().with_yarns(&[0, 1, 2]).unwrap();
     let carriers: Vec<_> = chart.program().unwrap().operations.iter().map(|each| each.carriers.0).collect();
     assert_eq!(carriers, [1, 2, 3, 1, 2, 3]);
@@ -37,9 +37,10 @@ fn courses_go_to_and_fro() {
 
 #[test]
 fn loops_are_moved_to_the_bed_that_knits_them() {
-    // The first round begins as the last one ended.
+    // The first round begins with the beds with which a round ends.
     assert_eq!(knitted("p\nk", Beds::One), "xfer b0 f0; knit + f0 [1]; xfer f0 b0; knit - b0 [1]");
-    // Rib is not moved, and loops of needles that tuck or miss stay where they hang.
+    // Loops of rib do not change beds, and loops of needles that tuck or miss stay on their
+    // needles.
     assert_eq!(knitted("mt\nkp", Beds::One), "knit + f0 [1]; knit + b1 [1]; tuck - b1 [1]; miss - f0 [1]");
     // Interlock: both beds hold loops, and nothing moves between them.
     assert_eq!(knitted("pk\nkp", Beds::Two), "knit + f0 [1]; knit + b1 [1]; knit - f1 [1]; knit - b0 [1]");
@@ -56,8 +57,8 @@ fn lace_goes_to_the_next_needle() {
         "knit + f0 [1]; knit + f1 [1]; knit + f2 [1]; xfer f0 b0; xfer f2 b2; rack 1; xfer b0 f1; rack -1; xfer b2 f1; \
          rack 0"
     );
-    // The next repeat lies beyond the edge. A loop moves there, and the purling wale comes to the
-    // front.
+    // Beyond the edge lies the next repeat. A loop moves to its first needle, and the loop of the
+    // purl wale comes to the front bed first.
     assert_eq!(
         knitted("p>", Beds::One),
         "xfer f0 b0; knit + b0 [1]; knit + f1 [1]; xfer b0 f0; xfer f1 b1; rack 1; xfer b1 f2; rack 0"

@@ -11,13 +11,13 @@ use super::super::{Bed, LoopRef, Needle};
 pub(super) struct Held {
     /// The number of the loop.
     pub(super) number: u32,
-    /// The round in which it was made.
+    /// The round in which the loop was made.
     pub(super) round: u32,
-    /// The repeat to which it belongs, where it hangs on a needle of repeat 0.
+    /// The repeat to which the loop belongs, when it hangs on a needle of repeat 0.
     pub(super) repeat: i32,
-    /// The number of its last transfer, 0 before any.
+    /// The number of the loop's last transfer, 0 before any.
     pub(super) moved: u32,
-    /// The loop that a split has drawn through it, as seen from it.
+    /// The loop that a split has drawn through this loop, with its repeat relative to this loop.
     pub(super) split: Option<LoopRef>,
 }
 
@@ -43,8 +43,8 @@ pub(super) struct Beds {
 }
 
 impl Beds {
-    /// Empty needles from `low` to `low + width - 1`. With `repeats` these are the needles of one
-    /// repeat, and all others belong to other repeats.
+    /// Empty needles from `low` to `low + width - 1`. With `repeats` they are the needles of one
+    /// repeat, and all other needles belong to other repeats.
     pub(super) fn new(low: i32, width: i32, repeats: bool) -> Result<Self, OutOfMemory> {
         let count = 4 * usize::try_from(width).unwrap_or(0);
         let mut stacks = Vec::new();
@@ -53,8 +53,8 @@ impl Beds {
         Ok(Self { low, width, repeats, stacks, racked: 0 })
     }
 
-    /// Shifts the back bed by `rack` needles. Any fraction puts its needles half way between those
-    /// of the front bed.
+    /// Shifts the back bed by `rack` needles. Any fraction puts the back needles half way between
+    /// front needles.
     pub(super) fn rack(&mut self, rack: f64) {
         let whole = rack.floor();
         self.racked = HALVES * whole as i64 + i64::from(rack > whole);
@@ -66,8 +66,8 @@ impl Beds {
         HALVES * i64::from(needle.number) + racked
     }
 
-    /// The width of `repeats` repeats, in half wales. A loop that hangs this number of repeats
-    /// further on lies this far to the left of its needle in repeat 0.
+    /// The width of `repeats` repeats, in half wales. It is the distance from a needle to the
+    /// needle with the same index in the repeat that lies this number of repeats further on.
     pub(super) fn shift(&self, repeats: i32) -> i64 {
         HALVES * i64::from(repeats) * i64::from(self.width)
     }

@@ -1,4 +1,5 @@
-//! Yarn carriers: whether they are in, where they wait, and the passes and strands that they lay.
+//! Yarn carriers: whether each is in, the place where it waits, and the passes and strands that it
+//! lays.
 
 use std::collections::BTreeSet;
 
@@ -8,11 +9,11 @@ use super::super::{Direction, Needle, Step, Strand};
 #[derive(Debug, Clone, Copy)]
 struct Run {
     direction: Direction,
-    /// Place of its last stitch, in half wales.
+    /// Place of the run's last stitch, in half wales.
     at: i64,
     /// The rows of needles that have stitches at this place: one bit for each row.
     rows: u8,
-    /// Place of its last loop, in half wales.
+    /// Place of the run's last loop, in half wales; none before its first loop.
     looped: Option<i64>,
 }
 
@@ -31,17 +32,18 @@ impl Run {
 #[derive(Debug, Clone, Default)]
 struct Carrier {
     is_in: bool,
-    /// Index of the strand that it lays.
+    /// Index of the strand that the carrier lays.
     strand: Option<usize>,
     run: Option<Run>,
-    /// Its pass, and the set of carriers that make it.
+    /// The carrier's last pass, and the set of carriers that made it.
     pass: Option<(u32, u32)>,
-    /// Number of loops since it came in; and the needle of the last loop, if that needle was empty.
+    /// Number of loops that the carrier has made since it came in.
     loops: u64,
+    /// The direction and the needle of the carrier's last loop, if that needle was empty.
     cast_on: Option<(Direction, Needle)>,
-    /// Place where it waits, in half wales; and the carrier that has laid its yarn on both sides of
-    /// it.
+    /// The place where the carrier waits, in half wales.
     waits: Option<i64>,
+    /// The carrier that has laid its yarn on both sides of this carrier.
     caught_by: Option<u32>,
 }
 
@@ -49,15 +51,17 @@ struct Carrier {
 #[derive(Debug, Default)]
 pub(super) struct Carriers {
     carriers: Vec<Carrier>,
-    /// The carriers that the hook holds.
+    /// The carriers whose yarns the hook holds.
     hook: BTreeSet<u32>,
     /// The places where carriers wait, each with its carrier.
     waiting: BTreeSet<(i64, u32)>,
     /// For each pass, the previous pass of its first carrier.
     pub(super) before: Vec<Option<u32>>,
-    /// The yarns. Floats still have the number of their pass instead of their course.
+    /// The yarns. Until the program ends, floats have the number of their pass in place of their
+    /// course.
     pub(super) strands: Vec<Strand>,
-    /// Where yarns were caught before they went on: the index of the strand, and of its step.
+    /// The last step of each yarn that was caught before the yarn went on: the index of the strand,
+    /// and the index of the step.
     pub(super) caught: Vec<[usize; 2]>,
     repeats: bool,
 }
@@ -66,9 +70,9 @@ pub(super) struct Carriers {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     pub(super) direction: Direction,
-    /// Its place, in half wales.
+    /// The place of the stitch, in half wales.
     pub(super) at: i64,
-    /// One bit, for its row of needles.
+    /// One bit, for the stitch's row of needles.
     pub(super) row: u8,
 }
 
@@ -94,8 +98,8 @@ impl Carriers {
         self.carriers[carrier as usize].loops
     }
 
-    /// Counts a loop of a carrier. If the needle is empty, and the needle before it was empty, too,
-    /// and took the yarn just before in the same direction, returns that needle.
+    /// Counts a loop of a carrier. Returns the needle that took the yarn just before, if it stands
+    /// beside this needle, took the yarn in the same direction, and both needles were empty.
     pub(super) fn cast_on(
         &mut self,
         carrier: u32,
@@ -121,20 +125,20 @@ impl Carriers {
         own.is_in
     }
 
-    /// A carrier that the hook holds and that is none of `carriers`.
+    /// A carrier that the hook holds and that is not among `carriers`.
     pub(super) fn hooked_beside(&self, carriers: &[u32]) -> Option<u32> {
         let taken: BTreeSet<_> = carriers.iter().collect();
-        // The search skips only carriers that are in `taken`, so that it is short however many the
-        // hook holds.
+        // The search skips only carriers that are in `taken`, so that it is short however many
+        // carriers the hook holds.
         self.hook.iter().copied().find(|held| !taken.contains(held))
     }
 
-    /// Gives carriers to the hook.
+    /// Gives the yarns of carriers to the hook.
     pub(super) fn hook(&mut self, carriers: &[u32]) {
         self.hook.extend(carriers);
     }
 
-    /// Lets the hook release a carrier. False if it does not hold it.
+    /// Lets the hook release a carrier's yarn. False if the hook does not hold the yarn.
     pub(super) fn let_go(&mut self, carrier: u32) -> bool {
         self.hook.remove(&carrier)
     }
@@ -145,8 +149,8 @@ impl Carriers {
         self.carriers[carrier as usize].is_in || self.repeats
     }
 
-    /// The pass of the next stitch of a set of carriers. `newest` is the latest pass that has loops
-    /// on the needle.
+    /// The pass of the next stitch of a set of carriers: the carriers' last pass, or a new one.
+    /// `newest` is the latest pass that has loops on the needle.
     pub(super) fn pass(&mut self, set: u32, carriers: &[u32], spot: Spot, newest: Option<u32>) -> u32 {
         let Some(&first) = carriers.first() else { return 0 };
         let Carrier { run, pass, .. } = self.carriers[first as usize];
@@ -172,7 +176,7 @@ impl Carriers {
     }
 
     /// Moves a carrier that has set off to a stitch, and adds the stitch to its yarn. Returns the
-    /// carrier whose yarn has caught this one's.
+    /// carrier whose yarn has caught the yarn of this carrier.
     pub(super) fn lay(&mut self, carrier: u32, [set, pass]: [u32; 2], spot: Spot, step: Step) -> Option<u32> {
         let Spot { direction, at, row } = spot;
         let own = &mut self.carriers[carrier as usize];
@@ -206,7 +210,7 @@ impl Carriers {
         caught
     }
 
-    /// Records the carriers that wait between two consecutive loops of carrier `by`: its yarn
+    /// Records the carriers that wait between two consecutive loops of carrier `by`, whose yarn
     /// catches theirs. Yarn that is carried past its last loop is drawn back, and catches nothing.
     fn catch(&mut self, by: u32, [left, right]: [i64; 2]) {
         while let Some(&(place, other)) = self.waiting.range((left + 1, 0)..(right.max(left + 1), 0)).next() {

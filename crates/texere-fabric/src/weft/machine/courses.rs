@@ -1,23 +1,24 @@
-//! The course of each pass of a carrier.
+//! The course of each pass of a carrier. A pass is a row of stitches that the same carriers make in
+//! one direction. No stitch of a pass is drawn through another stitch of the pass.
 
-/// A pass that is drawn through loops of another one.
+/// A pass that is drawn through loops of another pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Above {
     /// The upper pass.
     pub(super) pass: u32,
-    /// The pass that it is drawn through.
+    /// The lower pass, through whose loops the upper one is drawn.
     pub(super) below: u32,
-    /// Rounds of the repeat between them; 0 where nothing repeats.
+    /// Rounds of the repeat between both passes; 0 if nothing repeats.
     pub(super) rounds: u32,
 }
 
-/// Sweeps over all passes that show how many courses a round adds.
+/// Number of sweeps over all passes that are made to find how many courses a round adds.
 const ROUNDS: u32 = 4;
 
-/// Sweeps over all passes before a repeat is taken to need another height.
+/// Number of sweeps over all passes after which another height of the repeat is tried.
 const SWEEPS_MAX: u32 = 64;
 
-/// The course of each pass, and the number of courses of a repeat; none where nothing repeats.
+/// The course of each pass, and the number of courses of a repeat; none if nothing repeats.
 ///
 /// A pass lies one course above the highest pass that it is drawn through. A pass that is drawn
 /// through nothing lies in the course of its carrier's previous pass (`before`), and a carrier's
@@ -36,7 +37,7 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
         sweep(before, aboves, &mut courses, 0);
         added = top(&courses) - under;
     }
-    // The last height always suffices: no closed chain of loops has more passes.
+    // The last height always suffices, because no closed chain of loops has more passes.
     let heights = [added.max(1), added + 1, before.len().max(1) as u32];
     for height in heights {
         courses.fill(0);
@@ -47,8 +48,8 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
     (courses, Some(heights[2]))
 }
 
-/// Raises each pass above the passes that it is drawn through. These count `height` courses lower
-/// for each round between. Returns whether any pass was too low.
+/// Raises each pass above the passes that it is drawn through. A pass of an earlier round counts as
+/// `height` courses lower for each round between. Returns whether any pass was too low.
 fn sweep(before: &[Option<u32>], aboves: &[Above], courses: &mut [u32], height: u32) -> bool {
     let (mut changed, mut rest) = (false, aboves);
     for (pass, &previous) in before.iter().enumerate() {

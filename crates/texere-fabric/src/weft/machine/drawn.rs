@@ -1,10 +1,10 @@
 //! Yarn that no loop holds: its carrier draws it back.
 //!
-//! A yarn is held by its loops, and where another yarn has caught it. Between two such places it is
-//! taut, and floats past the needles between them. Anything that it did further out, on the way to
-//! where its carrier was parked, is no part of the cloth. Neither is anything before the first
-//! place that holds it, or after the last one. A loop that was drawn through nothing and fell off
-//! its needle holds its yarn no more than a float does.
+//! A yarn is held by its loops, and at places where another yarn has caught it. Between two places
+//! that hold it the yarn is taut, and floats past the needles between them. Yarn that was laid
+//! further out, on the way to the place where the carrier was parked, is drawn back and is no part
+//! of the cloth. Neither is yarn before the first place that holds it, or after the last one. A
+//! loop that was drawn through nothing and fell off its needle does not hold its yarn.
 
 use texere_core::OutOfMemory;
 use texere_core::backend::room_for;
@@ -43,7 +43,8 @@ pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMem
         let round = strand.onward.zip(width).map(|([right, _], width)| (right * width) as f32);
         let ends = round.and_then(|round| Some([held.last()?.1 - round, held.first()?.1 + round]));
         match strand.steps.first() {
-            // A yarn that nothing holds lies straight across all repeats.
+            // A yarn that goes on from repeat to repeat and that nothing holds lies straight across
+            // all repeats.
             Some(_) if held.is_empty() && round.is_some() => continue,
             Some(&Step::Float { source, .. }) if held.is_empty() => loose.push((strand.carrier, source)),
             _ => {}
@@ -72,8 +73,8 @@ pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMem
     leave_out(run)
 }
 
-/// For each loop, whether it holds its yarn. A dropped loop does not, if it was drawn through
-/// nothing and nothing was drawn through it.
+/// For each loop, whether it holds its yarn. A dropped loop does not hold its yarn if it was drawn
+/// through nothing and nothing was drawn through it.
 fn holding(run: &Run<'_>) -> Result<Vec<bool>, OutOfMemory> {
     let mut holding = Vec::new();
     room_for(&mut holding, run.loops.len(), "what holds a yarn")?;
@@ -84,7 +85,7 @@ fn holding(run: &Run<'_>) -> Result<Vec<bool>, OutOfMemory> {
     Ok(holding)
 }
 
-/// Removes loops that no yarn makes any more. None of them is drawn through another.
+/// Removes loops that no yarn makes any more. None of these is drawn through another loop.
 fn leave_out(run: &mut Run<'_>) -> Result<(), OutOfMemory> {
     let steps = || run.carriers.strands.iter().flat_map(|strand| &strand.steps);
     let made = steps().filter(|step| matches!(step, Step::Loop { .. })).count();

@@ -1,4 +1,5 @@
-//! Faults of a knitting program: what a machine could not do, and what a knitter would not want.
+//! Faults of a knitting program: operations that a machine can't carry out, and results that a
+//! knitter would not want.
 
 use std::fmt;
 
@@ -9,48 +10,48 @@ use texere_core::counted;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FaultKind {
-    /// A carrier that is not in makes a stitch. It counts as brought in there.
+    /// A carrier that is not in makes a stitch. The machine brings it in before the stitch.
     CarrierNotIn,
-    /// A carrier that is already in is brought in. It stays where it is.
+    /// A carrier that is already in is brought in. The machine leaves it as it is.
     CarrierIn,
-    /// The hook takes a carrier, in or out, while it still holds the named one. It counts as
-    /// holding both.
+    /// The hook takes a carrier, in or out, while it still holds the named one. The machine lets it
+    /// hold both.
     HookHolds(String),
-    /// The hook lets go of a carrier that it does not hold.
+    /// The hook releases a carrier that it does not hold.
     HookWithout,
     /// A carrier that is not in is taken out.
     OutWithoutIn,
-    /// The beds are racked further than the machine can. They count as racked so, unless that is
-    /// beyond any needle.
+    /// The beds are racked further than the machine's limit. The program goes on with that rack. A
+    /// rack of more than [`NEEDLE_MAX`](super::super::NEEDLE_MAX) needles is left out.
     Racked {
         /// The rack, in needles.
         rack: f64,
         /// The furthest rack of the machine, in needles.
         limit: f64,
     },
-    /// Loops go to another needle of the same bed. They count as moved there.
+    /// Loops go to another needle of the same bed. The machine moves them.
     SameBed(Needle),
-    /// Loops go to a needle that does not lie opposite, as the beds are racked. They count as moved
-    /// there.
+    /// Loops go to a needle that does not lie opposite at the present rack. The machine moves them.
     NotAligned {
-        /// The needle that they go to.
+        /// The needle that the loops go to.
         to: Needle,
         /// The rack, in needles.
         rack: f64,
     },
-    /// A stitch is made on a slider, which can only hold loops. It counts as made there.
+    /// A stitch is made on a slider, which can only hold loops. The machine makes it there.
     OnSlider,
-    /// In a repeat, a needle holds loops and never knits: they pile up.
+    /// In a repeat, a needle holds loops and never knits, so that loops pile up.
     NeverKnits,
-    /// Loops fall off a needle without being knitted; this many.
+    /// Loops fall off a needle without being knitted. The value is the number of loops.
     Dropped(u32),
-    /// Loops hang on needles at the end; this many. The needle of the fault is the first of them.
+    /// Loops hang on needles at the end. The value is the number of loops. The fault names the
+    /// first needle that holds any.
     LeftOnNeedles(u32),
     /// A yarn floats past more needles than it should.
     LongFloat {
-        /// Number of needles that it passes.
+        /// Number of needles that the yarn passes.
         needles: u32,
-        /// The most.
+        /// The most that the machine's limits allow.
         limit: u32,
     },
     /// A carrier is brought in and passes needles, but no loop holds its yarn. The yarn is left out
@@ -58,34 +59,34 @@ pub enum FaultKind {
     Loose,
     /// Two empty needles next to each other take a yarn one after the other. Until the next course
     /// the yarn runs straight through their hooks, and may slip off. A program gets this fault
-    /// once, for the first such pair.
+    /// once, for its first pair of needles.
     CastOn {
-        /// The needle that takes it first.
+        /// The needle that takes the yarn first.
         beside: Needle,
         /// Number of further pairs.
         others: u32,
     },
     /// A carrier is taken out after a single loop, from which its yarn may slip. A program gets
-    /// this fault once, for the first such carrier.
+    /// this fault once, for the first carrier.
     OnlyLoop {
-        /// Number of further times.
+        /// Number of further carriers that are taken out after a single loop.
         others: u32,
     },
     /// A needle holds more loops than it should.
     Piled {
-        /// Number of loops.
+        /// Number of loops on the needle.
         loops: u32,
-        /// The most.
+        /// The most that the machine's limits allow.
         limit: u32,
     },
-    /// A carrier waits between needles, while the named one lays its yarn on both sides of it. When
-    /// the waiting carrier goes on, its yarn is caught behind the other yarn.
+    /// A carrier waits between needles, while the named carrier lays its yarn on both sides of the
+    /// waiting one. When the waiting carrier goes on, its yarn is caught behind the other yarn.
     Tangled(String),
 }
 
 impl FaultKind {
-    /// Whether a machine could not do it. Any other fault can be knitted, but the cloth may not be
-    /// what was meant.
+    /// Whether a real machine can't carry out the operation. A program with any other fault can be
+    /// knitted, but the cloth may not be what was meant.
     #[must_use]
     pub const fn is_error(&self) -> bool {
         !matches!(
@@ -102,11 +103,11 @@ impl FaultKind {
     }
 }
 
-/// A fault of a knitting program, and where it is. No fault stops the machine; each kind says what
+/// A fault of a knitting program, and its place. No fault stops the machine. Each kind says what
 /// the machine does instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// Its kind.
+    /// The kind of the fault.
     pub kind: FaultKind,
     /// The operation's [`source`](super::super::Operation::source): a line, or a cell of a chart.
     pub source: u32,
@@ -192,7 +193,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Words for `others` further faults of a kind; empty for none.
+/// Words for `others` further faults of a kind; empty if there are none.
 fn more(others: u32, one: &str) -> String {
     if others == 0 { String::new() } else { format!("; {} like that", counted(others, one)) }
 }

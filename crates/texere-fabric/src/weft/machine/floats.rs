@@ -6,7 +6,8 @@ use super::run::Run;
 
 /// Records floats past more than `limit` needles. A repeat is `width` needles wide.
 ///
-/// A yarn may be caught further out than its next loop. It floats past all needles up to there.
+/// A yarn may be caught further out than its next loop. It then floats past all needles up to the
+/// place where it is caught.
 pub(super) fn long(run: &mut Run<'_>, width: Option<i32>, limit: u32) {
     let mut found = Vec::new();
     for strand in &run.carriers.strands {

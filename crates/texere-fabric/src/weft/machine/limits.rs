@@ -1,6 +1,6 @@
 //! The limits of knitting machines, and of the size of programs.
 
-/// The highest number of a needle that is taken, on either side of needle 0.
+/// The highest number of a needle that is allowed, on either side of needle 0.
 pub const NEEDLE_MAX: i32 = 1 << 16;
 
 /// The most loops of a program.
@@ -12,14 +12,14 @@ pub const STACK_MAX: usize = 256;
 /// The most faults that [`Knit::faults`](crate::weft::Knit::faults) lists.
 pub(super) const FAULTS_LISTED: usize = 1000;
 
-/// The most entries of [`Stitches::parents`](crate::weft::Stitches::parents): splits can draw any
-/// number of loops through the same ones.
+/// The most entries of [`Stitches::parents`](crate::weft::Stitches::parents). The number of loops
+/// does not limit them, because splits can draw any number of loops through the same loops.
 pub(super) const PARENTS_MAX: usize = 1 << 28;
 
-/// The most carriers and sets of carriers.
+/// The most carriers, and the most sets of carriers.
 pub(in crate::weft) const CARRIERS_MAX: usize = 1 << 16;
 
-/// The limits of a knitting machine. The default has the usual limits of a V-bed machine.
+/// The limits of a knitting machine. The default has the limits that V-bed machines usually have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Machine {
     /// The furthest rack to either side, in needles. Default: 4.

@@ -1,4 +1,4 @@
-//! The knitting machine: it runs a program, and records which loop is drawn through which.
+//! The knitting machine, which runs a program and records which loop is drawn through which.
 
 mod beds;
 mod carriers;
@@ -21,8 +21,8 @@ use beds::{Beds, Held, Slot};
 use run::Run;
 
 /// The most rounds in which a repeat is knitted until the same loops hang on needles at the end of
-/// each round. Most programs take two rounds. Loops that are transferred again and again without
-/// being knitted take more.
+/// each round. Most programs take two rounds. If loops are transferred in every round without being
+/// knitted, a program takes more.
 const ROUNDS_MAX: u32 = 8;
 
 /// The result of a knitting program.
@@ -30,8 +30,8 @@ const ROUNDS_MAX: u32 = 8;
 pub struct Knit {
     /// The loops and yarns of the cloth.
     pub stitches: Stitches,
-    /// Faults of the program in the order of its operations, 1000 at most. For a
-    /// repeat they are the faults of its last round, which come back in every later one.
+    /// Faults of the program in the order of its operations, 1000 at most. For a repeat they are
+    /// the faults of its last round, which occur again in every later round.
     pub faults: Vec<Fault>,
     /// Number of faults that are not listed.
     pub unlisted: u64,
@@ -41,9 +41,8 @@ impl Machine {
     /// Runs a program.
     ///
     /// A program that is a repeat runs round after round, until the same loops hang on its needles
-    /// at the end of each round. The last round is the cloth. Each pass of a carrier is then a
-    /// strand that goes on in the repeat beside it, unless the program itself brings the carrier
-    /// in.
+    /// at the end of each round. The last round gives the cloth. Each pass of a carrier is a strand
+    /// that goes on in the repeat beside it, unless the program itself brings the carrier in.
     ///
     /// No fault stops the machine. [`FaultKind`] says what the machine does instead.
     ///
@@ -126,7 +125,7 @@ fn check(program: &Program) -> Result<usize, WeftError> {
     Ok(loops)
 }
 
-/// The lowest needle, and the number of needles up to the highest one.
+/// The lowest needle of the beds, and the number of needles from it to the highest one.
 fn beds_of(program: &Program) -> Result<(i32, i32), WeftError> {
     let (mut low, mut high) = (i32::MAX, i32::MIN);
     for (operation, Operation { instruction, .. }) in (1..).zip(&program.operations) {
@@ -158,7 +157,8 @@ fn beds_of(program: &Program) -> Result<(i32, i32), WeftError> {
     }
 }
 
-/// Fills in what only the end of the program shows: courses, fates, heads, and faults of the whole.
+/// Completes the run at the end of the program, when the courses, fates and heads of all loops and
+/// the faults of the whole program are known.
 fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, FabricError> {
     left(&mut run, width.is_some());
     let aboves = run.aboves();
@@ -200,7 +200,7 @@ fn left(run: &mut Run<'_>, repeats: bool) {
     }
     for (index, stack) in hung {
         let (needle, slot) = (run.beds.needle(index), Slot { index, repeat: 0 });
-        // The first round may begin with other needles than later rounds do.
+        // The first round may begin with loops on other needles than later rounds do.
         if repeats && stack.iter().any(|held| run.round - held.round + 1 >= ROUNDS_MAX) {
             run.at_source(run.loops[stack[0].number as usize].source);
             run.fault(FaultKind::NeverKnits, Some(needle), None);

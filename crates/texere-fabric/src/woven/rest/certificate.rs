@@ -1,5 +1,5 @@
-//! The certificate: surfaces are measured as drawn, and threads made thinner where they lack
-//! clearance.
+//! The certificate: surfaces are measured as drawn, and threads are made thinner where they lack
+//! clearance or bend too tightly.
 
 use std::ops::ControlFlow;
 
@@ -13,34 +13,34 @@ use crate::{Drawdown, FabricError, NO_CROSSING, Woven};
 /// The clearance that every pair of surfaces is brought to.
 const WANTED: f64 = 0.988;
 
-/// The greatest clearance of a contact that is looked for.
+/// The largest clearance of the contacts that are looked for.
 const NEAR: f64 = 0.99;
 
-/// The clearance that is good enough to end with.
+/// The clearance with which the rounds may end.
 const ENOUGH: f64 = 0.986;
 
-/// The radius that every bend is brought to, over how far the thread reaches into it.
+/// The radius that every bend is brought to, as a multiple of how far the thread reaches into it.
 const BENDS_WANTED: f64 = 1.003;
 
-/// The most rounds.
+/// The most rounds in which threads are made thinner.
 const ROUNDS: u32 = 10;
 
-/// The greatest loss of a half width or a half height in a round, as a share.
+/// The largest loss of a half width or a half height in a round, as a share.
 const LOST_MOST: f64 = 0.06;
 
-/// The greatest loss of a half height in a round for the sake of a bend, as a share.
+/// The largest loss of a half height in a round because of a tight bend, as a share.
 const BENT_MOST: f64 = 0.25;
 
-/// The least share of a half width or a half height at rest that is left. Thinner threads are no
-/// cloth.
+/// The least share of a half width or a half height at rest that is left. Thinner threads would no
+/// longer look like cloth.
 const KEPT_LEAST: f32 = 0.6;
 
-/// Threads beyond a repeat that are measured with it, where the cloth has them.
+/// Number of threads beyond a repeat that are measured with it, if the cloth has them.
 const BEYOND: usize = 4;
 
 /// The result of a round.
 struct Round {
-    /// The clearance, up to what is enough, and the tightest bend, up to what is no fold.
+    /// The clearance, [`ENOUGH`] at most, and the tightest bend, 1 at most.
     measured: [f64; 2],
     /// The clearance of surfaces, [`NEAR`] at most.
     clearance: f64,
@@ -49,8 +49,8 @@ struct Round {
 }
 
 /// Measures surfaces and thins threads, in rounds. Returns the clearance before and after, the
-/// tightest bend after, and the number of rounds. Where no round makes surfaces clear, threads stay
-/// as in the best one.
+/// tightest bend after, and the number of rounds. If no round makes surfaces clear, threads are
+/// left as in the best round.
 pub(super) fn certify(
     cloth: &Woven,
     resting: &mut RestingRepeat,
@@ -71,7 +71,7 @@ pub(super) fn certify(
         known.retain(|contact: &Contact| !contact.places.iter().any(|place| fresh[first(&yarns, place)]));
         known.extend(found.worst);
         let now = known.iter().map(|contact| contact.ratio).fold(found.min.min(NEAR), f64::min);
-        // Only the first round has measured all contacts that are clear enough.
+        // Only the first round has measured all contacts up to [`NEAR`].
         least = if round == 0 { [now; 2] } else { [least[0], now.min(WANTED)] };
         tight.retain(|(_, place)| !fresh[first(&yarns, place)]);
         tight.extend(bends_up_to(&yarns, settings, BENDS_WANTED, |point| fresh[point])?);
@@ -101,7 +101,8 @@ fn first(yarns: &Yarns, place: &YarnPlace) -> usize {
     yarns.layout().offsets()[place.yarn] as usize + place.interval
 }
 
-/// Whether the interval from each control point on has changed. Four control points make it.
+/// For each control point, whether the interval that begins there has changed. Four control points
+/// shape an interval.
 fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     let differs: Vec<bool> =
         before.points().iter().zip(after.points()).map(|(one, two)| one != two).collect();
@@ -109,8 +110,9 @@ fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     (0..differs.len()).map(near).collect()
 }
 
-/// The intervals that are not copies of others, by the number of their first control point: those
-/// at crossings of the first repeat and some threads more, and of the last threads.
+/// For each control point, whether the interval that begins there is measured. Intervals that are
+/// copies of others are not: only those at crossings of the first repeat and some more threads, and
+/// of the last threads, are measured.
 fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     let [ends, picks] = [piece.warp().len(), piece.weft().len()];
     let counts =
@@ -123,8 +125,8 @@ fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     sources.iter().map(|source| *source == NO_CROSSING || at(source)).collect()
 }
 
-/// The cloth without whole repeats: one repeat and some more threads are left, with both edges as
-/// they are.
+/// The cloth without most of its repeats. One repeat and some more threads are left, with both
+/// edges as they are.
 pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
     let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
@@ -133,8 +135,8 @@ pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricErr
     cloth.like(drawdown, warp, weft)
 }
 
-/// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts
-/// at a crossing, and less high where they bend more tightly than they reach.
+/// Makes threads thinner where contacts are nearer than [`WANTED`]. The worst contact at a crossing
+/// decides. Makes threads less high where they bend more tightly than [`BENDS_WANTED`].
 fn thin(
     resting: &mut RestingRepeat,
     piece: &Woven,
@@ -164,7 +166,8 @@ fn thin(
                 (dz / f64::from(point.half_height())).powi(2),
             );
             let (wide, high) = (wide / (wide + high), high / (wide + high));
-            // The least loss of both together, where `wide` and `high` are their weights.
+            // These losses of width and height have the least sum of squares among all that,
+            // weighted by `wide` and `high`, make up what is lacking.
             let both = wide * wide + high * high;
             keep(place, [1.0 - lacking * wide / both, 1.0 - lacking * high / both]);
         }

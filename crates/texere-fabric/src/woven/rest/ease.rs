@@ -4,26 +4,27 @@ use glam::DVec2;
 
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// The most rounds in which points are moved.
+/// The most rounds in which points are moved to ease bends.
 const EASINGS: usize = 40;
 
-/// The share of the way to the straight line between its neighbours that a point is moved by.
+/// The step of a point in a round, as a share of its second difference in height.
 const MOVED: f64 = 0.1;
 
-/// The least radius of a bend that is aimed at, over how far the thread reaches into it.
+/// The radius over how far the thread reaches into the bend from which a bend needs no easing.
 const WIDE: f64 = 1.02;
 
-/// The last stop of a change of sides, at the second crossing.
+/// Index of the last stop of a change of sides, at the second crossing.
 const LAST: usize = CHANGE_POINTS + 1;
 
 /// Moves the stops between two crossings up or down where the spline through them would bend more
 /// tightly than the thread is thick. `turns` says whether the thread also changes sides before the
-/// first crossing, and after the second one: there it is taken to bend as if mirrored.
+/// first crossing, and after the second one. If it does, the path beyond that crossing is taken as
+/// the mirror image of the path on this side.
 pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
     let place = |stop: &Stop| DVec2::new(stop.along, stop.z);
     for _ in 0..EASINGS {
         let at = stops.each_ref().map(place);
-        // The second differences.
+        // The second differences of the stops.
         let second: [DVec2; LAST + 1] = std::array::from_fn(|stop| match stop {
             0 | LAST => DVec2::ZERO,
             stop => at[stop - 1] - 2.0 * at[stop] + at[stop + 1],
@@ -37,7 +38,7 @@ pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
         let mut moves = [0.0; LAST + 1];
         for stop in 1..LAST {
             let tangent = (at[stop + 1] - at[stop - 1]) / 2.0;
-            // By the spline's second derivatives on both sides.
+            // From the spline's second derivatives on both sides of the stop.
             let turning = [stop - 1, stop + 1]
                 .map(|beside| tangent.perp_dot(2.0 * second[stop] - second[beside]).abs());
             if is_tight(stop, turning[0].max(turning[1]), tangent.length()) {

@@ -1,4 +1,4 @@
-//! Woven cloth at rest: its crossings settle on a device, and its yarns follow from them.
+//! Woven cloth at rest. Its crossings settle on a device, and its yarns follow from the crossings.
 
 mod certificate;
 mod ease;
@@ -21,39 +21,42 @@ use self::resting::RestingRepeat;
 pub use self::stretch::Stretch;
 use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
-/// The shares of the progress at which crossings have settled, and at which surfaces are clear.
+/// The share of the progress at which crossings have settled.
 const SETTLED: f64 = 0.5;
+/// The share of the progress at which surfaces have been measured, and threads made thinner.
 const CERTIFIED: f64 = 0.95;
 
 /// Woven cloth that has come to rest.
 #[derive(Debug, Clone)]
 pub struct WovenRest {
-    /// Its yarns, in the order of [`Woven::yarns`].
+    /// The yarns of the cloth, in the order of [`Woven::yarns`].
     pub yarns: Yarns,
-    /// Ends and picks that have settled: the smallest repeat of threads and crossings, or the whole
-    /// cloth where nothing repeats.
+    /// Numbers of ends and picks that have settled: the smallest repeat of threads and crossings,
+    /// or the whole cloth if nothing repeats.
     pub repeat: BySet<usize>,
-    /// Passes of the crossings, and what the last one has seen.
+    /// The number of passes over the crossings, and the measures of the last pass.
     pub crossings: CrossingsRest,
-    /// The least clearance of surfaces, before any thread was made thinner for it and after; 0.99
-    /// at most, contacts beyond are not looked for.
+    /// The least clearance of surfaces, before any thread was made thinner and afterwards. It is
+    /// 0.99 at most, because wider contacts are not looked for.
     pub clearance: [f64; 2],
-    /// The least radius of curvature over how far the thread reaches into the bend; 1 at most,
-    /// wider bends are not looked for.
+    /// The least radius of curvature over how far the thread reaches into the bend. It is 1 at
+    /// most, because wider bends are not looked for.
     pub bend: f64,
-    /// Rounds in which threads were made thinner where they lacked clearance.
+    /// Number of rounds in which threads were made thinner.
     pub rounds: u32,
-    /// The share of its area that each set keeps, in the mean.
+    /// The share of its area that each set keeps, as the mean over all crossings.
     pub area: BySet<f64>,
-    /// The share of its area that each set keeps at its worst place.
+    /// The share of its area that each set keeps at its worst crossing.
     pub area_least: BySet<f64>,
-    /// The share of its area that each set lost for the sake of clearance, in the mean.
+    /// The share of its area that each set lost when threads were made thinner, as the mean over
+    /// all crossings.
     pub area_lost: BySet<f64>,
 }
 
 impl Woven {
-    /// The problem of the cloth's crossings: its smallest repeat, or all of it where nothing
-    /// repeats. The last threads lie beside the first ones, so that something holds every edge.
+    /// The problem of the cloth's crossings: the smallest repeat of the cloth, or the whole cloth
+    /// if nothing repeats. The last threads lie beside the first ones, so that something holds
+    /// every edge.
     #[must_use]
     pub fn crossings(&self) -> Crossings {
         Problem::new(self).crossings
@@ -62,14 +65,15 @@ impl Woven {
     /// Lets the cloth come to rest on `backend` as `finish` asks. Threads flatten, shift and share
     /// the crimp so that the energy of their crossings is least ([`texere_core::crossings`]), and
     /// are drawn along arcs round one another. Threads are made thinner where surfaces lack
-    /// clearance. `tension` is that of the yarns' splines, from 0 to below 1. A thread's given
-    /// [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
-    /// [`Woven::shape`]. `progress` gets the share of the work done; `Break` ends it.
+    /// clearance. `tension` is the tension of the yarns' splines, from 0 to below 1. A thread's
+    /// given [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
+    /// [`Woven::shape`]. `progress` gets the share of the work done. `Break` ends the call with
+    /// [`FabricError::Cancelled`].
     ///
-    /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course,
+    /// **Errors**: [`FinishError::Woven`] if `finish` asks for a length, a press or a course,
     /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a
-    /// backend that settles no crossings or a device that fails, [`FinishError::Fabric`] as
-    /// [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()) have it.
+    /// backend that settles no crossings or a device that fails, and [`FinishError::Fabric`] with
+    /// the errors of [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()).
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -122,7 +126,8 @@ impl Woven {
         })
     }
 
-    /// The cloth's crossings at rest, before surfaces are measured.
+    /// The cloth's crossings at rest, before surfaces are measured, and the report on how they came
+    /// to rest.
     fn resting(
         &self,
         finish: &Finish,

@@ -5,34 +5,37 @@ use texere_core::crossings::StraightPassage;
 use super::ease::ease;
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// Place of a float's control point next to a change of sides, as a share of the way to the next
-/// crossing. The steps of the spline then grow slowly, and it does not swing out.
+/// Place of a float's control point beside a change of sides, as a share of the way to the next
+/// crossing. With this point the steps of the spline grow slowly, so that the spline does not swing
+/// out.
 const FLOAT_STEP: f64 = 0.3;
 
-/// Parts of each arc, and of the straight line between them, whose lengths are added up.
+/// Number of parts into which each arc, and the straight line between the arcs, is divided.
 const PARTS: usize = 8;
 
-/// Halvings of the search for a slope.
+/// Number of halvings in the search for a slope.
 const HALVINGS: usize = 30;
 
 /// A thread at a crossing, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station {
-    /// Number of the crossed thread, from 0.
+    /// Number of the crossed thread, counted from 0.
     pub(super) number: usize,
     /// Place of the crossed thread along this one.
     pub(super) at: f64,
-    /// Half width and half height of the crossed thread, and the height of its middle.
+    /// Half width and half height of the crossed thread.
     pub(super) crossed: [f64; 2],
+    /// Height of the crossed thread's middle.
     pub(super) crossed_z: f64,
-    /// 1 where this thread lies on top, -1 where it lies below.
+    /// 1 if this thread lies on top, -1 if it lies below.
     pub(super) side: f64,
-    /// The thread's own place across, and its height.
+    /// Place of this thread across its own direction.
     pub(super) across: f64,
+    /// Height of this thread.
     pub(super) z: f64,
-    /// Its half height at rest.
+    /// Half height of this thread at rest.
     pub(super) half_height: f64,
-    /// Half width and half height that are drawn.
+    /// Half width and half height of this thread that are drawn.
     pub(super) drawn: [f64; 2],
 }
 
@@ -48,8 +51,8 @@ impl Station {
     }
 }
 
-/// A change of sides between two crossings, along arcs round both crossed threads and the straight
-/// line that touches both.
+/// A change of sides between two crossings. The thread follows an arc round each crossed thread,
+/// and the straight line that touches both arcs.
 pub(super) struct Change<'a> {
     way: Way<'a>,
     line: [[f64; 2]; LINE],
@@ -59,10 +62,11 @@ pub(super) struct Change<'a> {
     lengths: [f64; LINE],
 }
 
-/// Points of the line along which lengths are added up: of two arcs and what lies between them.
+/// Number of points of the line along which lengths are added up. The line has two arcs and a
+/// straight piece between them.
 const LINE: usize = 3 * PARTS + 1;
 
-/// Steps from one control point to the next.
+/// Number of steps from control point to control point between two crossings.
 const STEPS: f64 = (CHANGE_POINTS + 1) as f64;
 
 impl<'a> Change<'a> {
@@ -88,8 +92,8 @@ impl<'a> Change<'a> {
         stops.into_iter().skip(1).take(CHANGE_POINTS)
     }
 
-    /// The points from the first crossing to where the thread is cut off at `edge`, about as far
-    /// apart as in a whole change.
+    /// The points from the first crossing to the place where the thread is cut off, at `edge`. They
+    /// are about as far apart as in a whole change.
     pub(super) fn until(&self, edge: f64) -> impl Iterator<Item = Stop> {
         let [one, _] = self.way.stations;
         let x = (edge - one.at).abs();
@@ -139,8 +143,8 @@ pub(super) fn float(one: &Station, two: &Station, changes: [bool; 2]) -> impl It
     points.into_iter().zip(changes).filter_map(|(point, changes)| changes.then_some(point))
 }
 
-/// The way from one crossed thread to the next, seen from the middle of the first. The thread
-/// begins on top.
+/// The way from one crossed thread to the next, in coordinates whose origin is the middle of the
+/// first crossed thread, and in which the thread begins on top.
 struct Way<'a> {
     stations: [&'a Station; 2],
     across: f64,
@@ -157,8 +161,8 @@ impl<'a> Way<'a> {
         way
     }
 
-    /// The room that is left across a line of this slope between both crossed threads, beside the
-    /// thread itself.
+    /// The room that is left between both crossed threads, across a line of this slope, once the
+    /// thread itself has its place.
     fn room(&self, slope: f64) -> f64 {
         let (s, c) = slope.sin_cos();
         let [one, two] =
@@ -166,7 +170,8 @@ impl<'a> Way<'a> {
         self.across * s + self.rise * c - one - two
     }
 
-    /// The least slope at which the thread has room, or else the slope at which it lacks least.
+    /// The least slope at which the thread has room or, if there is none, the slope at which it
+    /// lacks the least room.
     fn touching(&self) -> f64 {
         let [one, two] = self.stations;
         let halves = [one, two].map(|at| at.crossed.map(|half| half as f32));
@@ -184,7 +189,8 @@ impl<'a> Way<'a> {
         high
     }
 
-    /// The arc round the first thread, the straight line, the arc round the second one.
+    /// The points of the arc round the first crossed thread, of the straight line, and of the arc
+    /// round the second one.
     fn line(&self) -> [[f64; 2]; LINE] {
         let first = |part: usize| self.arc(self.stations[0], 1.0, part as f64 / PARTS as f64);
         // The second arc is the first one turned by half a turn.
@@ -213,8 +219,8 @@ impl<'a> Way<'a> {
         })
     }
 
-    /// A place on the arc round a crossed thread, from its middle, at `share` of the way from the
-    /// crossing to the straight line.
+    /// A place on the arc round a crossed thread, relative to that thread's middle. `share` is the
+    /// share of the way from the crossing to the straight line.
     fn arc(&self, at: &Station, sign: f64, share: f64) -> [f64; 2] {
         let (s, c) = (share * self.slope).sin_cos();
         let [a, b] = at.crossed;
@@ -227,14 +233,14 @@ impl<'a> Way<'a> {
         [x + half_height * s, b * b * c / reach + half_height * c]
     }
 
-    /// Distance of the thread from touching each thread that it crosses. At the crossing itself it
-    /// may be held away.
+    /// Distance by which the thread stays clear of touching each thread that it crosses, because
+    /// other threads may hold it away at the crossing.
     fn lifts(&self) -> [f64; 2] {
         self.stations.map(|at| at.side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height)
     }
 }
 
-/// The rest of a lift at a share of half the way to the other crossing.
+/// The share of a lift that is left at a share of half the way to the other crossing.
 fn fading(share: f64) -> f64 {
     let left = (1.0 - share).clamp(0.0, 1.0);
     left * left * (3.0 - 2.0 * left)

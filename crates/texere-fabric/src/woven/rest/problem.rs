@@ -1,4 +1,4 @@
-//! The problem that the core settles: the crossings of a cloth's smallest repeat.
+//! The problem that texere-core settles: the crossings of a cloth's smallest repeat.
 
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ use crate::{Drawdown, Thread, Woven};
 pub(super) struct Problem {
     pub(super) repeat: [usize; 2],
     pub(super) crossings: Crossings,
-    /// Half width and half height of each thread's room, in those of the thread.
+    /// Half width and half height of each thread's room, as multiples of those of the thread.
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The level of each thread of the repeat among its set.
     pub(super) levels: [Vec<u32>; 2],
@@ -52,7 +52,8 @@ impl Problem {
     }
 }
 
-/// Half width and half height of the room that each thread's section takes, in those of the thread.
+/// Half width and half height of the room that each thread's section takes, as multiples of those
+/// of the thread.
 fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
     let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
     [cloth.warp(), cloth.weft()].map(|threads| {
@@ -62,15 +63,16 @@ fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
 }
 
 impl Woven {
-    /// Levels of the first `across` ends and `along` picks, within which the cloth repeats.
+    /// Levels of the first `across` ends and of the first `along` picks, which are a repeat of the
+    /// cloth.
     pub(in crate::woven) fn levels(&self, [across, along]: [usize; 2]) -> [Vec<u32>; 2] {
         let (ends, picks) = (self.warp().len(), self.weft().len());
         Drawdown::from_fn(across, along, |end, pick| self.drawdown().up(end % ends, pick % picks))
             .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels().into_array())
     }
 
-    /// Numbers of ends and picks after which threads lie and cross as before; two at least, and all
-    /// of them where nothing repeats.
+    /// Numbers of ends and picks after which threads lie and cross as before. Each is at least two,
+    /// and all of the cloth if nothing repeats.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
         self.period_of(|_| None)
     }
@@ -92,15 +94,15 @@ impl Woven {
     }
 }
 
-/// Distance from each thread to the next one, mm. The last one's is that to the first thread of a
-/// cloth beside this one.
+/// Distance from each thread to the next one, mm. For the last thread it is the distance to the
+/// first thread of an equal cloth beside this one.
 pub(super) fn gaps(threads: &[Thread]) -> Vec<f64> {
     let ends = [threads.first(), threads.last()].into_iter().flatten();
     let seam = ends.map(|thread| thread.spacing_mm / 2.0).sum();
     pitches(threads).chain([seam]).collect()
 }
 
-/// A number for each thread, the same for threads that are alike and cross alike.
+/// A number for each thread. Threads that are alike and cross alike have the same number.
 fn kinds(
     threads: &[Thread],
     rooms: &[[f32; 2]],
@@ -129,8 +131,8 @@ fn bits(count: usize, up: impl Fn(usize) -> bool) -> Vec<u64> {
     (0..count).step_by(64).map(word).collect()
 }
 
-/// Number of threads after which all further ones are as those before, by the longest start of the
-/// list that is its end as well (Knuth, Morris and Pratt).
+/// Number of threads after which the list repeats, from the longest beginning of the list that is
+/// also its end (Knuth, Morris and Pratt).
 fn period(kinds: &[usize]) -> usize {
     let mut borders = vec![0; kinds.len()];
     for at in 1..kinds.len() {
@@ -152,7 +154,7 @@ mod tests {
     fn a_period_is_the_least_shift_that_fits() {
         assert_eq!(period(&[0, 1, 2, 0, 1, 2, 0]), 3);
         assert_eq!(period(&[0, 1, 2, 3]), 4);
-        // One thread is its own neighbour on both sides: it is taken twice.
+        // One thread would be its own neighbour on both sides, so it counts twice.
         assert_eq!(period(&[0, 0, 0]), 2);
         assert_eq!(period(&[0]), 2);
         assert_eq!(period(&[0, 0, 1, 0, 0]), 3);

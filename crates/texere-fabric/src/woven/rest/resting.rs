@@ -1,4 +1,4 @@
-//! From crossings at rest to yarns.
+//! The yarns of cloth whose crossings are at rest.
 
 use std::cmp::Ordering;
 
@@ -18,11 +18,11 @@ use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 pub(super) struct RestingRepeat {
     repeat: [usize; 2],
     pub(super) rest: Vec<CrossingState>,
-    /// Sizes that are drawn at each crossing: half width and half height of the end, then of the
-    /// pick.
+    /// Sizes that are drawn at each crossing: half width and half height of the room of the end,
+    /// then of the pick. The room is an ellipse that holds the thread's section.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
-    /// The layer of each thread of the repeat, 0 for the lowest. All are 0 where warp and weft have
+    /// The layer of each thread of the repeat, 0 for the lowest. All are 0 if warp and weft have
     /// different numbers of levels.
     layers: [Vec<u32>; 2],
     /// Tension of the yarns' splines.
@@ -30,7 +30,7 @@ pub(super) struct RestingRepeat {
 }
 
 impl RestingRepeat {
-    /// The crossings `rest`, in the plan's unit.
+    /// The repeat of `problem` with the crossings `rest`, which are given in the plan's unit.
     pub(super) fn new(
         problem: Problem,
         plan: &CrossingsPlan,
@@ -56,7 +56,8 @@ impl RestingRepeat {
         self.repeat
     }
 
-    /// The shares of its area that each set keeps: the mean, and the least.
+    /// For each set, the share of its area that it keeps: the mean over all crossings, and the
+    /// least.
     pub(super) fn area(&self, cloth: &Woven) -> BySet<[f64; 2]> {
         BySet { warp: 0, weft: 1 }.map(|set: usize| {
             let threads = [cloth.warp(), cloth.weft()][set];
@@ -105,18 +106,18 @@ impl RestingRepeat {
     }
 }
 
-/// Threads beyond either edge, where the repeat goes on. A thread bends round the next one that it
-/// meets there.
+/// Number of threads beyond either edge that are known, because the repeat goes on there. A thread
+/// bends round the next one that it meets beyond the edge.
 const BEYOND: usize = 8;
 
-/// One set of threads, measured.
+/// The places of one set of threads.
 struct Threads {
-    /// Middles of its threads and of those beyond both edges, mm.
+    /// Middles of the threads, and of the threads beyond both edges, mm.
     at: Vec<f64>,
     extent: f64,
 }
 
-/// A cloth's threads on their way from crossings to control points.
+/// A cloth with its crossings at rest, whose control points are to be placed.
 struct Placing<'a> {
     resting: &'a RestingRepeat,
     cloth: &'a Woven,
@@ -143,8 +144,8 @@ impl<'a> Placing<'a> {
         Self { resting, cloth, sets }
     }
 
-    /// A thread where it crosses another. Crossed threads count from the first of the [`BEYOND`]
-    /// ones beyond the edge.
+    /// A thread at a crossing. `crossed` is the number of the crossed thread, counted from the
+    /// first of the [`BEYOND`] threads beyond the edge.
     fn station(&self, (set, thread): Of, crossed: usize) -> Station {
         let other = 1 - set;
         let repeat = self.resting.repeat[other];
@@ -173,8 +174,8 @@ impl<'a> Placing<'a> {
         self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
     }
 
-    /// A pass's thread, whether each end of the pass is cut off, whether it runs against the order
-    /// of the threads that it crosses, and their number.
+    /// The thread of a pass, whether the pass is cut off at its beginning and at its end, whether
+    /// it runs against the order of the threads that it crosses, and the number of those threads.
     fn order(&self, pass: Pass) -> (Of, [bool; 2], bool, usize) {
         match pass {
             Pass::End(end) => ((0, end), [true; 2], false, self.cloth.weft().len()),
@@ -185,8 +186,8 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Whether a thread bends round a thread that it crosses. Threads of different layers pass one
-    /// another where the higher one lies on top.
+    /// Whether a thread bends round a thread that it crosses. It does not if the two belong to
+    /// different layers and the thread of the higher layer lies on top.
     fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
         let [own, others] = [set, 1 - set].map(|set| &self.resting.layers[set]);
         let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
@@ -198,7 +199,7 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// The threads that a thread bends round on its way, with the next one beyond either edge.
+    /// The crossed threads that a thread bends round, with the next one beyond either edge.
     fn met(&self, of: Of, count: usize) -> Vec<usize> {
         let meets = |crossed: &usize| self.meets(of, *crossed);
         let before = (0..BEYOND).rev().find(meets).unwrap_or(BEYOND - 1);
@@ -266,8 +267,9 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Calls `stop` with the points from a thread's outermost crossing, at its upper end or its
-    /// lower one, to where it is cut off.
+    /// Calls `stop` with the points from a thread's outermost crossing to the place where the
+    /// thread is cut off. With `upper` this is the end at the last crossed threads, otherwise the
+    /// end at the first ones.
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
@@ -282,8 +284,8 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// The turn from the pick before to `pick`, which stands out beyond the edge end by the widths
-    /// of both.
+    /// The turn from the pick before to `pick`. It begins beyond the edge end by at least half the
+    /// widths of the end and the pick.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let right = selvedge::runs_left(pick, self.cloth.selvedge());
         let ends = self.cloth.warp().len();

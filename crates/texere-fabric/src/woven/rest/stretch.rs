@@ -1,4 +1,5 @@
-//! Cloth that is stretched one way. It gives the other way, since its threads keep their lengths.
+//! Cloth that is stretched along one set of threads. It becomes narrower across, because its
+//! threads keep their lengths.
 
 use std::ops::ControlFlow;
 
@@ -12,38 +13,41 @@ use crate::{BySet, Finish, FinishError, Woven};
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;
 
-/// How near the crimp of the pulled threads comes to the crimp that keeps their length.
+/// The largest difference between the crimp of the pulled threads and the crimp that keeps their
+/// length.
 const NEAR: f64 = 2e-4;
 
-/// The greatest tautness of one set over the other's, as a natural logarithm: what [`Finish::taut`]
-/// allows.
+/// The largest ratio of one set's tautness to the other's, as a natural logarithm. It takes relaxed
+/// cloth to the limit of [`Finish::taut`], 10.
 const TAUTER: f64 = 4.6;
 
-/// Halvings of the tautness, and how often the cloth gives the other way in each.
+/// Number of halvings of the range of tautness.
 const HALVINGS: u32 = 16;
+/// Number of times in each halving that the cloth's size across the stretch is adjusted.
 const GIVES: u32 = 3;
 
 /// The stretch that is asked of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// The set along which it is pulled.
+    /// The set along which the cloth is pulled.
     pub along: Set,
-    /// Factor of its length along that set, 0.5 to 2. Less than 1 lets it draw in.
+    /// Factor of the cloth's length along that set, from 0.5 to 2. With less than 1 the cloth draws
+    /// in.
     pub by: f64,
 }
 
 impl Woven {
     /// The cloth stretched along one set of its threads, with a `finish` whose tensions go with the
-    /// stretch. All threads keep the length that they have where this cloth comes to rest with the
-    /// given `finish`: threads that are pulled straighten, the threads that cross them take their
+    /// stretch. All threads keep the lengths that they have when this cloth comes to rest with the
+    /// given `finish`. Threads that are pulled straighten, the threads that cross them take their
     /// crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to rest.
-    /// `tension` is that of the yarns' splines, from 0 to below 1. `progress` gets the share of the
-    /// work done, and `Break` ends it within one pass.
+    /// `tension` is the tension of the yarns' splines, from 0 to below 1. `progress` gets the share
+    /// of the work done, and `Break` ends it within one pass.
     ///
-    /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or
-    /// jammed, and the errors of [`Woven::at_rest`].
+    /// **Errors**: [`FinishError::Stretch`] if threads would be straight or jammed before the cloth
+    /// has that length, and the errors of [`Woven::at_rest`].
     ///
-    /// **Source**: crimp interchange as F. T. Peirce has it, "The geometry of cloth structure",
+    /// **Source**: crimp interchange, as in F. T. Peirce, "The geometry of cloth structure",
     /// Journal of the Textile Institute 28, 1937.
     ///
     /// ```
@@ -71,8 +75,8 @@ impl Woven {
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
         let across = along.other();
-        // Each settling reports its own share of the progress, so that the first one shows, too,
-        // and each pass hears a wish to stop.
+        // Each settling reports its own share of the progress, so that progress shows during the
+        // first one, too, and a wish to stop is heeded after each pass.
         let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
         let mut crimps_of = |cloth: &Self, finish: &Finish| {
             let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));
@@ -98,7 +102,8 @@ impl Woven {
             for _ in 0..GIVES {
                 let mut times = BySet { warp: by, weft: by };
                 times[across] = narrower;
-                // Cloth that is longer along one set has the other set's threads further apart.
+                // A cloth that is longer along one set has the threads of the other set further
+                // apart.
                 cloth = self.spaced([times.weft, times.warp])?;
                 crimps = crimps_of(&cloth, &finish)?;
                 narrower = (1.0 + first[across]) / (1.0 + crimps[across]);

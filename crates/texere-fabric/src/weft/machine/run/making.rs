@@ -23,7 +23,7 @@ struct Order {
 }
 
 impl Run<'_> {
-    /// Knits or tucks.
+    /// Knits or tucks on a needle.
     pub(super) fn knit(
         &mut self,
         set: u32,
@@ -91,15 +91,15 @@ impl Run<'_> {
 
     /// Puts new loops on a needle, on top of the loops that it holds.
     fn place(&mut self, mut held: Vec<Held>, first: u32, count: usize, slot: Slot) {
-        // The needle lies in the repeat of `slot`. The list of the slot is that of repeat 0, where
-        // the same loop belongs to a repeat further back.
+        // The needle lies in the repeat of `slot`, but the list of the slot is that of the needle
+        // in repeat 0. The loops on that needle belong to a repeat further back.
         let new = Held { number: 0, round: self.round, repeat: -slot.repeat, moved: 0, split: None };
         held.extend((first..).take(count).map(|number| Held { number, ..new }));
         *self.beds.stack(slot) = held;
     }
 
-    /// A reference to the loop `number`, as seen from a loop on the needle that it is drawn
-    /// through.
+    /// A reference to the loop `number`, with its repeat relative to `held`, a loop that it is
+    /// drawn through.
     fn child(&self, number: u32, held: &Held, slot: Slot) -> LoopRef {
         let repeat = [-held.repeat.saturating_add(slot.repeat), (self.round - held.round) as i32];
         LoopRef { number, repeat }
@@ -110,7 +110,7 @@ impl Run<'_> {
         Spot { direction, at: self.beds.place(needle), row }
     }
 
-    /// Makes a loop of each carrier. Returns the number of the first one.
+    /// Makes a loop with the yarn of each carrier. Returns the number of the first loop.
     fn make(&mut self, set: u32, carriers: &[u32], order: Order, held: &[Held]) -> Result<u32, FabricError> {
         let Order { kind, direction, needle, slot } = order;
         self.check_in(carriers, needle);
@@ -197,7 +197,8 @@ impl Run<'_> {
         }
     }
 
-    /// Brings in carriers that are about to make a stitch and are not in; each is a fault.
+    /// Brings in carriers that are about to make a stitch and are not in. Records a fault for each
+    /// of them.
     fn check_in(&mut self, carriers: &[u32], needle: Needle) {
         for &carrier in carriers {
             if !self.carriers.is_in(carrier) {

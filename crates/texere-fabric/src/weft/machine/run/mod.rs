@@ -1,4 +1,4 @@
-//! Running a program: one operation after the other.
+//! Runs a program, one operation after another.
 
 mod making;
 
@@ -15,7 +15,7 @@ use super::{FAULTS_LISTED, Fault, FaultKind, Machine, NEEDLE_MAX, STACK_MAX};
 use crate::FabricError;
 use crate::weft::WeftError;
 
-/// The fate of a loop, and how its head hangs then.
+/// The fate of a loop, and the place of its head at its end.
 pub(super) type End = (Fate, Head);
 
 /// The state of a machine that runs a program.
@@ -27,29 +27,33 @@ pub(super) struct Run<'a> {
     pub(super) rack: f64,
     pub(super) length_mm: Option<f32>,
     pub(super) carriers: Carriers,
-    /// The round of the repeat, from 0.
+    /// The round of the repeat, counted from 0.
     pub(super) round: u32,
     /// Number of transfers in this round.
     moved: u32,
-    /// The loops made in this round. They still have the number of their pass instead of their
-    /// course.
+    /// The loops made in this round. Until the program ends, they have the number of their pass in
+    /// place of their course.
     pub(super) loops: Vec<Stitch>,
     pub(super) parents: Vec<LoopRef>,
-    /// The fates that loops have met in this round, by their number. The loop may be one of an
-    /// earlier round.
+    /// For the number of each loop, the fate that a loop of this number met in this round. The loop
+    /// itself may be one of an earlier round.
     pub(super) ends: Vec<Option<End>>,
     /// The pass of each loop.
     passes: Vec<u32>,
-    /// Passes, with the loops that they are drawn through. Until the end they refer to loops,
-    /// because passes of earlier rounds may have had other numbers.
+    /// Passes, with the loops that they are drawn through. Until the program ends, `below` is the
+    /// number of a loop instead of a pass, because passes of earlier rounds may have had other
+    /// numbers.
     aboves: Vec<Above>,
     pub(super) faults: Vec<Fault>,
     pub(super) unlisted: u64,
-    /// Faults that a program gets once: the first one, with the number of further ones.
+    /// The [`FaultKind::CastOn`] of this round, which a program gets only once; none if there is
+    /// none.
     pub(super) cast_on: Option<Fault>,
+    /// The [`FaultKind::OnlyLoop`] of this round, which a program gets only once, too.
     pub(super) only_loop: Option<Fault>,
-    /// Source and number of the current operation.
+    /// The source of the current operation.
     source: u32,
+    /// The number of the current operation, counted from 1.
     operation: u64,
 }
 
@@ -89,7 +93,8 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Runs all operations once. Only the loops on needles are kept of the previous round.
+    /// Runs all operations once. Only the loops on needles, the rack and the loop length are kept
+    /// from the previous round.
     pub(super) fn all(&mut self) -> Result<(), FabricError> {
         let loops = self.passes.len();
         self.carriers = Carriers::new(self.program.carriers.len(), self.program.repeat.is_some());
@@ -109,7 +114,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Pairs of passes of which one is drawn through the other, in order.
+    /// All pairs of passes of which one is drawn through the other, in order.
     pub(super) fn aboves(&mut self) -> Vec<Above> {
         let mut aboves = std::mem::take(&mut self.aboves);
         for above in &mut aboves {
@@ -191,7 +196,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Records a carrier that is taken out after its only loop.
+    /// Records the fault of a carrier that is taken out after its only loop.
     fn only_loop(&mut self, carrier: u32) {
         match &mut self.only_loop {
             Some(Fault { kind: FaultKind::OnlyLoop { others }, .. }) => *others += 1,
@@ -256,9 +261,9 @@ impl<'a> Run<'a> {
     /// Moves all loops of a needle.
     ///
     /// Loops keep their order from the front of the machine to its back. The needles of both beds
-    /// point at each other: the loop nearest to the tip of one needle comes nearest to the stem of
-    /// the other. The order of the loops on the needle is thus reversed. All of them lie nearer to
-    /// the tip than the loops that already hang there.
+    /// point at each other, so the loop nearest to the tip of one needle comes nearest to the stem
+    /// of the other. The order of the loops on the needle is therefore reversed. All of them lie
+    /// nearer to the tip than the loops that the second needle already holds.
     fn transfer(&mut self, from: Needle, to: Needle) -> Result<(), FabricError> {
         let (start, end) = (self.slot(from)?, self.slot(to)?);
         self.aim(from, to);
@@ -291,8 +296,8 @@ impl<'a> Run<'a> {
         self.piled(to, end, count)
     }
 
-    /// Records a fault, or returns an error, if a needle holds too many loops. `added` of them are
-    /// new.
+    /// Records a fault if a needle has come to hold more loops than the machine's limit. Returns an
+    /// error for more than [`STACK_MAX`]. `added` of the loops are new.
     fn piled(&mut self, needle: Needle, slot: Slot, added: usize) -> Result<(), FabricError> {
         let (loops, limit) = (self.beds.stack(slot).len(), self.machine.pile_max);
         if loops > STACK_MAX {
@@ -305,7 +310,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The head of a loop on a needle, with `layer` loops before it.
+    /// The head of a loop on a needle that holds `layer` loops before this one.
     pub(super) fn head(&self, held: &Held, needle: Needle, slot: Slot, layer: usize) -> Head {
         let place = self.beds.place(needle) - self.beds.shift(held.repeat.saturating_add(slot.repeat));
         let at = place as f32 / HALVES as f32;

@@ -42,8 +42,8 @@ impl Default for Quality {
 /// The number of sides of tubes in a picture of woven cloth at rest.
 const FINE_SIDES: u32 = 16;
 
-/// The most control points of woven cloth at rest that is drawn with [`FINE_SIDES`]. Threads of larger
-/// cloths are hardly wider than pixels.
+/// The most control points of woven cloth at rest that is drawn with [`FINE_SIDES`]. Threads of
+/// larger cloths are hardly wider than pixels.
 const FINE_POINTS: usize = 4_000_000;
 
 /// The default number of sides of tubes in a picture. Polygons have as many sides as corners.

@@ -38,8 +38,8 @@ pub(super) struct Cubics<S: Simd> {
     at_rest: S::Floats,
     /// The least half height.
     floor: S::Floats,
-    /// The cubics of half widths. Those of a round yarn have no meaning: its half width is its half
-    /// height.
+    /// The cubics of half widths. They have no meaning for a round yarn, whose half width is its
+    /// half height.
     pub(super) half_width: Widths<S>,
 }
 

@@ -35,7 +35,7 @@ pub struct Hit {
 }
 
 impl Picker {
-    /// The first triangle that `ray` hits, from either side. Of several triangles at the same
+    /// The first triangle that `ray` hits, from either side. If several triangles lie at the same
     /// distance, it is the first along the yarns. None if the ray hits nothing, has a direction of
     /// zero, or has numbers that are not finite.
     #[must_use]

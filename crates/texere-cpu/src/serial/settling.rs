@@ -28,7 +28,7 @@ pub(crate) struct SerialSettler {
     intervals: Vec<Interval>,
     /// The chords of all intervals.
     chords: Vec<Chord>,
-    /// The place of each chord's interval.
+    /// For each chord, the place at which its interval begins.
     owners: Vec<u32>,
     /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
     /// all.

@@ -219,8 +219,8 @@ impl Settler for ParallelSettler {
     }
 }
 
-/// Copies pulls to the intervals beyond a yarn's ends, if the yarn goes on in the next repeat.
-/// Those intervals also steer the points at the yarn's ends.
+/// Copies pulls to the intervals beyond a yarn's ends, if the yarn goes on in the next repeat. The
+/// points at the yarn's ends follow these intervals, too.
 fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     if strand.shift().is_some() {
         let first = FRONT + strand.first as usize;

@@ -1,4 +1,4 @@
-//! From a design file to its mesh, in memory of its own and as a file.
+//! Times the way from a design file to its mesh, in new memory and as a file.
 #![allow(
     missing_docs,
     clippy::unwrap_used,

@@ -1,4 +1,4 @@
-//! A finished mesh to a file.
+//! Times the writing of a finished mesh to a file.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
@@ -12,7 +12,7 @@ use stage::{Bench, Floor, timed};
 use texere::Pipeline;
 use texere_bench::{DEVICES, paper_cloth, sizes};
 
-/// Ends of the largest cloth that is written: a file of half a gigabyte, again and again.
+/// The number of ends of the largest cloth that is written, each time to a file of half a gigabyte.
 const LARGEST_ENDS: usize = 815;
 
 fn export(criterion: &mut Criterion) {

@@ -1,4 +1,4 @@
-//! From a cloth to the control points of its yarns, in fresh memory.
+//! Times the making of the control points of a cloth's yarns, into new memory each time.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
@@ -20,7 +20,7 @@ fn generate(criterion: &mut Criterion) {
             let mut cloth = paper_cloth(size.0, size.1).unwrap();
             cloth.set_shape(shape);
             let elements = cloth.point_count();
-            // A control point and its source.
+            // The bytes of a control point and of its source.
             let bytes = elements * (size_of::<ControlPoint>() + size_of::<u32>()) as u64;
             let bench = Bench { stage: "generate", fabric, size, backend: "cpu", elements, bytes };
             floor.bench(criterion, &bench, || timed(|| cloth.yarns().unwrap()));

@@ -1,8 +1,9 @@
-//! Both stages, and the scan where there is one: the mesh from control points.
+//! Times the making of a mesh from control points: the scan, if yarns need one, and both stages
+//! (trajectory and mesh).
 //!
-//! `mesh` writes into the caller's own slices, used again and again. `mesh-cold` does so with none
-//! of them in the caches. `mesh-fresh` writes into memory that is new each time, with plan, session
-//! and upload.
+//! `mesh` writes into the same slices of the caller each time. `mesh-cold` does so after the slices
+//! have been pushed out of the caches. `mesh-fresh` writes into new memory each time, and its time
+//! includes the plan, the session and the upload.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
@@ -20,7 +21,7 @@ use texere_core::backend::MeshMut;
 
 const CPU: &str = DEVICES[1];
 
-/// Values that fill the caches of a large processor: a quarter of a gigabyte.
+/// The number of `u32` values that fill the caches of a large processor: 256 MiB of them.
 const CACHES: usize = 64 << 20;
 
 fn mesh(criterion: &mut Criterion) {
@@ -64,12 +65,13 @@ fn reused(
     let mut vertices = texere_core::backend::zeroed("vertices", chunk.vertices().into()).unwrap();
     let mut indices = texere_core::backend::zeroed("indices", chunk.indices().into()).unwrap();
     let bytes = (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64;
-    // Other values to fill the caches, so that nothing of the mesh is in them.
+    // Values that fill the caches, so that nothing of the mesh is cached when the time starts.
     let mut others = vec![0u32; if stage == "mesh-cold" { CACHES } else { 0 }];
     let device = texere::open(backend).unwrap();
     let mut session = session(&*device, &plan, yarns).unwrap();
     floor.bench(criterion, &Bench { stage, fabric, size, backend, elements, bytes }, || {
-        // An upload makes the session forget its rings; one point costs next to nothing.
+        // After an upload the session scans and computes its rings again. Only one point is
+        // uploaded, which takes negligible time.
         session.upload(0, &yarns.points()[..1]).unwrap();
         others.iter_mut().for_each(|value| *value += 1);
         timed(|| {

@@ -1,4 +1,4 @@
-//! Lists of neighbours, and passes of either form.
+//! Times lists of neighbours, and passes of either form.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
@@ -15,7 +15,7 @@ use texere_bench::DEVICES;
 use texere_conformance::rest::{Chart, Gauge, Length, random_misses, settling_plan, weft_knit};
 use texere_core::settling::{Form, Pass, Place, tag};
 
-/// Wales and courses.
+/// The number of wales, and of courses.
 const SIZE: usize = 60;
 
 fn settling(criterion: &mut Criterion) {
@@ -36,7 +36,7 @@ fn settling(criterion: &mut Criterion) {
             for (stage, form) in [("weighted-pass", Form::Weighted), ("block-pass", Form::Block)] {
                 let bench = Bench { stage, bytes: size_of_val(&*places) as u64, ..list };
                 floor.bench(criterion, &bench, || {
-                    // The list of neighbours stays that of the start.
+                    // The list of neighbours is still that of the start.
                     settler.upload(&places).unwrap();
                     timed(|| settler.pass(&Pass { form, growth: 1.0, ease: 0.5, momentum: 0.8 }).unwrap())
                 });

@@ -1,4 +1,4 @@
-//! Stage 1: rings from control points, into the session's own memory.
+//! Times stage 1: rings from control points, into the session's own memory.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
@@ -44,8 +44,8 @@ fn case(
             criterion,
             &Bench { stage: "trajectory", fabric, size, backend, elements, bytes },
             || {
-                // An upload makes the session forget its rings, and rolls where there are some; one
-                // point costs next to nothing.
+                // After an upload the session computes its rings, and its rolls if there are any,
+                // again. Only one point is uploaded, which takes negligible time.
                 session.upload(0, &yarns.points()[..1]).unwrap();
                 session.scan().unwrap();
                 timed(|| session.trajectory(&chunks[0]).unwrap())

@@ -1,5 +1,5 @@
-//! Crossings on devices: the time of a pass beside a plain fill of the bytes that it moves, and the
-//! time until cloth is at rest.
+//! Measures crossings on devices: the time of a pass beside a plain fill of the bytes that the pass
+//! moves, and the time until cloth is at rest.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -14,14 +14,14 @@ use texere_core::crossings::{
 use crate::fill::Gpu;
 use crate::measure::median_time;
 
-/// Bytes of the fill that passes are measured beside.
+/// The bytes of the fill that passes are compared with.
 const FILL: u64 = 1 << 30;
 
-/// Passes at once.
+/// The number of passes that are started at once.
 const PASSES: usize = 10;
 
-/// A Jacquard of ends x picks that repeats nowhere: satin of 8 with a figure in plain weave, at a
-/// pitch of 1.75 diameters.
+/// A Jacquard of `ends` by `picks` that repeats nowhere: satin of 8 with a figure in plain weave,
+/// at a pitch of 1.75 diameters.
 fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
     let thread = CrossingThread { pitch: 0.35, diameter: 0.2, stiffness: 1.0, level: 0 };
     let figure = |end: usize, pick: usize| {
@@ -80,7 +80,7 @@ fn print_row(
             let mut fill = gpu.fill(&[FILL])?;
             fill.run()?;
             let times = (0..rounds.max(1)).map(|_| fill.run()).collect::<Result<Vec<_>, _>>()?;
-            // The time of the fill by the device's own clock.
+            // The fill is timed by the device's own clock.
             let floor = median_time(&times).as_secs_f64() * bytes as f64 / FILL as f64;
             format!("{:.2}", pass.as_secs_f64() / floor)
         }
@@ -103,7 +103,8 @@ fn print_row(
     Ok(())
 }
 
-/// The median time of `rounds` runs of the last passes of a course, after warm ones.
+/// The median time of `rounds` runs of the last `passes` passes of a course, after runs that warm
+/// the device up.
 fn time_of(
     settler: &mut dyn CrossingsSettler,
     passes: usize,

@@ -1,4 +1,4 @@
-//! Edits of a fabric whose mesh stays on its device, beside the whole mesh.
+//! Measures edits of a fabric whose mesh stays on its device, beside the whole mesh.
 
 use std::error::Error;
 use std::sync::Arc;
@@ -13,19 +13,19 @@ use texere_core::ControlPoint;
 use crate::measure::median_time;
 use crate::{paper_cloth, shaped};
 
-/// The cost of an edit.
+/// The times and the bytes of an edit.
 #[derive(Debug, Clone, Copy, Default)]
 struct Took {
-    /// By the host's clock, until the device was done.
+    /// The time by the host's clock, until the device was done.
     host: Duration,
-    /// Scan and mesh, by the device's clock where it has one.
+    /// The time of scan and mesh, by the device's clock if it has one.
     device: Duration,
-    /// Bytes of control points that were sent.
+    /// The bytes of control points that were sent.
     bytes: u64,
 }
 
-/// Prints for each device the time of editing one yarn of the cloth `yarns` and one lift of the
-/// cloth `lifts`, each the median of `rounds`, beside that of the whole mesh.
+/// Prints for each device the time of editing one yarn of the cloth `yarns`, and one lift of the
+/// cloth `lifts`, beside the time of the whole mesh. Each is the median of `rounds` runs.
 ///
 /// # Errors
 ///

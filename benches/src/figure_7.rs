@@ -10,19 +10,20 @@ use texere::write::Output;
 
 use crate::stages::stages;
 
-/// Designs, and the millions of facets that the paper counts.
+/// The designs, and the millions of facets that the paper states for each.
 const CLOTHS: [(&str, f64); 3] = [("figure-7a", 254.47), ("figure-7b", 331.71), ("figure-7c", 381.71)];
-/// Seconds that the paper states for each cloth.
+/// The seconds that the paper states for each cloth.
 const PAPER_S: f64 = 10.0;
 
-/// Width and height of the pictures, pixels, and the width of the close-up as a share of the
-/// cloth's.
+/// Width and height of the pictures, pixels.
 const SIZE: [u32; 2] = [1600, 1200];
+
+/// The width of the close-up, as a share of the cloth's.
 const CLOSE: f32 = 0.02;
 
-/// Takes the three designs in the folder `designs` to their meshes on `device`, such as `wgpu:0`,
-/// each a second time when the device is warm, draws each at full size and close up to PNG files in
-/// the folder `output`, and prints a table beside the paper's.
+/// Makes the meshes of the three designs in the folder `designs` on `device`, such as `wgpu:0`.
+/// Each is made a second time when the device is warm. Draws each design at full size and close up
+/// to PNG files in the folder `output`. Prints a table of the times beside the paper's.
 ///
 /// # Errors
 ///

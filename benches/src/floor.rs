@@ -1,5 +1,5 @@
-//! A device against its floor, side by side: the mesh stage, also with packed vertices, beside a
-//! plain fill of the same bytes, reading and uploading beside plain copies from and to pinned
+//! Compares a device with its floor. The mesh stage, also with packed vertices, stands beside a
+//! plain fill of the same bytes. Reading and uploading stand beside plain copies from and to pinned
 //! memory.
 
 use std::error::Error;
@@ -19,15 +19,15 @@ struct Case {
     name: &'static str,
     frame: Frame,
     topology: Topology,
-    /// All control points in a single yarn.
+    /// Whether all control points are in a single yarn.
     joined: bool,
-    /// Twist of all yarns, rad/mm.
+    /// The twist of all yarns, rad/mm.
     twist: f32,
-    /// Width of all yarns over their height.
+    /// The width of all yarns, divided by their height.
     flatness: f32,
-    /// The paper's mapping, a lane a yarn, instead of texere's.
+    /// Whether the paper's schedule is used, in which a lane makes a yarn, instead of texere's.
     per_yarn: bool,
-    /// Packed vertices instead of the mesh.
+    /// Whether packed vertices are made instead of the mesh.
     packed: bool,
 }
 
@@ -78,7 +78,7 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
         .iter()
         .map(|&(ends, picks)| Ok((format!("{ends} x {picks}"), paper_cloth(ends, picks)?.yarns()?)));
     let cloths: Vec<_> = cloths.collect::<Result<_, Box<dyn Error>>>()?;
-    // Opened once: drivers keep some memory of each context.
+    // The devices are opened once, because drivers keep some memory of each context.
     let mut gpus = Vec::new();
     for name in devices {
         gpus.push((name, Gpu::open(name)?, texere::open(&format!("{name}/per-yarn"))?));
@@ -139,7 +139,7 @@ fn print_bus(
     Ok(())
 }
 
-/// Lengths of buffers that hold `bytes` together.
+/// The lengths of buffers that hold `bytes` together.
 fn buffers(bytes: u64) -> Vec<u64> {
     let (whole, rest) = (bytes / BUFFER, bytes % BUFFER);
     (0..whole).map(|_| BUFFER).chain([rest]).filter(|bytes| *bytes > 0).collect()

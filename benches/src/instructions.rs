@@ -1,9 +1,11 @@
 //! Makes a cloth or its mesh several times, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND is a mesh or control points. Meshes are `upright`; `flattened`, of flattened yarns;
-//! `minimizing`, with its scan; `bare`, without indices; and `streamed`, upright and too large for
-//! any cache. Control points are `crossing`, one a crossing, and `round`. It prints the number of
-//! rings or control points.
+//! KIND says what is made. These are meshes: `upright`, with upright frames; `flattened`, of
+//! flattened yarns; `minimizing`, with rotation minimising frames and their scan; `bare`, without
+//! indices; `streamed`, as `upright`, but so large that it is written past the caches. These are
+//! the control points of a cloth: `crossing`, one point at each crossing; `round`, with threads
+//! bent round one another. The program prints how many rings or control points one mesh or cloth
+//! has.
 
 use std::error::Error;
 
@@ -14,8 +16,11 @@ use texere_bench::{paper_cloth, plan, session, shaped};
 use texere_core::backend::MeshMut;
 use texere_cpu::ParallelBackend;
 
-/// Threads of a cloth whose mesh stays in the caches, and of one whose mesh goes past them.
+/// Ends and picks of a cloth whose mesh is written through the caches.
 const SMALL: (usize, usize) = (60, 60);
+
+/// Ends and picks of a cloth whose mesh is large enough to be written past the caches (32 MiB,
+/// `STREAM_BYTES` of texere-cpu).
 const LARGE: (usize, usize) = (240, 240);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -40,7 +45,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Control points of one cloth, so large that all other work is negligible.
+/// Makes the control points of a cloth `times` times, and returns their number in one cloth. The
+/// cloth is so large that all other work is negligible.
 fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
     let mut cloth = paper_cloth(300, 300)?;
     cloth.set_shape(shape);
@@ -50,7 +56,8 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
     Ok(cloth.point_count())
 }
 
-/// Rings of one mesh, of yarns `flatness` times as wide as high.
+/// Makes a mesh of yarns `flatness` times as wide as high `times` times, and returns the number of
+/// its rings.
 fn mesh(
     (ends, picks): (usize, usize),
     flatness: f32,
@@ -63,7 +70,8 @@ fn mesh(
     let mut vertices = texere_core::backend::zeroed("vertices", chunks[0].vertices().into())?;
     let mut indices = texere_core::backend::zeroed("indices", chunks[0].indices().into())?;
     for _ in 0..times {
-        // After an upload there is something to scan; one point costs next to nothing.
+        // The session scans only after an upload. Only one point is uploaded, which takes
+        // negligible time.
         session.upload(0, &yarns.points()[..1])?;
         session.scan()?;
         session.mesh_into(&chunks[0], MeshMut { vertices: &mut vertices, indices: &mut indices })?;

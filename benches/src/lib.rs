@@ -1,5 +1,5 @@
-//! What the benchmarks of all stages share: the paper's benchmark cloth, and sessions that are
-//! ready to run.
+//! The code that the benchmarks of all stages share: the benchmark cloth of the paper that texere
+//! implements (README.md), and sessions that are ready to run.
 
 #[cfg(feature = "gpu")]
 pub mod crossings;
@@ -45,13 +45,14 @@ pub fn sizes() -> impl Iterator<Item = (usize, usize)> {
     SIZES.into_iter().take(if measured { SIZES.len() } else { 1 })
 }
 
-/// The size with which settings and fabrics are compared.
+/// The size, (ends, picks), of the cloth on which settings, fabrics and backends are compared.
 pub const SWEEP: (usize, usize) = (489, 450);
 
-/// The devices that are benchmarked.
+/// The CPU backends that are benchmarked: the serial one, then the parallel one.
 pub const DEVICES: [&str; 2] = ["cpu-serial", "cpu"];
 
-/// The paper's cloth: 3/1 twill, pitch of three diameters, one control point a crossing.
+/// The paper's cloth: 3/1 twill, a pitch of three diameters, and one control point at each
+/// crossing.
 ///
 /// **Errors**: [`FabricError`] for a size that no cloth has.
 pub fn paper_cloth(ends: usize, picks: usize) -> Result<Woven, FabricError> {
@@ -65,14 +66,15 @@ pub fn paper_cloth(ends: usize, picks: usize) -> Result<Woven, FabricError> {
 
 /// All control points of `yarns` in a single yarn.
 ///
-/// **Errors**: [`YarnError`] for more than a yarn may have.
+/// **Errors**: [`YarnError`] for more control points than one yarn may have.
 pub fn one_yarn(yarns: &Yarns) -> Result<Yarns, YarnError> {
     let mut one = Yarns::builder();
     one.yarn(Yarn::default(), yarns.points());
     one.build()
 }
 
-/// `yarns` with `twist` rad/mm, and `flatness` times as wide as high with the section's area kept.
+/// A copy of `yarns` with a twist of `twist` rad/mm. Round sections become `flatness` times as wide
+/// as high, and keep their area.
 ///
 /// **Errors**: [`YarnError`] for a size or a twist that no yarn may have.
 pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnError> {
@@ -89,8 +91,8 @@ pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnErr
     shaped.build()
 }
 
-/// The plan for `yarns`, and its chunks for a device without limits: a single one, up to the
-/// paper's largest cloth.
+/// The plan for `yarns`, and its chunks for a device without limits. A cloth no larger than the
+/// paper's largest is one chunk.
 ///
 /// **Errors**: [`PlanError`] for yarns that no plan fits.
 pub fn plan(yarns: &Yarns, settings: Settings) -> Result<(Arc<Plan>, Vec<Chunk>), PlanError> {
@@ -109,7 +111,7 @@ pub fn session(device: &dyn Backend, plan: &Arc<Plan>, yarns: &Yarns) -> Result<
     Ok(session)
 }
 
-/// The middle one of some times or ratios.
+/// The median of some times or ratios.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);

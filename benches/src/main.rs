@@ -1,4 +1,4 @@
-//! Measures devices against their floor and beside the paper's tables.
+//! Compares devices with their floor, and with the paper's tables.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use texere_bench::{crossings, edits, figure_7, floor, pictures, settling, stages
 #[derive(Debug, Parser)]
 #[command(name = "texere-bench")]
 enum Args {
-    /// The mesh stage of GPU devices against a plain fill of the same bytes, side by side
+    /// The mesh stage of GPU devices beside a plain fill of the same bytes
     Floor {
         /// GPU devices, such as opencl:0 or wgpu:0 [default: all that `texere devices` lists]
         devices: Vec<String>,
@@ -31,7 +31,7 @@ enum Args {
         /// Wales and courses of lace, multiples of four
         #[arg(long, value_delimiter = ',', default_value = "200")]
         lace: Vec<usize>,
-        /// Runs of each
+        /// Runs of each measurement
         #[arg(long, default_value_t = 5)]
         rounds: usize,
     },
@@ -46,7 +46,7 @@ enum Args {
         /// The most passes of a course
         #[arg(long, default_value_t = 400)]
         passes: u32,
-        /// Runs of each
+        /// Runs of each measurement
         #[arg(long, default_value_t = 5)]
         rounds: usize,
     },
@@ -61,7 +61,7 @@ enum Args {
         /// Ends x picks of the cloth of which a lift is edited
         #[arg(long, default_value = "815x750")]
         lifts: Size,
-        /// Runs of each
+        /// Runs of each measurement
         #[arg(long, default_value_t = 21)]
         rounds: usize,
     },
@@ -85,17 +85,17 @@ enum Args {
         /// Width and height, pixels
         #[arg(long, default_value = "1600x1200")]
         size: Size,
-        /// How many times nearer than a view of all of it
+        /// How many times nearer than a view of the whole cloth
         #[arg(long, value_delimiter = ',', default_value = "1,4,20,100,400")]
         nearer: Vec<f32>,
-        /// Runs of each
+        /// Runs of each measurement
         #[arg(long, default_value_t = 11)]
         rounds: usize,
     },
     /// The paper's tables and figures, with texere's beside them
     Tables {
         /// Devices; the first is the reference [default: the CPU and all GPUs that `texere devices`
-        /// lists, or software devices where there is none]
+        /// lists, or software devices if there is none]
         #[arg(long = "device")]
         devices: Vec<String>,
         #[command(flatten)]
@@ -142,10 +142,10 @@ enum Args {
 
 #[derive(Debug, clap::Args)]
 struct Work {
-    /// Cloths, ends x picks [default: the paper's; the two smallest where no device is a GPU]
+    /// Cloths, ends x picks [default: the paper's; the two smallest if no device is a GPU]
     #[arg(long, value_delimiter = ',')]
     sizes: Vec<Size>,
-    /// Runs of each
+    /// Runs of each measurement
     #[arg(long, default_value_t = 5)]
     rounds: usize,
 }
@@ -166,7 +166,7 @@ impl FromStr for Size {
     }
 }
 
-/// The paper's cloths: its tables', and the largest that it shows.
+/// The sizes of the paper's cloths: those of its tables, and the largest that it shows.
 const SIZES: [(usize, usize); 6] =
     [(163, 150), (489, 450), (815, 750), (1141, 1050), (1630, 1500), (2880, 1840)];
 
@@ -232,8 +232,8 @@ fn gpus() -> impl Iterator<Item = String> {
     texere::devices().found.into_iter().filter(move |device| is_gpu(device.kind)).map(|device| device.name)
 }
 
-/// The serial reference first, then all others with both schedules. Where there is a GPU, software
-/// devices are left out.
+/// The serial reference, followed by all other devices with both schedules. If there is a GPU,
+/// software devices are left out.
 fn all_devices() -> Vec<String> {
     let mut others: Vec<_> = gpus().collect();
     if others.is_empty() {

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::median;
 
-/// Errors before there is anything to measure.
+/// The errors that keep a fabric from being measured.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MeasureError {
@@ -24,17 +24,17 @@ pub enum MeasureError {
     Session(#[from] SessionError),
 }
 
-/// A fabric on a device, ready to be meshed again and again.
+/// A fabric on a device, ready to be meshed repeatedly.
 #[derive(Debug)]
 pub struct Bench {
-    /// Its plan.
+    /// The plan of the fabric's mesh.
     pub plan: Arc<Plan>,
     chunks: Vec<Chunk>,
     session: Session,
     yarns: Yarns,
-    /// Getting memory and sending tables, by the host's clock.
+    /// The time of allocating memory and sending tables, by the host's clock.
     pub creation: Duration,
-    /// Sending the control points, by the host's clock.
+    /// The time of sending the control points, by the host's clock.
     pub upload: Duration,
 }
 
@@ -57,22 +57,23 @@ impl Bench {
         Ok(Self { plan, chunks, session, yarns, creation, upload })
     }
 
-    /// Scan and mesh once, both stages fused where the device fuses them. Times of this run alone.
+    /// Runs scan and mesh once, and returns the times of this run alone. Both stages are fused if
+    /// the device fuses them.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn fused(&mut self) -> Result<StageTimings, SessionError> {
         self.run(|session, chunk| session.mesh(chunk))
     }
 
-    /// Scan and packed vertices once. Times of this run alone.
+    /// Runs the scan and makes packed vertices once, and returns the times of this run alone.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn packed(&mut self) -> Result<StageTimings, SessionError> {
         self.run(|session, chunk| session.packed(chunk))
     }
 
-    /// Scan, then stage 1 and stage 2 one after the other for each chunk. Times of this run alone;
-    /// a device that always fuses does stage 1 twice.
+    /// Runs the scan, and then stage 1 and stage 2 one after the other for each chunk. Returns the
+    /// times of this run alone. A device that always fuses both stages makes stage 1 twice.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn staged(&mut self) -> Result<StageTimings, SessionError> {
@@ -86,7 +87,8 @@ impl Bench {
         &mut self,
         stages: impl Fn(&mut Session, &Chunk) -> Result<(), SessionError>,
     ) -> Result<StageTimings, SessionError> {
-        // An upload makes the session forget its results; one point costs next to nothing.
+        // After an upload the session computes its results again. Only one point is uploaded, which
+        // takes negligible time.
         self.session.upload(0, &self.yarns.points()[..1])?;
         let before = self.session.timings();
         self.session.scan()?;
@@ -104,7 +106,7 @@ impl Bench {
     }
 
     /// Sends all control points again, and returns the time by the host's clock until they have
-    /// arrived. The session's timings wait for that.
+    /// arrived. The session's timings wait for their arrival.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn send(&mut self) -> Result<Duration, SessionError> {
@@ -115,7 +117,7 @@ impl Bench {
     }
 
     /// Reads the whole mesh, piece by piece, and returns the time by the host's clock. The bytes
-    /// are lent where the driver puts them, and nothing reads them.
+    /// are lent in the memory that the driver writes, and nothing reads them.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn read(&mut self) -> Result<Duration, SessionError> {
@@ -140,11 +142,11 @@ impl Bench {
     }
 }
 
-/// Bytes that two chunks in flight may take. Without this limit, on a device whose memory is the
-/// host's, the cloths of the tables would leave no room for the rest.
+/// The bytes that two chunks may take at a time. On a device whose memory is the host's, the cloths
+/// of the tables would otherwise leave no memory for the rest.
 const HOST_SHARE: u64 = 12 << 30;
 
-/// The middle one of some times.
+/// The median of some times.
 #[must_use]
 pub fn median_time(times: &[Duration]) -> Duration {
     // The median of no times is NaN.

@@ -1,4 +1,5 @@
-//! The phases of the paper's figure 5, each alone: yarn geometry, buffer creation, rendering.
+//! Measures the phases of the paper's figure 5, each alone: yarn geometry, buffer creation,
+//! rendering.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -18,17 +19,17 @@ const CHUNK_MEMORY: u64 = 128 << 20;
 
 use crate::fill::Gpu;
 
-/// Time of each phase, one after the other, by the host's clock.
+/// The time of each phase by the host's clock. The phases run one after the other.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Phases {
     /// Splines and meshes on one core of the CPU: the paper's algorithms 1 and 3, into the host's
     /// memory.
     pub serial_geometry: Duration,
-    /// Vertices and indices of that mesh to the device that draws.
+    /// Sending the vertices and indices of the serial mesh to the device that draws.
     pub serial_buffers: Duration,
     /// Splines and meshes on the device that draws, into its own memory.
     pub parallel_geometry: Duration,
-    /// Control points and tables to the device that draws: nothing else has to be sent.
+    /// Sending control points and tables to the device that draws. Nothing else has to be sent.
     pub parallel_buffers: Duration,
     /// Drawing and lighting a picture, which is the same after either geometry.
     pub rendering: Duration,
@@ -59,7 +60,7 @@ pub struct PhaseTimer {
 impl PhaseTimer {
     /// Opens a device by a name such as `wgpu:0`.
     ///
-    /// **Errors**: [`BackendError`] where there is no such device, or it does not draw.
+    /// **Errors**: [`BackendError`] if there is no such device, or it does not draw.
     pub fn open(device: &str) -> Result<Self, BackendError> {
         let Gpu::Wgpu(gpu) = Gpu::open(device)? else {
             return Err(BackendError::NoDevice { wanted: device.into(), found: Vec::new() });
@@ -106,7 +107,7 @@ impl PhaseTimer {
         Ok(Phases { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering })
     }
 
-    /// Times the mesh with the settings of a scene: vertices alone, with caps.
+    /// Times the mesh with the settings of a scene, which makes vertices alone, with caps.
     fn parallel_geometry(&self, yarns: &Yarns, settings: &Settings) -> Result<Duration, Box<dyn Error>> {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
@@ -126,7 +127,7 @@ impl PhaseTimer {
     /// Times geometry and buffers of the serial backend, chunk by chunk, so that any fabric fits
     /// the host.
     fn serial(&self, yarns: &Yarns, settings: &Settings) -> Result<(Duration, Duration), Box<dyn Error>> {
-        // With caps, as the parallel geometry has them.
+        // The mesh has caps, as in the parallel geometry.
         let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = crate::session(&*self.serial, &plan, yarns)?;
@@ -169,7 +170,7 @@ impl PhaseTimer {
         Ok(self.idle()?)
     }
 
-    /// Limits of a chunk: two chunks of this size keep any device busy.
+    /// The limits of a chunk. Two chunks of this size keep any device busy.
     fn limits(&self, plan: &Plan) -> Limits {
         Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..self.info().limits }
     }

@@ -1,4 +1,4 @@
-//! Pictures of a cloth from far and near, stage by stage.
+//! Measures pictures of a cloth from far and near, stage by stage.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -57,7 +57,7 @@ pub fn print(
     Ok(())
 }
 
-/// From straight above the middle.
+/// The view from straight above the middle.
 fn above(extent: &Extent, nearer: f32, size: [u32; 2]) -> Result<Camera, RenderError> {
     let middle = middle(extent);
     let eye = [middle[0], middle[1], middle[2] + 1.0];
@@ -65,7 +65,7 @@ fn above(extent: &Extent, nearer: f32, size: [u32; 2]) -> Result<Camera, RenderE
     Camera::orthographic(extent, &pose, 1.05 * height(extent, size) / nearer, size)
 }
 
-/// In perspective, from the lower left.
+/// The view in perspective from the lower left.
 fn aside(extent: &Extent, nearer: f32, size: [u32; 2]) -> Result<Camera, RenderError> {
     let middle = middle(extent);
     let away = 2.0 * height(extent, size) / nearer;

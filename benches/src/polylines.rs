@@ -1,7 +1,7 @@
 //! Writes the centrelines of the paper's cloth for other tools to mesh.
 //!
-//! `polylines ENDS PICKS FOLDER` writes `points.f32` (x, y, z of each ring) and `offsets.u64`
-//! (where each yarn's rings start, and their total), both little-endian.
+//! `polylines ENDS PICKS FOLDER` writes `points.f32` (x, y, z of each ring) and `offsets.u64` (the
+//! number of each yarn's first ring, and the number of all rings), both little-endian.
 
 use std::error::Error;
 use std::path::Path;

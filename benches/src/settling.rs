@@ -1,5 +1,5 @@
-//! Settling on devices: the time of a pass beside a plain fill of the bytes that it moves, and the
-//! time until cloth is at rest.
+//! Measures settling on devices: the time of a pass beside a plain fill of the bytes that the pass
+//! moves, and the time until cloth is at rest.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -13,15 +13,15 @@ use texere_core::settling::{Form, Pass, Place, SettlingPlan, settle, tag};
 use crate::fill::Gpu;
 use crate::measure::median_time;
 
-/// Bytes of the fill that passes are measured beside.
+/// The bytes of the fill that passes are compared with.
 const FILL: u64 = 1 << 30;
 
-/// Cloths, by wales and courses.
+/// The cloths that are settled, by their numbers of wales and courses.
 #[derive(Debug, Clone)]
 pub struct Cloths {
     /// Knits with about every fifth stitch missed at random, which repeat nowhere.
     pub random: Vec<usize>,
-    /// Knits with eyelets; multiples of four.
+    /// Knits with eyelets. Their numbers are multiples of four.
     pub lace: Vec<usize>,
 }
 
@@ -59,7 +59,7 @@ fn print_row(
     let began = Instant::now();
     let rest = settle(plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;
     let whole = began.elapsed();
-    // From the start again, so that contacts pull as in most passes.
+    // The places are those of the start again, so that contacts pull as in most passes.
     let at = |tags: &(&Place, &u32)| tags.1 & tag::POINT != 0;
     let places: Vec<Place> =
         plan.places().iter().zip(plan.tags()).filter(at).map(|(place, _)| *place).collect();
@@ -101,8 +101,8 @@ fn print_row(
     Ok(())
 }
 
-/// The median time of `rounds` runs by the host's clock, after a warm one, and the value of the
-/// last run.
+/// The median time of `rounds` runs by the host's clock, after a run that warms the device up, and
+/// the value of the last run.
 fn median_of<T, E>(rounds: usize, mut run: impl FnMut() -> Result<T, E>) -> Result<(Duration, T), E> {
     let mut last = run()?;
     let mut times = Vec::new();

@@ -1,5 +1,5 @@
-//! The CPU's mesh stage, also with packed vertices, beside a plain fill of as many bytes, in turn
-//! and in one process.
+//! Compares the CPU's mesh stage, also with packed vertices, with a plain fill of as many bytes.
+//! Both run by turns in one process.
 //!
 //! `cargo run --release -p texere-bench --bin shares -- [ENDS PICKS [ROUNDS]]`
 //!
@@ -33,16 +33,16 @@ struct Case {
     rounds: Vec<Round>,
 }
 
-/// What is made.
+/// The output that is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Output {
-    /// Vertices and, where the topology has any, indices, into memory of the bench's.
+    /// Vertices and, if the topology has any, indices, into memory of the benchmark.
     Mesh,
-    /// Packed vertices, into memory of the session's.
+    /// Packed vertices, into memory of the session.
     Packed,
 }
 
-/// How long everything took in one round.
+/// The times of one round.
 struct Round {
     fill: Duration,
     scan: Duration,
@@ -134,7 +134,8 @@ impl Case {
         stream::fill(bytemuck::cast_slice_mut(indices), 1.0);
         let fill = start.elapsed();
 
-        // An upload makes the session forget its rolls; one point costs next to nothing.
+        // After an upload the session computes its rolls again. Only one point is uploaded, which
+        // takes negligible time.
         self.session.upload(0, &[self.first])?;
         let start = Instant::now();
         self.session.scan()?;

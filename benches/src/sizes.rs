@@ -1,5 +1,5 @@
-//! Time for a triangle by size of the cloth, and with the whole cloth in one yarn, in turn and in
-//! one process.
+//! Measures the time for a triangle by the size of the cloth, and with the whole cloth in one yarn.
+//! All run by turns in one process.
 //!
 //! `cargo run --release -p texere-bench --bin sizes -- [ROUNDS]`
 
@@ -11,7 +11,7 @@ use texere_bench::{median, one_yarn, paper_cloth, plan, session};
 use texere_core::backend::MeshMut;
 use texere_cpu::ParallelBackend;
 
-/// Ends and picks; the last one is the paper's largest cloth.
+/// The numbers of ends and picks. The last cloth is the paper's largest.
 const SIZES: [(usize, usize); 5] = [(489, 450), (815, 750), (1141, 1050), (1630, 1500), (2880, 1840)];
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,5 +1,5 @@
-//! From a design to its mesh on a device, stage by stage. The paper states about ten seconds for
-//! each cloth of its figure 7.
+//! Measures the way from a design to its mesh on a device, stage by stage. The paper states about
+//! ten seconds for each cloth of its figure 7.
 
 use std::error::Error;
 use std::path::Path;
@@ -15,38 +15,38 @@ use texere_core::backend::Session;
 use crate::measure::Bench;
 use crate::one_yarn;
 
-/// How long each stage of a design took, by the host's clock, and how large it is.
+/// The time of each stage of a design by the host's clock, and the design's counts.
 #[derive(Debug, Clone, Default)]
 pub struct Stages {
     /// The design's name.
     pub name: String,
-    /// Its yarns.
+    /// The number of yarns.
     pub yarns: usize,
-    /// Their control points.
+    /// The number of control points of all yarns.
     pub points: u64,
-    /// Triangles of the mesh.
+    /// The number of triangles of the mesh.
     pub triangles: u64,
     /// Reading the file and making the structure.
     pub read: Duration,
-    /// Placing the yarns, and letting them come to rest where the design asks for it:
+    /// Placing the yarns, and letting them come to rest if the design asks for it:
     /// [`texere::Design::rest`].
     pub rest: Duration,
-    /// How the yarns rest, if they settled.
+    /// The measures of the yarns at rest, if they settled.
     pub rests: Option<Rests>,
-    /// The tables of the mesh, counted and sent.
+    /// Working out the tables of the mesh, and sending them.
     pub plan: Duration,
-    /// Control points from the host to the session.
+    /// Sending control points from the host to the session.
     pub take: Duration,
-    /// Both stages of the mesh, all chunks, in the device's own memory.
+    /// Making the mesh of all chunks in the device's own memory, both stages.
     pub mesh: Duration,
 }
 
-/// How yarns rest.
+/// The measures of yarns at rest.
 #[derive(Debug, Clone, Copy)]
 pub struct Rests {
-    /// Whether they do.
+    /// Whether the yarns are at rest.
     pub at_rest: bool,
-    /// The least distance of two yarns over both reaches.
+    /// The least distance of two yarns, divided by the sum of both reaches.
     pub clearance: f64,
     /// The least radius of curvature of a knit, in diameters.
     pub radius: Option<f32>,
@@ -67,7 +67,7 @@ impl Rests {
 }
 
 impl Stages {
-    /// All stages together.
+    /// The time of all stages together.
     #[must_use]
     pub fn whole(&self) -> Duration {
         let Self { read, rest, plan, take, mesh, .. } = *self;
@@ -75,7 +75,8 @@ impl Stages {
     }
 }
 
-/// Takes the design in `path` to a mesh in the memory of `device`. Also returns its yarns.
+/// Makes the mesh of the design in `path` in the memory of `device`, and returns the times of the
+/// stages and the design's yarns.
 ///
 /// # Errors
 ///
@@ -112,7 +113,7 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
     Ok((stages, yarns))
 }
 
-/// Prints a row for each design, of a second run on the warm device.
+/// Prints a row for each design, with the times of a second run on the warm device.
 ///
 /// # Errors
 ///
@@ -151,7 +152,7 @@ pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn E
     Ok(())
 }
 
-/// Prints the time for a triangle of each design's mesh on a warm device, as it is and with all
+/// Prints the time for a triangle of each design's mesh on a warm device, as it is, and with all
 /// control points in one yarn, as in a knit of one carrier.
 ///
 /// # Errors
@@ -175,15 +176,15 @@ pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), 
     Ok(())
 }
 
-/// Bytes that the chunks of a mesh may take.
+/// The bytes that the chunks of a mesh may take.
 const CHUNKS: u64 = 32 << 30;
 
-/// Laps of one clock.
+/// A clock that measures the time from lap to lap.
 #[derive(Debug)]
 struct Clock(Instant);
 
 impl Clock {
-    /// Time since the lap before.
+    /// The time since the lap before.
     fn lap(&mut self) -> Duration {
         let now = Instant::now();
         now.duration_since(std::mem::replace(&mut self.0, now))

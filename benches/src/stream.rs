@@ -1,9 +1,9 @@
-//! A plain fill of the host's memory, the yardstick of the CPU's mesh stage: it writes and does
-//! nothing else.
+//! A plain fill of the host's memory, with which the CPU's mesh stage is compared. It writes and
+//! does nothing else.
 
 use rayon::prelude::*;
 
-/// Floats that one task fills: a megabyte.
+/// The number of floats that one task fills: a megabyte.
 const TASK: usize = 1 << 18;
 
 /// Fills `out` past the caches, on all threads of the present rayon pool, with the widest stores

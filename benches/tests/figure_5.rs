@@ -1,4 +1,4 @@
-//! Figure 5 of a design, on whatever Vulkan device there is; lavapipe will do.
+//! Tests figure 5 of a design, on any Vulkan device, such as lavapipe.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::time::Duration;

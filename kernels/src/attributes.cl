@@ -1,7 +1,8 @@
-// Lengths along yarns up to each block's start, and the attributes of vertices. After common.cl.
+// Lengths along yarns up to each block's start, and the attributes of vertices. This file follows
+// common.cl.
 //
-// The twin of attributes.wgsl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32
-// mm (Rust: ArcLength), so the order of the sums does not matter.
+// Its twins are attributes.wgsl and texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm
+// (Rust: ArcLength), so the order of the sums does not matter.
 
 #define ATTRIBUTES_GROUP 64
 #define YARN_LENGTHS_GROUP 256
@@ -26,7 +27,7 @@ float segment_speed(const Segment *segment, float t) {
     return sqrt(dot3(velocity, velocity));
 }
 
-// A length by a single rule, and the lowest and the highest speed at its nodes.
+// A length by one rule, and the lowest and the highest speed at the rule's nodes.
 typedef struct {
     float length;
     float slowest;
@@ -58,7 +59,7 @@ Rule length_by_rule(const Segment *segment, float from, float to) {
     return rule;
 }
 
-// The length between two parameters. Where the speed is uneven it is added up from parts.
+// The length between two parameters. If the speed is uneven, the length is added up from parts.
 float segment_length(const Segment *segment, float from, float to) {
     Rule rule = length_by_rule(segment, from, to);
     if (rule.slowest >= ARC_EVEN * rule.fastest) {
@@ -73,21 +74,22 @@ float segment_length(const Segment *segment, float from, float to) {
     return sum;
 }
 
-// The length from ring number `k` of the block, which is not the yarn's last, to the next ring.
-// `points` start at the window.
+// The length from ring number `k` of the block to the next ring. The ring must not be the yarn's
+// last. `points` begin at the chunk's window.
 ulong step_length(__global const uint4 *points, const Params *params, const Block *block, uint k) {
     uint per_interval = params->subdivisions + 1u;
     uint place = block->first_ring % per_interval + k;
     uint interval = quotient(place, per_interval);
     uint part = place - interval * per_interval;
     Segment segment = segment_new(points + block->first_point + interval, params->s);
-    // Set to 1 at the end: the last multiple of the step may be a bit off 1.
+    // At the interval's end this is set to 1, since the last multiple of the step may differ
+    // slightly from 1.
     float end = part + 1u == per_interval ? 1.0f : (float)(part + 1u) * params->step;
     return length_from_mm(segment_length(&segment, (float)part * params->step, end));
 }
 
-// The sum of the lengths of all lanes up to and with this one. Until the next barrier `sums` also
-// holds the sum of all `lanes`. Every lane must call it.
+// The sum of the lengths of all lanes up to this one, inclusive. Until the next barrier the last of
+// `sums` is the sum of all `lanes`. Every lane must call this function.
 inline ulong running_length(__local ulong *sums, uint lane, uint lanes, ulong length) {
     sums[lane] = length;
     for (uint reach = 1u; reach < lanes; reach *= 2u) {
@@ -100,13 +102,13 @@ inline ulong running_length(__local ulong *sums, uint lane, uint lanes, ulong le
     return sums[lane];
 }
 
-// The length from ring `lane` of a block to the next; 0 where no quads start from it.
+// The length from ring `lane` of a block to the next ring, or 0 if no quads start from ring `lane`.
 inline ulong lane_length(__global const uint4 *points, const Params *params, const Block *block, uint lane) {
     return lane < block->quads ? step_length(points, params, block, lane) : 0ul;
 }
 
-// The length of each block, from its first ring to the next block's. A workgroup of
-// ATTRIBUTES_GROUP for each row of a chunk's block table.
+// Writes the length of each block of a chunk, from its first ring to the next block's first ring.
+// It runs with one workgroup of ATTRIBUTES_GROUP lanes for each row of the block table.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void block_lengths(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global ulong *lengths) {
@@ -120,8 +122,9 @@ void block_lengths(const Params params, const ulong window, __global const uint4
     }
 }
 
-// Replaces the length of each of a yarn's blocks by the sum of all blocks before it, tile by tile.
-// A workgroup of YARN_LENGTHS_GROUP for each yarn.
+// Replaces the length of each block of a yarn by the total length of the blocks before it, one tile
+// of YARN_LENGTHS_GROUP blocks after the other. It runs with one workgroup of YARN_LENGTHS_GROUP
+// lanes for each yarn.
 __kernel __attribute__((reqd_work_group_size(YARN_LENGTHS_GROUP, 1, 1)))
 void yarn_lengths(__global const YarnRow *yarns, __global ulong *lengths) {
     __local ulong sums[YARN_LENGTHS_GROUP];
@@ -143,8 +146,8 @@ void yarn_lengths(__global const YarnRow *yarns, __global ulong *lengths) {
     }
 }
 
-// The attributes of the vertices of tubes. A workgroup of ATTRIBUTES_GROUP for each row of a
-// chunk's block table.
+// Writes the attributes of the vertices of a chunk's tubes. It runs with one workgroup of
+// ATTRIBUTES_GROUP lanes for each row of the block table.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void attributes(const Params params, const ulong window, __global const uint4 *points,
                 __global const YarnRow *yarns, __global const Block *blocks, __global const ulong *lengths,
@@ -182,7 +185,8 @@ void attributes(const Params params, const ulong window, __global const uint4 *p
     }
 }
 
-// The attributes of caps, which repeat those of the end rings. A lane for each cap vertex.
+// Writes the attributes of caps, which equal those of the end rings. It runs with one lane for each
+// cap vertex.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void cap_attributes(const Params params, __global const CapRow *rows, __global uint2 *out) {
     size_t number = get_global_id(0);

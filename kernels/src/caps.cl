@@ -1,11 +1,13 @@
-// The caps at the ends of yarns, after the tube vertices. After common.cl.
+// The caps at the ends of yarns. Their vertices come after those of the tubes. This file follows
+// common.cl.
 //
-// The twin of caps.wgsl and of texere-cpu's caps.rs.
+// Its twins are caps.wgsl and texere-cpu's caps.rs.
 
 #define CAPS_GROUP 64
 
-// The vertices and triangles of caps. A lane for each cap vertex repeats the end ring's position
-// with the end's own normal; all lanes of a cap but two also write one of its sides - 2 triangles.
+// Writes the vertices and triangles of caps, with one lane for each vertex. A vertex has the
+// position of the end ring's vertex and the normal of the yarn's end. A cap has two triangles fewer
+// than sides, and all its lanes but two also write one triangle each.
 __kernel __attribute__((reqd_work_group_size(CAPS_GROUP, 1, 1)))
 void caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
           __global const uint *cap_pattern, __global float *vertices, __global uint *indices) {

@@ -1,9 +1,9 @@
-// What all stages share: tables, turns, the spline, frames and vertices.
+// The code that all stages share: tables, turns, the spline, frames and vertices.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
-// spline.rs, sampling.rs, frame.rs, ring.rs), and common.wgsl is the twin of this file. OpenCL C
-// 1.2, no extension. texere-gpu writes two things before this file: the core's constants, such as
-// BLOCK_RINGS, and FLATTENED, which is false where all yarns are round.
+// spline.rs, sampling.rs, frame.rs, ring.rs), and common.wgsl is the twin of this file. It is
+// OpenCL C 1.2 without extensions. texere-gpu writes two things before this file: the core's
+// constants, such as BLOCK_RINGS, and FLATTENED, which is false if all yarns are round.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -59,8 +59,9 @@ typedef struct {
 
 // A control point (Rust: ControlPoint) is a uint4: the bits of x, y, z, and two half floats, half
 // width and half height. A section point (Rust: SectionPoint) is a float4 of x, y, normal x, normal
-// y. A ring (Rust: Ring) is three uint4: the bits of centre and half width, of the tangent and the
-// roll, of half height and both growths. A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
+// y. A ring (Rust: Ring) is three uint4: the bits of the centre and the half width; of the tangent,
+// and the roll; of the half height and both growths, and the lean. A vertex (Rust: Vertex) is six
+// floats: x y z nx ny nz.
 
 float dot3(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -132,7 +133,8 @@ typedef struct {
     float4 c3;
     // The least half width.
     float width_floor;
-    // Half height of P[j] with its coefficients, and the least one: where yarns are FLATTENED.
+    // Half height of P[j] with its coefficients, and the least half height. Both have values only
+    // if yarns are FLATTENED.
     float4 height;
     float height_floor;
     // A squared velocity up to this counts as zero.
@@ -146,7 +148,7 @@ typedef struct {
     float half_width;
     float half_height;
     float3 tangent;
-    // Growth of both halves along the yarn.
+    // Growth of the half width and of the half height along the yarn.
     float width_growth;
     float height_growth;
 } Sample;
@@ -163,7 +165,8 @@ float point_height(uint4 point) {
     return vload_half(1, (const half *)&halves);
 }
 
-// Coefficients of t (x), t^2 (y) and t^3 (z) for a size with these differences from its start.
+// Coefficients of t (x), t^2 (y) and t^3 (z) for a size. `a`, `b` and `c` are its differences from
+// the start at the point before, at the end, and at the point after.
 float3 size_terms(float a, float b, float c, float s) {
     return (float3)((b - a) * s, a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s, (c - a) * s + b * (s - 2.0f));
 }
@@ -196,8 +199,7 @@ Segment segment_new(__global const uint4 *points, float s) {
     return segment;
 }
 
-// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's
-// speed.
+// A size at t (x), and its growth along the yarn (y). `inverse` is one over the spline's speed.
 float2 size_sample(float start, float3 terms, float least, float t, float inverse) {
     float size = start + (terms.x + (terms.y + terms.z * t) * t) * t;
     float growth = (terms.x + (terms.y * 2.0f + terms.z * (3.0f * t)) * t) * inverse;
@@ -224,7 +226,7 @@ Sample segment_sample(const Segment *segment, float t) {
     float3 offset = (segment->c1.xyz + (segment->c2.xyz + segment->c3.xyz * t) * t) * t;
     float3 velocity = segment->c1.xyz + (segment->c2.xyz * 2.0f + segment->c3.xyz * (3.0f * t)) * t;
     float speed_squared = dot3(velocity, velocity);
-    // Where the spline stands still nothing grows along it.
+    // If the spline stands still, nothing grows along it.
     float inverse = 0.0f;
     Sample sample;
     if (speed_squared > segment->at_rest) {
@@ -248,8 +250,8 @@ Sample segment_sample(const Segment *segment, float t) {
     return sample;
 }
 
-// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an
-// integer division.
+// `part` / `whole`, rounded down. The result is exact for numbers as small as those of rings and
+// sides. It takes much less time than an integer division.
 uint quotient(uint part, uint whole) {
     return (uint)(((float)part + 0.5f) * (1.0f / (float)whole));
 }
@@ -264,8 +266,8 @@ typedef struct {
     bool ends_interval;
 } RingSample;
 
-// Ring number `k` of the block, from 0. The ring after the block's last counts too. `points` start
-// at the window.
+// The spline at ring number `k` of the block, counted from 0. `k` may also name the ring after the
+// block's last. `points` begin at the chunk's window.
 RingSample ring_sample(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                        uint k) {
     uint per_interval = params->subdivisions + 1u;
@@ -292,8 +294,8 @@ float3 chord_to(const RingSample *here, float3 next_offset) {
     return (here->ends_interval ? here->span : next_offset) - here->sample.offset;
 }
 
-// The normal of a cap: the tangent at the yarn's end, pointing out of the yarn. `points` start at
-// the window.
+// The normal of a cap: the tangent at the yarn's end, pointing out of the yarn. `points` begin at
+// the chunk's window.
 float3 cap_normal(__global const uint4 *points, const Params *params, const CapRow *cap) {
     // The start is t = 0 of the first interval, the finish t = 1 of the last.
     Segment segment = segment_new(points + cap->first_point, params->s);
@@ -308,13 +310,13 @@ typedef struct {
     float3 up;
 } Basis;
 
-// The other axis of a section whose first is `side`: tangent x side.
+// The second axis of a section whose first axis is `side`: tangent x side.
 float3 up_of(float3 tangent, float3 side) {
     return (float3)(tangent.y * side.z - tangent.z * side.y, tangent.z * side.x - tangent.x * side.z,
                     tangent.x * side.y - tangent.y * side.x);
 }
 
-// side = z x t, normalised (+y where t is along z); up = t x side.
+// The upright basis: side is z x t, normalised, or +y if t is along z. up is t x side.
 Basis basis_upright(float3 tangent) {
     float level = tangent.x * tangent.x + tangent.y * tangent.y;
     Basis basis;
@@ -328,7 +330,7 @@ Basis basis_upright(float3 tangent) {
     return basis;
 }
 
-// The side of a section that stands with `roll`: the upright one turned about the tangent, towards
+// The side of a section with the roll `roll`: the upright side, turned about the tangent towards
 // up.
 float3 side_standing(float3 tangent, uint roll) {
     Basis upright = basis_upright(tangent);
@@ -349,7 +351,7 @@ float3 mirrored(float3 v, float3 mirror, float mirror_squared) {
 float transport_turns(float3 tangent, float3 next_tangent, float3 chord) {
     float3 side = basis_upright(tangent).side;
     float length_squared = dot3(chord, chord);
-    // Where two rings coincide the tangent stands in for the chord.
+    // If two rings coincide, the tangent is used in place of the chord.
     bool apart = length_squared > NO_LENGTH;
     float3 mirror = apart ? chord : tangent;
     float mirror_squared = apart ? length_squared : 1.0f;
@@ -365,26 +367,27 @@ float transport_turns(float3 tangent, float3 next_tangent, float3 chord) {
     return atan2_turns(dot3(side, next.up), dot3(side, next.side));
 }
 
-// The change of roll from a ring to the next; `twist` in turns per mm.
+// The change of roll from a ring to the next. `twist` is in turns per mm.
 uint frame_step(uint frame, float3 tangent, float3 next_tangent, float3 chord, float twist) {
     float turns = frame == ROTATION_MINIMIZING ? transport_turns(tangent, next_tangent, chord) : 0.0f;
     return turn_from_turns(turns + twist * sqrt(dot3(chord, chord)));
 }
 
-// The roll of ring `ring`, where steps up to it add up to `sum`. Along a closed yarn the whole turn
-// is taken away bit by bit, so that its last ring meets its first.
+// The roll of ring `ring`, if the steps up to it add up to `sum`. In a closed yarn each ring loses
+// its share of the yarn's total turn, `whole`, so that the last ring has the roll of the first.
 uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
     uint steps = yarn->rings - 1u;
     if (yarn->closed == 0u) {
         return sum;
     }
-    // Not `?:`, which PoCL 3.1 miscompiles: the last ring kept the rounding error of its share.
+    // `?:` is not used, because PoCL 3.1 miscompiles it: the last ring kept the rounding error of
+    // its share.
     return select(sum - turn_share(whole, ring, steps), 0u, ring == steps);
 }
 
 // ---- Vertex ----
 
-// How a section stands on a ring, which all its vertices share.
+// How a section stands on a ring. All vertices of the ring share it.
 typedef struct {
     // Centre, half width.
     float4 centre;
@@ -392,26 +395,28 @@ typedef struct {
     float4 tangent;
     float3 side;
     float3 up;
-    // Half height and its growth, sine and cosine of the roll: where yarns are FLATTENED.
+    // Half height and its growth; sine and cosine of the roll less the lean. Both are used only if
+    // yarns are FLATTENED.
     float2 height;
     float2 sin_cos;
     bool round;
 } Stance;
 
-// Whether a yarn is round and stays so. `width` and `height` are each a half and its growth. Round
-// rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex depends on
-// other yarns.
+// Whether a yarn is round at a ring, and stays round there. `width` is the half width and its
+// growth, `height` the half height and its growth. Round rings are worked out in the same way
+// whether other yarns are FLATTENED or not, so that no vertex depends on other yarns.
 bool is_round(float2 width, float2 height) {
     return !FLATTENED || (width.x == height.x && width.y == height.y);
 }
 
-// The side that a section stands with. A round section turns with the roll. The outline of a
-// flattened one leans, and the section turns inside it.
+// The side of a section. A round section turns with the roll. The outline of a flattened section
+// leans, and the section turns inside its outline.
 float3 side_of(float3 tangent, uint roll, uint lean, bool round) {
     return side_standing(tangent, round ? roll : lean);
 }
 
-// `side` is that of `side_of`, `height` the half height and its growth, `sin_cos` that of the roll.
+// The stance of a section. `side` is the result of `side_of`, `height` is the half height and its
+// growth, and `sin_cos` are the sine and cosine of the roll less the lean.
 Stance stance_new(float4 centre, float4 tangent, float3 side, float2 height, float2 sin_cos) {
     Stance stance;
     stance.centre = centre;
@@ -424,7 +429,7 @@ Stance stance_new(float4 centre, float4 tangent, float3 side, float2 height, flo
     return stance;
 }
 
-// `q` turned by the roll.
+// `q`, turned by the roll less the lean.
 float2 rolled(const Stance *stance, float2 q) {
     return (float2)(stance->sin_cos.y * q.x - stance->sin_cos.x * q.y, stance->sin_cos.x * q.x + stance->sin_cos.y * q.y);
 }
@@ -444,8 +449,8 @@ float3 normal_at(const Stance *stance, float4 point) {
     float4 tangent = stance->tangent;
     if (!stance->round) {
         float2 q = rolled(stance, point.xy);
-        // Each component times the other half: the inverse transpose, times the product of both
-        // halves.
+        // Each component is multiplied by the other half. This is the inverse transpose, times the
+        // product of both halves.
         float2 normal = rolled(stance, point.zw) * (float2)(stance->height.x, stance->centre.w);
         float lean = tangent.w * q.x * normal.x + stance->height.y * q.y * normal.y;
         float inverse = 1.0f / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);
@@ -453,7 +458,7 @@ float3 normal_at(const Stance *stance, float4 point) {
         return across - tangent.xyz * (lean * inverse);
     }
     float3 across = stance->side * point.z + stance->up * point.w;
-    // Where the radius is constant no square root is needed.
+    // If the radius is constant, no square root is needed.
     if (tangent.w == 0.0f) {
         return across;
     }

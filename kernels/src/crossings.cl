@@ -1,8 +1,9 @@
-// What the kernels of crossings share: tables, sites, and what is gathered at one of them.
+// The code that the kernels of crossings share: tables, sites, and the block that is gathered at a
+// site.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (crossings/),
-// and crossings.wgsl is the twin of this file. OpenCL C 1.2, no extension. Constants are the
-// core's; texere-gpu writes them before this file.
+// and crossings.wgsl is the twin of this file. It is OpenCL C 1.2 without extensions. The constants
+// are the core's. texere-gpu writes them before this file.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -33,15 +34,15 @@ typedef struct {
     int after;
 } ThreadRow;
 
-// A lie (Rust: Lie) is a float4: shift, height, half width, half height. A crossing is two of them,
-// its end's and its pick's.
+// A lie (Rust: ThreadState) is the state of a thread at a crossing, a float4: shift, height, half
+// width, half height. A crossing is two lies, that of its end and that of its pick.
 
 // The input of all lanes.
 typedef struct {
     const CrossingsParams *params;
     __global const ThreadRow *threads;
     __global const uint *ups;
-    // The crossings as others find them in this pass.
+    // The lies with momentum added, which this pass reads.
     __global const float4 *found;
 } Cloth;
 
@@ -52,8 +53,8 @@ typedef struct {
 
 #define NOWHERE 0xffffffffu
 
-// The number `by` further on than `at` among `count`. Where they repeat, the first follows the
-// last.
+// The number that is `by` further on than `at`, of `count` numbers. If they repeat, the first
+// follows the last. Otherwise numbers beyond both are NOWHERE.
 uint further(uint at, int by, uint count, bool repeats) {
     int way = (int)at + by;
     int whole = (int)count;
@@ -63,7 +64,8 @@ uint further(uint at, int by, uint count, bool repeats) {
     return repeats ? (uint)(by < 0 ? way + whole : way - whole) : NOWHERE;
 }
 
-// The crossing `along` further along a thread of `of_set`, and `across` threads of that set aside.
+// The crossing that lies `along` crossings further along a thread of `of_set`, and `across` threads
+// of that set aside.
 uint2 beside(const Cloth *cloth, uint2 site, uint of_set, int along, int across) {
     int ends = of_set == WARP ? across : along;
     int picks = of_set == WARP ? along : across;
@@ -89,7 +91,7 @@ ThreadRow thread_of(const Cloth *cloth, uint2 site, uint of_set) {
     return cloth->threads[of_set == WARP ? site.x : cloth->params->ends + site.y];
 }
 
-// The way from a set's thread at a site to the one `steps` after it.
+// The distance from a set's thread at a site to the thread `steps` after it.
 float way_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     float way = thread_of(cloth, site, of_set).gap;
     for (int step = 1; step < steps; step++) {
@@ -108,9 +110,10 @@ float side_of(const Cloth *cloth, uint2 site, uint of_set) {
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
-// A block is seen from one set: `own` are the set's four unknowns, `crossed` those of the other
-// set. Row k of `own_own` holds unknown k with all own unknowns, row k of `own_crossed` holds it
-// with those of the other set. Only entries up to the diagonal are used.
+// A block is described from one set. `own` holds the slopes in that set's four unknowns, and
+// `crossed` the slopes in those of the other set. Row k of `own_own` holds the curvatures in
+// unknown k and all own unknowns, row k of `own_crossed` those in unknown k and the unknowns of the
+// other set. Only entries up to the diagonal of `own_own` and `crossed_crossed` are used.
 typedef struct {
     float4 own;
     float4 crossed;
@@ -120,7 +123,7 @@ typedef struct {
     float clearance;
 } CrossingBlock;
 
-// The block, seen from the other set.
+// The block, described from the other set.
 CrossingBlock turned(const CrossingBlock *block) {
     const float4 *rows = block->own_crossed;
     CrossingBlock other;
@@ -138,7 +141,7 @@ CrossingBlock turned(const CrossingBlock *block) {
     return other;
 }
 
-// Notes a distance of two threads, as a share of what they need.
+// Notes the distance of two threads, divided by the distance that they need.
 void see(CrossingBlock *block, float clearance) {
     block->clearance = fmin(block->clearance, clearance);
 }

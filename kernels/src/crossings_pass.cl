@@ -1,21 +1,24 @@
-// A pass: the step of every crossing, and what all of them have seen. After crossings_terms.cl.
+// A pass: it moves every crossing by one step, and gathers the longest step and the least clearance
+// of all. This file follows crossings_terms.cl.
 //
-// The twin of crossings_pass.wgsl; CrossingBlock::step and CrossingsPlan in texere-core
+// Its twin is crossings_pass.wgsl. CrossingBlock::step and CrossingsPlan in texere-core
 // (crossings/) are the definitions.
 
 // ---- Eight equations by Cholesky's method, in two halves of four ----
 
-// The Cholesky root of four rows.
+// The Cholesky factor of a symmetric 4 x 4 matrix.
 typedef struct {
     float4 rows[4];
 } Root;
 
-// The square root of a regularised pivot, which is no less than CROSSINGS_PIVOT.
+// The square root of a damped pivot, which is at least CROSSINGS_PIVOT. `left` is what is left of a
+// diagonal element, and `whole` is that element before anything was subtracted.
 float pivot(float left, float whole) {
     return sqrt(fmax(left + CROSSINGS_DAMPING + CROSSINGS_DAMPING * whole, CROSSINGS_PIVOT));
 }
 
-// The root of four rows. `whole` is their diagonal before anything was subtracted from them.
+// The Cholesky factor of a symmetric 4 x 4 matrix, of which the lower triangle is given. `whole` is
+// the diagonal before anything was subtracted from the matrix.
 Root root_of(const float4 *rows, float4 whole) {
     float4 a = rows[0];
     float4 b = rows[1];
@@ -49,7 +52,7 @@ float4 forwards(const Root *root, float4 right) {
     return (float4)(x, y, z, w);
 }
 
-// Solves transpose of root * x = `right`.
+// Solves transpose(root) * x = `right`.
 float4 backwards(const Root *root, float4 right) {
     const float4 *rows = root->rows;
     float w = right.w / rows[3].w;
@@ -63,7 +66,7 @@ float dot4(float4 one, float4 other) {
     return one.x * other.x + one.y * other.y + one.z * other.z + one.w * other.w;
 }
 
-// A value for both threads of a crossing: their lies, or their steps.
+// The steps of both threads of a crossing.
 typedef struct {
     float4 warp;
     float4 weft;
@@ -123,7 +126,7 @@ float move_thread(const Cloth *cloth, __global float4 *crossings, __global float
     size_t lie = 2u * (size_t)number + of_set;
     float4 was = crossings[lie];
     float4 moved = bounded(cloth->found[lie] + step, &thread);
-    // Others find it further on, where momentum carries it.
+    // The next pass reads this lie moved further by a share of this step (momentum).
     next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), &thread);
     crossings[lie] = moved;
     return largest(moved - was);
@@ -146,7 +149,8 @@ float2 seen_by_both(float2 one, float2 other) {
     return (float2)(fmax(one.x, other.x), fmin(one.y, other.y));
 }
 
-// What all lanes of a workgroup have seen, joined by a fixed tree.
+// The longest step and the least clearance of a workgroup. Lanes are joined in pairs. The result is
+// valid in lane 0.
 float2 seen_by_group(__local float2 *rows, uint lane, uint lanes, float2 seen) {
     rows[lane] = seen;
     for (uint reach = lanes / 2u; reach > 0u; reach /= 2u) {
@@ -160,7 +164,8 @@ float2 seen_by_group(__local float2 *rows, uint lane, uint lanes, float2 seen) {
 
 #define CROSSINGS_MOVE_GROUP 64
 
-// Moves all crossings: a lane for each. Each workgroup writes a row of what it has seen.
+// Moves all crossings, with one lane for each. Each workgroup writes a row: the longest step and
+// the least clearance of its lanes, which are joined in pairs.
 __kernel __attribute__((reqd_work_group_size(CROSSINGS_MOVE_GROUP, 1, 1)))
 void crossings_move(const CrossingsParams params, __global const ThreadRow *threads, __global const uint *ups,
                     __global const float4 *found, __global float4 *crossings, __global float4 *next,
@@ -180,7 +185,7 @@ void crossings_move(const CrossingsParams params, __global const ThreadRow *thre
 
 #define CROSSINGS_SEEN_GROUP 256
 
-// Joins the rows of all workgroups into the row of this pass: one workgroup.
+// Joins the rows of all workgroups into the row of this pass. It runs as one workgroup.
 __kernel __attribute__((reqd_work_group_size(CROSSINGS_SEEN_GROUP, 1, 1)))
 void crossings_seen(const CrossingsParams params, __global const float2 *group_rows, __global float2 *pass_rows) {
     __local float2 group[CROSSINGS_SEEN_GROUP];

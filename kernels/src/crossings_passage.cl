@@ -1,6 +1,6 @@
-// A thread that changes sides between two threads of the other set. After crossings.cl.
+// A thread that changes sides between two threads of the other set. This file follows crossings.cl.
 //
-// The twin of crossings_passage.wgsl, and of StraightPassage in texere-core (crossings/passage.rs).
+// Its twins are crossings_passage.wgsl, and StraightPassage in texere-core (crossings/passage.rs).
 
 // A straight passage over the first of two crossed threads and under the second, at the slope that
 // leaves most room.
@@ -33,8 +33,8 @@ StraightPassage passage_of(float across, float rise, float4 halves, float thread
     const float2 upright = (float2)(0.0f, 1.0f);
     float distance = sqrt(across * across + rise * rise);
     float2 excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // Candidates: the best slope of round threads, level, and upright. Wide ellipses leave most
-    // room at one of these.
+    // The steps below begin at the best of three slopes: that of round threads, level, and upright.
+    // Wide ellipses leave most room at one of the three.
     float2 slope = rise > 0.0f ? (float2)(rise, across) / distance : upright;
     float most = left_by(across, rise, halves, slope);
     float left = left_by(across, rise, halves, level);

@@ -1,13 +1,13 @@
-// The energy of a crossing: terms for what threads want, and terms that keep them apart. After
-// crossings.cl and crossings_passage.cl.
+// The energy of a crossing: terms of single threads, and terms that keep threads apart. This file
+// follows crossings.cl and crossings_passage.cl.
 //
-// The twin of crossings_terms.wgsl, and of texere-core (crossings/terms.rs).
+// Its twins are crossings_terms.wgsl, and texere-core's crossings/terms.rs.
 
-// A crossing along a thread.
+// A crossing of a thread, some steps from another.
 typedef struct {
     uint2 site;
     bool there;
-    // The thread's lie there, and the way to the next crossing.
+    // The thread's lie at this crossing, and the distance to the next crossing.
     float4 lie;
     float gap;
 } Along;
@@ -21,7 +21,7 @@ Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     return along;
 }
 
-// Terms of the section: its shape, its area, and the press.
+// Adds the terms of the section: its shape, its area, and the press.
 void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, float radius) {
     float wide = lie.z / radius;
     float thick = lie.w / radius;
@@ -34,8 +34,8 @@ void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, float rad
     add_alone(block, (float4)(0.0f, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
 }
 
-// The term of a bend: a second difference along the thread, with slope `slope` in the unknowns of
-// this crossing.
+// Adds the term of a bend: a second difference along the thread, with slope `slope` in the unknowns
+// of this crossing.
 void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before, const Along *middle, const Along *after,
               float slope, float share) {
     if (!before->there || !middle->there || !after->there) {
@@ -48,8 +48,8 @@ void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before
     add_alone(block, weights, share, before->lie - 2.0f * middle->lie + after->lie, slope);
 }
 
-// Terms of first differences along the thread, to a crossing `gap` away: tension, and evenness of
-// sections.
+// Adds the terms of first differences along the thread, to a crossing `gap` away: tension, and
+// evenness of sections.
 void add_difference(CrossingBlock *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
     if (other->there) {
         float taut = tension / gap;
@@ -58,19 +58,19 @@ void add_difference(CrossingBlock *block, float4 lie, const Along *other, float 
     }
 }
 
-// How a thread meets the threads that it crosses, between two crossings. This crossing is the
-// `second` of them, or else the first.
+// The room between a thread and the threads that it crosses, on the way between two crossings. This
+// crossing is the second of the two if `second` is true, and else the first.
 typedef struct {
     float room;
-    // Slopes in its own height and half height, and in the unknowns of the thread that it crosses
-    // here.
+    // The slopes of the room in the thread's height and half height, and in the unknowns of the
+    // thread that it crosses here.
     float2 slopes;
     float4 crossed;
     float clearance;
 } Meeting;
 
-// The meeting of a thread that stays on its side. Where it slopes, it has to clear the shoulder of
-// the thread under its upper end.
+// The meeting of a thread that stays on its side. If it slopes, it has to clear the shoulder of the
+// thread under its upper end.
 Meeting shoulder(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
     bool rises = side * (last->lie.y - first->lie.y) > 0.0f;
     float4 upper = rises ? last->lie : first->lie;
@@ -107,7 +107,7 @@ Meeting passage(float side, const Along *first, const Along *last, float4 one, f
     float across = first->gap + two.x - one.x;
     float rise = side * (two.y - one.y);
     StraightPassage found = passage_of(across, rise, (float4)(one.zw, two.zw), first->lie.w + last->lie.w);
-    // This crossing's share of it.
+    // The slopes in the unknowns of this crossing.
     float c = found.slope.x;
     float s = found.slope.y;
     float4 lie = second ? two : one;
@@ -136,8 +136,8 @@ void add_meeting(const Cloth *cloth, CrossingBlock *block, uint of_set, const Al
     }
 }
 
-// Adds what the thread has to clear between this crossing and the one `steps` further along it,
-// past threads of other levels.
+// Adds the term of the room between this crossing and the crossing `steps` further along the
+// thread, past threads of other levels.
 void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *here, int steps) {
     Along other = along_of(cloth, here->site, of_set, steps);
     if (!other.there) {
@@ -150,7 +150,8 @@ void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, con
     add_meeting(cloth, block, of_set, &first, &last, second);
 }
 
-// Keeps two ellipses clear of one another. `part` is the share of this crossing's thread in them.
+// Adds the term that keeps two ellipses clear of one another. `part` is the share of this
+// crossing's thread in them.
 void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float rise, float wide, float thick, float sign,
                 float part) {
     float x = apart / wide;
@@ -166,8 +167,8 @@ void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float ris
     }
 }
 
-// Keeps neighbours of one set clear half way from this crossing to the `next`. There they are
-// ellipses `gap` apart.
+// Adds the term that keeps neighbours of one set clear half way from this crossing to the `next`.
+// There the neighbours are ellipses. They are `gap` apart before they shift.
 void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
                   float gap) {
     if (!next->there) {
@@ -182,9 +183,10 @@ void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 
     keep_clear(cloth, block, apart, rise, wide, thick, sign, 0.5f);
 }
 
-// Keeps a thread and a neighbour of its set clear. At a crossing, neighbours of one level keep to
-// their own places, whatever their heights; neighbours of two levels lie side by side or one above
-// the other, as ellipses. Beside a crossing all are clear of one another.
+// Adds the terms that keep a thread and a neighbour of its set clear. At a crossing, neighbours of
+// one level lie side by side, whatever their heights. Neighbours of two levels lie side by side or
+// one above the other, as ellipses. Half way to the crossings before and after, all neighbours are
+// ellipses.
 void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                    const Along *after, int across, bool of_level) {
     uint2 site = beside(cloth, here->site, of_set, 0, across);
@@ -209,8 +211,8 @@ void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const 
     add_half_way(cloth, block, of_set, here->lie, after, other, across, gap);
 }
 
-// Adds the neighbours of a thread on one side. The nearest of its own level lies `steps` threads
-// away.
+// Adds the terms of a thread's neighbours on one side. The nearest neighbour of its own level lies
+// `steps` threads away; 0 means that there is none.
 void add_neighbours(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                     const Along *after, int sign, int steps) {
     if (steps != 0) {
@@ -231,13 +233,13 @@ float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
     return fmax(falls, rises);
 }
 
-// Adds the contact of both threads of a crossing, one on top of the other. The block is seen from
-// the warp.
+// Adds the term of the contact between both threads of a crossing, one on top of the other. The
+// block is described from the warp.
 void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);
     float side = side_of(cloth, site, WARP);
-    // Threads of two layers slope where they cross, and along the other thread's slope an ellipse
+    // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
     // reaches further.
     float2 slope = (float2)(0.0f, 0.0f);
     bool layered = (cloth->params->flags & LAYERED) != 0u;
@@ -269,7 +271,7 @@ void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) 
     Along after = along_of(cloth, site, of_set, 1);
     Along two_after = along_of(cloth, site, of_set, 2);
     add_section(cloth, block, here.lie, radius);
-    // Slopes are 1, -2 and 1.
+    // The slopes of the second differences in this crossing's unknowns are 1, -2 and 1.
     add_bend(block, &thread, &two_before, &before, &here, 1.0f, 4.0f);
     add_bend(block, &thread, &before, &here, &after, -2.0f, 2.0f);
     add_bend(block, &thread, &here, &after, &two_after, 1.0f, 4.0f);
@@ -291,7 +293,7 @@ void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) 
     }
 }
 
-// All terms that a crossing is part of, seen from the warp.
+// All terms that a crossing is part of, described from the warp.
 CrossingBlock gathered(const Cloth *cloth, uint2 site) {
     CrossingBlock block;
     block.own = (float4)(0.0f, 0.0f, 0.0f, 0.0f);

@@ -1,8 +1,8 @@
-// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl,
-// rings.cl and share.cl.
+// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. This file follows
+// common.cl, rings.cl and share.cl.
 //
-// The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so
-// lanes store 16 bytes at a time (8 where sides are odd in number), contiguous across the
+// Its twins are mesh.wgsl and texere-cpu's serial/mesh.rs. The speed of memory limits this stage.
+// Lanes therefore store 16 bytes at a time (8 if the number of sides is odd), contiguous across the
 // workgroup.
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
@@ -17,7 +17,8 @@ float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float
     return first == 2u ? (float4)(position.z, normal) : (float4)(normal.yz, position.xy);
 }
 
-// Two consecutive floats of ring `ring`'s vertices, likewise.
+// Two consecutive floats of ring `ring`'s vertex at `point`. The first is float `first` of the
+// vertex, an even number.
 float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4 point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, point);
@@ -28,8 +29,9 @@ float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4
     return first == 2u ? (float2)(position.z, normal.x) : normal.yz;
 }
 
-// Meshes an even number of sides, so that every block starts at a multiple of 16 bytes. A workgroup
-// of at least BLOCK_RINGS lanes for each row of the chunk's block table.
+// Meshes a chunk with an even number of sides, in which every block starts at a multiple of 16
+// bytes. It runs with one workgroup of at least BLOCK_RINGS lanes for each row of the chunk's block
+// table.
 __kernel void mesh(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                    __global const uint *whole, __global const float4 *outlines, __global const uint4 *pattern,
@@ -64,7 +66,7 @@ __kernel void mesh(const Params params, const ulong window, __global const uint4
     }
 }
 
-// Meshes an odd number of sides, 8 bytes at a time.
+// Meshes a chunk with an odd number of sides, 8 bytes at a time.
 __kernel void mesh_odd(const Params params, const ulong window, __global const uint4 *points,
                        __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                        __global const uint *whole, __global const float4 *outlines, __global const uint2 *pattern,

@@ -1,9 +1,10 @@
-// Stage 2 with stage 1 in it, as packed vertices. After common.cl, rings.cl and share.cl.
+// Stage 2 with stage 1 in it, as packed vertices. This file follows common.cl, rings.cl and
+// share.cl.
 //
-// The twin of packed.wgsl and of texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is
-// three words: x in bits 0 to 20 of the first two, y in bits 21 to 41, z in bits 42 to 62; then the
-// steps of the octahedral normal, 16 bits each. Lanes store two words at a time (one where sides
-// are odd in number), contiguous across the workgroup.
+// Its twins are packed.wgsl and texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is
+// three words. The first two hold x in bits 0 to 20, y in bits 21 to 41 and z in bits 42 to 62. The
+// third holds both coordinates of the octahedral normal, 16 bits each. Lanes store two words at a
+// time (one if the number of sides is odd), contiguous across the workgroup.
 
 #define PACKED_GROUP 64
 
@@ -15,7 +16,7 @@ uint packed_coordinate(float mm, float per_mm) {
     return as_uint(convert_int(rint(rest))) & ((1u << COORDINATE_BITS) - 1u);
 }
 
-// The words of a position.
+// The two words of a position.
 uint2 packed_position(float3 position, float per_mm) {
     uint x = packed_coordinate(position.x, per_mm);
     uint y = packed_coordinate(position.y, per_mm);
@@ -36,8 +37,8 @@ uint packed_normal(float3 normal) {
 }
 
 // Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at
-// `point`, the second is of the vertex at `next`. The two vertices differ only where the first word
-// is a normal's.
+// `point`, the second belongs to the vertex at `next`. The two vertices differ only if the first
+// word is that of a normal.
 uint2 two_words(__local const BlockRings *rings, uint ring, uint first, float4 point, float4 next, float per_mm) {
     Stance stance = stance_of(rings, ring);
     uint2 position = packed_position(position_at(&stance, next), per_mm);
@@ -48,7 +49,7 @@ uint2 two_words(__local const BlockRings *rings, uint ring, uint first, float4 p
     return first == 2u ? (uint2)(normal, position.x) : (uint2)(position.y, normal);
 }
 
-// One word of ring `ring`'s vertices, likewise.
+// Word `first` of ring `ring`'s vertex at `point`.
 uint one_word(__local const BlockRings *rings, uint ring, uint first, float4 point, float per_mm) {
     Stance stance = stance_of(rings, ring);
     if (first == 2u) {
@@ -58,8 +59,8 @@ uint one_word(__local const BlockRings *rings, uint ring, uint first, float4 poi
     return first == 0u ? position.x : position.y;
 }
 
-// Packs an even number of sides, so that every block starts at a multiple of 8 bytes. A workgroup
-// of PACKED_GROUP for each row of the chunk's block table.
+// Packs a chunk with an even number of sides, in which every block starts at a multiple of 8 bytes.
+// It runs with one workgroup of PACKED_GROUP lanes for each row of the chunk's block table.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed(const Params params, const ulong window, __global const uint4 *points, __global const YarnRow *yarns,
             __global const Block *blocks, __global const uint *rolls, __global const uint *whole,
@@ -85,7 +86,7 @@ void packed(const Params params, const ulong window, __global const uint4 *point
     }
 }
 
-// Packs an odd number of sides, 4 bytes at a time.
+// Packs a chunk with an odd number of sides, 4 bytes at a time.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed_odd(const Params params, const ulong window, __global const uint4 *points, __global const YarnRow *yarns,
                 __global const Block *blocks, __global const uint *rolls, __global const uint *whole,
@@ -109,8 +110,8 @@ void packed_odd(const Params params, const ulong window, __global const uint4 *p
     }
 }
 
-// The packed vertices of caps: the end ring's position again, with the end's own normal. A lane for
-// each cap vertex.
+// Writes the packed vertices of caps. They have the positions of the end ring and the normal of the
+// yarn's end. It runs with one lane for each cap vertex.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed_caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
                  __global uint *out) {

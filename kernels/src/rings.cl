@@ -1,10 +1,10 @@
-// A block's rings in local memory, with which all stages of the schedule per-ring begin. After
-// common.cl.
+// The rings of a block in local memory. All stages of the schedule per-ring begin with them. This
+// file follows common.cl.
 //
 // rings.wgsl is the twin of this file.
 
-// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis
-// instead of storing it: the less memory a workgroup takes, the more of them run at a time.
+// The rings of a block, each with its side and its roll. The rest of the basis is not stored:
+// `up_of` works it out. The less memory a workgroup takes, the more workgroups run at a time.
 typedef struct {
     // Centre, half width.
     float4 centre[BLOCK_RINGS];
@@ -13,21 +13,21 @@ typedef struct {
     // The side of `side_of`, and the half height.
     float4 side[BLOCK_RINGS];
     float height_growth[BLOCK_RINGS];
-    // Sine and cosine of the roll against the outline: where yarns are FLATTENED.
+    // Sine and cosine of the roll less the lean. They have values only at rings that are not round.
     float2 sin_cos[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
     // Sums of the turns of eight rings each.
     uint eights[BLOCK_RINGS / 8];
 } BlockRings;
 
-// The lean of ring `ring` of a yarn: `rolls` has those of all rings behind the rolls of blocks,
-// where any yarn leans.
+// The lean of ring `ring` of a yarn. If any yarn leans, `rolls` holds the leans of all rings behind
+// the rolls of blocks.
 uint lean_of(const Params *params, const YarnRow *yarn, __global const uint *rolls, uint ring) {
     return params->leans == 0u ? 0u : rolls[params->leans + yarn->first_block * BLOCK_RINGS + ring];
 }
 
-// Makes the rings of `block`, which is row `row` of the table: a lane for each ring. The workgroup
-// has at least BLOCK_RINGS lanes, and every lane must call it.
+// Makes the rings of `block`, with one lane for each ring. The workgroup has at least BLOCK_RINGS
+// lanes, and every lane must call this function.
 void block_rings(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                  __global const uint *rolls, __global const uint *whole, uint lane,
                  __local BlockRings *rings) {
@@ -37,7 +37,8 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
         rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.width_growth);
-        // The step from the ring before needs the offset. The side takes its place afterwards.
+        // The offset is stored for the step from the ring before. Later the side is stored in its
+        // place.
         rings->side[lane] = (float4)(here.sample.offset, 0.0f);
     }
     if (params->rolled != 0u) {
@@ -69,8 +70,8 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
             uint start = rolls[yarn->first_block + block->first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole[block->yarn]);
             lean = lean_of(params, yarn, rolls, block->first_ring + lane);
-            // An upright section leans with its outline. A section that is carried along only
-            // starts with that lean.
+            // An upright section turns by the lean of its ring. A section in a rotation minimising
+            // frame starts with the lean of its yarn's first ring.
             roll += yarn->frame == ROTATION_MINIMIZING ? lean_of(params, yarn, rolls, 0u) : lean;
         }
     }

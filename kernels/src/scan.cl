@@ -1,14 +1,14 @@
-// The roll at each block's start, summed over the blocks before it. After common.cl.
+// The roll at each block's start, summed over the blocks before it. This file follows common.cl.
 //
-// The twin of scan.wgsl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps;
-// a running sum over a yarn's blocks then gives the roll at each block's first ring. Turns wrap, so
-// the order of the sums does not matter.
+// Its twins are scan.wgsl and texere-cpu's serial/scan.rs. The turn of a block is the sum of its
+// steps. A running sum over a yarn's blocks then gives the roll at each block's first ring. Turns
+// wrap, so the order of the sums does not matter.
 
 #define TURNS_GROUP 64
 #define ROLLS_GROUP 256
 
-// The turn of each block, chunk after chunk. A workgroup of TURNS_GROUP for each row of a chunk's
-// block table.
+// Writes the turn of each block of a chunk. It runs with one workgroup of TURNS_GROUP lanes for
+// each row of the chunk's block table.
 __kernel __attribute__((reqd_work_group_size(TURNS_GROUP, 1, 1)))
 void block_turns(const Params params, const ulong window, __global const float4 *points,
                  __global const YarnRow *yarns, __global const Block *blocks, __global uint *rolls) {
@@ -27,8 +27,8 @@ void block_turns(const Params params, const ulong window, __global const float4 
         offsets[lane] = here.sample.offset;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    // A step leads from a ring to the next. There are as many as quads, so the last leads to the
-    // next block's first ring.
+    // A step leads from a ring to the next. There are as many steps as rings from which quads
+    // start, so the last step leads to the next block's first ring.
     uint turn = 0u;
     if (lane < block.quads) {
         float3 next_tangent;
@@ -61,8 +61,9 @@ void block_turns(const Params params, const ulong window, __global const float4 
     }
 }
 
-// Turns become rolls in place, tile by tile, and their total becomes the yarn's whole turn. A
-// workgroup of ROLLS_GROUP for each yarn.
+// Replaces the turn of each block by the roll at the block's start, one tile of ROLLS_GROUP blocks
+// after the other. The sum of all turns is the yarn's total turn. It runs with one workgroup of
+// ROLLS_GROUP lanes for each yarn.
 __kernel __attribute__((reqd_work_group_size(ROLLS_GROUP, 1, 1)))
 void yarn_rolls(__global const YarnRow *yarns, __global uint *rolls, __global uint *whole) {
     __local uint sums[ROLLS_GROUP];

@@ -1,9 +1,9 @@
-// What the kernels of a settling share: tables, places, intervals and chords.
+// The code that the kernels of a settling share: tables, places, intervals and chords.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
-// and settling.wgsl is the twin of this file. OpenCL C 1.2, no extension. texere-gpu writes two
-// things before this file: the core's constants, and FLATTENED, which is false where all yarns are
-// round.
+// and settling.wgsl is the twin of this file. It is OpenCL C 1.2 without extensions. texere-gpu
+// writes two things before this file: the core's constants, and FLATTENED, which is false if all
+// yarns are round.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -63,8 +63,9 @@ typedef struct {
 } ChordRow;
 
 // A place (Rust: Place) is a uint4: x, y and z in units (i32, as bits so that sums wrap), and two
-// half floats. A chord as passes see it is two uint4: where it begins and the place of its
-// interval; the bits of its span, mm, and of the largest half of its interval.
+// half floats. A chord that passes read is two uint4. The first has the point where the chord
+// begins and the place of its interval, the second the bits of the chord's span, mm, and of the
+// largest half width or half height of the interval.
 
 float dot3(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -79,12 +80,12 @@ float share(float value) {
     return fmin(fmax(value, 0.0f), 1.0f);
 }
 
-// A way in units, in mm.
+// The way `units`, converted to mm.
 float3 to_mm(const SettlingParams *params, uint3 units) {
     return (float3)((float)as_int(units.x), (float)as_int(units.y), (float)as_int(units.z)) * params->unit;
 }
 
-// The units that a place moves by for a step in mm.
+// The step `step`, mm, in whole units.
 uint3 to_units(const SettlingParams *params, float3 step) {
     float3 units = step * params->per_mm;
     return (uint3)(as_uint(convert_int_sat(floor(units.x + 0.5f))), as_uint(convert_int_sat(floor(units.y + 0.5f))),
@@ -105,7 +106,7 @@ typedef struct {
     float3 c1;
     float3 c2;
     float3 c3;
-    // Half width and half height at its beginning, and their growth to its end.
+    // Half width and half height at the interval's beginning, and the growth of both to its end.
     float2 halves;
     float2 growth;
 } Interval;
@@ -153,7 +154,7 @@ float interval_reach(const Interval *interval, float u, float3 towards) {
     if (width == height || level <= VERTICAL * square) {
         return width;
     }
-    // Side is (-y, x, 0), up is tangent x side, both over their lengths.
+    // Side is (-y, x, 0), and up is tangent x side, both divided by their lengths.
     float aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
     float up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
     return sqrt((aside * aside + up * up / square) / level);
@@ -171,7 +172,7 @@ typedef struct {
     uint3 at;
     uint place;
     float3 span;
-    // The largest half of its interval.
+    // The largest half width or half height of its interval.
     float thickest;
 } Chord;
 
@@ -191,21 +192,21 @@ uint3 chord_middle(const SettlingParams *params, const Chord *chord) {
     return chord->at + to_units(params, chord->span * 0.5f);
 }
 
-// The number of repeats to a chord's image that is nearest to another chord, which begins `way`
-// before it.
+// The number of repeats to the image of chord `other` that is nearest to chord `one`. Chord `other`
+// begins `way` from the beginning of chord `one`.
 uint2 nearest_image(const SettlingParams *params, float3 one, float3 other, uint3 way) {
     float3 apart = to_mm(params, way) + (other - one) * 0.5f;
     return (uint2)(-as_uint(convert_int_sat(floor(apart.x * params->frequency_x + 0.5f))),
                    -as_uint(convert_int_sat(floor(apart.y * params->frequency_y + 0.5f))));
 }
 
-// The way to the image that is `image` repeats away.
+// `way`, led on by `image` repeats: the way to that image.
 uint3 to_image(const SettlingParams *params, uint3 way, uint2 image) {
     return (uint3)(way.x + image.x * (uint)params->period_x, way.y + image.y * (uint)params->period_y, way.z);
 }
 
-// The places where two chords come nearest to one another, as shares of them. The second begins
-// `way` from the first.
+// The places where two chords come nearest to one another, as shares of the chords. The second
+// chord begins `way` from the beginning of the first.
 float2 chords_nearest(float3 one, float3 other, float3 way) {
     float a = fmax(dot3(one, one), SHORT);
     float e = fmax(dot3(other, other), SHORT);
@@ -213,7 +214,7 @@ float2 chords_nearest(float3 one, float3 other, float3 way) {
     float c = -dot3(one, way);
     float f = -dot3(other, way);
     float determinant = a * e - b * b;
-    // On parallel chords one place does as well as another.
+    // On parallel chords no place of the first is better than another, so its middle is taken.
     float first = 0.5f;
     if (determinant > PARALLEL * (a * e)) {
         first = share((b * f - c * e) / determinant);
@@ -224,7 +225,7 @@ float2 chords_nearest(float3 one, float3 other, float3 way) {
 
 #define SETTLING_CHORDS_GROUP 64
 
-// Works out all chords from places: a lane for each.
+// Works out all chords from places, with one lane for each chord.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CHORDS_GROUP, 1, 1)))
 void settling_chords(const SettlingParams params, __global const uint4 *places, __global const PlaceRow *place_rows,
                      __global const ChordRow *chord_rows, __global uint4 *chords) {

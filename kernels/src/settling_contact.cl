@@ -1,34 +1,35 @@
-// Contacts: where two intervals come near one another, and the pulls that follow. After
-// settling.cl.
+// Contacts: the places where two intervals come near one another, and the pulls there. This file
+// follows settling.cl.
 //
-// The twin of settling_contact.wgsl, and of texere-core's contact.rs and the first half of pass.rs.
+// Its twins are settling_contact.wgsl, and texere-core's contact.rs and the first half of its
+// pass.rs.
 
-// What an interval has seen: the least distance to another yarn, mm; the least distance over the
-// sum of both reaches; the least radius of curvature, in diameters.
+// The measures of an interval: the least distance to another yarn, mm; the least distance divided
+// by the sum of both reaches; the least radius of curvature, in diameters.
 typedef struct {
     float near;
     float clearance;
     float radius;
 } Sight;
 
-// Places on both intervals, and the way from the first to the second.
+// A place on each of two intervals, and the way from the first place to the second.
 typedef struct {
     float2 at;
     float3 way;
     float distance;
 } Contact;
 
-// What a contact asks of the first interval's points: the step of its place, mm, the direction to
-// the other yarn, and the weight of each of the four points. Weights are all 0 where it asks for
-// nothing.
+// The pull of a contact on the first interval's points: the step that its place should make, mm,
+// the direction to the other yarn, and the weight of each of the four points. All weights are 0 if
+// the contact does not pull.
 typedef struct {
     float3 back;
     float3 direction;
     float4 weights;
 } Push;
 
-// The weights of four points. A point beyond an open yarn's end hands its weight to the points that
-// it is made of.
+// The weights of four points. The weight of a point beyond an open yarn's end goes to the points
+// that it is made from.
 float4 folded(uint tags, float4 weights) {
     if ((tags & TAG_OPENS) != 0u) {
         weights = (float4)(0.0f, weights.y + 2.0f * weights.x, weights.z - weights.x, weights.w);
@@ -57,8 +58,8 @@ Contact contact_at(const Interval *one, const Interval *other, float3 way, float
     return contact;
 }
 
-// The exact places near `at`: one step of Newton's method, at most `stride` long, if it comes
-// nearer.
+// The exact places near `at`, by one step of Newton's method. The step is at most `stride` long,
+// and is made only if the places come nearer to one another.
 Contact refined(const Interval *one, const Interval *other, float3 way, float2 at, float2 stride) {
     Contact start = contact_at(one, other, way, at);
     float3 velocity = interval_velocity(one, at.x);
@@ -80,7 +81,8 @@ Contact refined(const Interval *one, const Interval *other, float3 way, float2 a
     return start;
 }
 
-// The direction from the first place to the second. Where both coincide it is square to both yarns.
+// The direction from the first place to the second. If both places coincide, it is at right angles
+// to both yarns.
 float3 contact_direction(const Contact *contact, float3 velocity, float3 other_velocity) {
     float3 way = contact->way;
     if (!(contact->distance > ONE_PLACE)) {
@@ -92,14 +94,14 @@ float3 contact_direction(const Contact *contact, float3 velocity, float3 other_v
     return square > 0.0f ? way * (1.0f / sqrt(square)) : (float3)(0.0f, 0.0f, 1.0f);
 }
 
-// The chord whose neighbours are visited: its number, where its list ends, and the chord itself.
+// The chord whose neighbours are visited: its number, the end of its list, and the chord itself.
 typedef struct {
     uint number;
     uint end;
     Chord chord;
 } ListedChord;
 
-// Goes on to the chord that has entry `next` of an interval's lists.
+// Goes on to the chord whose list has entry `next`.
 void go_to(ListedChord *here, __global const uint4 *chords, __global const uint *starts, uint next) {
     while (next >= here->end) {
         here->number += 1u;
@@ -108,16 +110,16 @@ void go_to(ListedChord *here, __global const uint4 *chords, __global const uint 
     }
 }
 
-// An interval whose chords meet their neighbours one after the other.
+// An interval whose chords are tested against their neighbours one after the other.
 typedef struct {
     Interval interval;
     uint tags;
-    // Its first chord, and one over the number of its chords.
+    // The number of the interval's first chord, and one over the number of its chords.
     uint first;
     float step;
 } Meeting;
 
-// Another chord at the place where it comes nearest to the one here.
+// Another chord, and the places where it and the chord `here` come nearest to one another.
 typedef struct {
     Chord there;
     uint2 image;
@@ -137,7 +139,7 @@ Approach approach_of(const SettlingParams *params, const Chord *here, __global c
     return approach;
 }
 
-// Whether chord `number` may touch the one here. The distance of one that may not is noted.
+// Whether chord `number` may touch the chord `here`. If it may not, its distance goes into `sight`.
 bool may_touch(const SettlingParams *params, const Chord *here, __global const uint4 *chords, size_t number,
                Sight *sight) {
     Approach approach = approach_of(params, here, chords, number);
@@ -152,8 +154,8 @@ bool may_touch(const SettlingParams *params, const Chord *here, __global const u
 
 #define MOST_AT_ONCE 32u
 
-// The neighbours that may touch, of the `count` from entry `begin` on, a bit for each. Lanes first
-// sort them out, and then meet those few together.
+// A bit for each of the `count` neighbours from entry `begin` on, which is set if the neighbour may
+// touch. Lanes first find these few neighbours, and then work out their contacts together.
 uint touching(const SettlingParams *params, ListedChord here, __global const uint4 *chords,
               __global const uint *starts, __global const uint *neighbours, uint begin, uint count, Sight *sight) {
     uint bits = 0u;
@@ -166,7 +168,7 @@ uint touching(const SettlingParams *params, ListedChord here, __global const uin
     return bits;
 }
 
-// The contact of chord `number` with the one here.
+// The pull of the contact of chord `number` with the chord `here`.
 Push meet(const SettlingParams *params, const Meeting *one, const ListedChord *here, __global const uint4 *places,
           __global const PlaceRow *place_rows, __global const uint4 *chords, size_t number, Sight *sight) {
     Push push;

@@ -1,9 +1,9 @@
-// Lists of neighbours. After settling.cl.
+// Lists of neighbours. This file follows settling.cl.
 //
-// The twin of settling_list.wgsl, and of texere-core's neighbours.rs. Chords are sorted into cells
-// in any order, but a chord's neighbours end in the order of their numbers.
+// Its twins are settling_list.wgsl, and texere-core's neighbours.rs. Chords lie in their cells in
+// any order, but the neighbours of a chord are listed in the order of their numbers.
 
-// What a workgroup has found of the extent of chords (Rust: texere_gpu::ExtentRow, 32 bytes).
+// The extent of the chords of a workgroup (Rust: texere_gpu::ExtentRow, 32 bytes).
 typedef struct {
     int low_x;
     int low_y;
@@ -15,7 +15,8 @@ typedef struct {
 
 #define SETTLING_EXTENT_GROUP 256
 
-// The longest chord, and the box round all middles. Any number of workgroups share the chords.
+// Finds the longest chord, and the box round the middles of all chords. Any number of workgroups
+// share the chords, and each writes a row.
 __kernel __attribute__((reqd_work_group_size(SETTLING_EXTENT_GROUP, 1, 1)))
 void settling_extent(const SettlingParams params, __global const uint4 *chords, __global ExtentRow *rows) {
     __local int4 ends[SETTLING_EXTENT_GROUP];
@@ -52,7 +53,7 @@ void settling_extent(const SettlingParams params, __global const uint4 *chords, 
 
 // ---- Cells ----
 
-// The number of a cell along one axis. `low` is 0 where the axis repeats.
+// The number of a cell along one axis. `low` is 0 if the axis repeats.
 uint cell_along(uint middle, int period, int low, uint size, uint count) {
     uint from = middle - (uint)low;
     if (period > 0) {
@@ -75,8 +76,8 @@ uint chord_cell(const SettlingParams *params, __global const uint4 *chords, size
 
 #define SETTLING_CELL_COUNT_GROUP 64
 
-// Counts the chords of each cell: a lane for each chord. A cell's count lies one entry behind the
-// cell.
+// Counts the chords of each cell, with one lane for each chord. A cell's count lies one entry
+// behind the cell.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CELL_COUNT_GROUP, 1, 1)))
 void settling_cell_count(const SettlingParams params, __global const uint4 *chords, volatile __global uint *cells) {
     size_t number = get_global_id(0);
@@ -87,8 +88,8 @@ void settling_cell_count(const SettlingParams params, __global const uint4 *chor
 
 #define SETTLING_CELL_FILL_GROUP 64
 
-// Sorts chords into cells: a lane for each chord. The entry behind each cell says where its next
-// chord goes, and in the end where the cell ends.
+// Sorts chords into cells, with one lane for each chord. The entry behind each cell is the position
+// of its next chord, and at last the position where the cell ends.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CELL_FILL_GROUP, 1, 1)))
 void settling_cell_fill(const SettlingParams params, __global const uint4 *chords, volatile __global uint *cells,
                         __global uint *sorted) {
@@ -100,13 +101,14 @@ void settling_cell_fill(const SettlingParams params, __global const uint4 *chord
 
 // ---- Neighbours ----
 
-// Whether no more than `window` of the yarn lies between an end and a start.
+// Whether less than `window` of the yarn lies between an end and a start.
 bool between(uint end, uint start, int window) {
     int units = as_int(start - end);
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn lie so close along it that they can't be clear of one another.
+// Whether two chords of one yarn lie so close along the yarn that they can't be clear of one
+// another.
 bool leads_on(const ChordRow *one, const ChordRow *other, uint2 image, int window, const StrandRow *strand) {
     uint2 shift = (uint2)((uint)strand->shift_x, (uint)strand->shift_y);
     bool here = image.x == 0u && image.y == 0u &&
@@ -153,8 +155,8 @@ uint2 cells_beside(uint cell, int period, uint count) {
     return (uint2)(first, min(cell + 1u, count - 1u) - first + 1u);
 }
 
-// Finds the neighbours of chord `number`, and returns their number. With a `list` it puts up to
-// `room` of them there, sorted by number.
+// Finds the neighbours of chord `number`, and returns how many there are. The first `room` that are
+// found are written to `list`, sorted by number.
 uint find_neighbours(const SettlingParams *params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                      __global const PlaceRow *place_rows, __global const StrandRow *strands,
                      __global const uint *cells, __global const uint *sorted, size_t number, __global uint *list,
@@ -191,7 +193,7 @@ uint find_neighbours(const SettlingParams *params, __global const uint4 *chords,
 
 #define SETTLING_COUNT_GROUP 64
 
-// Counts the neighbours of each chord: a lane for each.
+// Counts the neighbours of each chord, with one lane for each chord.
 __kernel __attribute__((reqd_work_group_size(SETTLING_COUNT_GROUP, 1, 1)))
 void settling_count(const SettlingParams params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                     __global const PlaceRow *place_rows, __global const StrandRow *strands,
@@ -205,7 +207,7 @@ void settling_count(const SettlingParams params, __global const uint4 *chords, _
 
 #define SETTLING_FILL_GROUP 64
 
-// Lists the neighbours of each chord: a lane for each.
+// Lists the neighbours of each chord, with one lane for each chord.
 __kernel __attribute__((reqd_work_group_size(SETTLING_FILL_GROUP, 1, 1)))
 void settling_fill(const SettlingParams params, __global const uint4 *chords, __global const ChordRow *chord_rows,
                    __global const PlaceRow *place_rows, __global const StrandRow *strands,

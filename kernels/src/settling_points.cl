@@ -1,4 +1,4 @@
-// Control points from settled places, and the box round them. After settling.cl.
+// Control points from settled places, and the box round them. This file follows settling.cl.
 //
 // The formulas are those of texere-core (Scale::point, renew_virtual_ends), and
 // settling_points.wgsl is the twin of this file.
@@ -45,8 +45,8 @@ uint4 control_point(float3 position, uint halves) {
     return (uint4)(as_uint3(position), halves);
 }
 
-// Writes control points: a lane for each place, which also writes the virtual ends that depend on
-// it.
+// Writes control points, with one lane for each place. The lane also writes the virtual ends that
+// depend on its place.
 #define SETTLING_POINTS_GROUP 64
 __kernel __attribute__((reqd_work_group_size(SETTLING_POINTS_GROUP, 1, 1)))
 void settling_points(const SettledParams settled,
@@ -82,8 +82,8 @@ void settling_points(const SettledParams settled,
     }
 }
 
-// The box round control points: a row from each workgroup. Any number of workgroups share the
-// places.
+// Finds the box round all control points. Any number of workgroups share the places, and each
+// writes a row.
 #define SETTLING_BOUNDS_GROUP 256
 __kernel __attribute__((reqd_work_group_size(SETTLING_BOUNDS_GROUP, 1, 1)))
 void settling_bounds(const SettledParams settled,

@@ -1,24 +1,26 @@
-// Pulls at the four control points of each interval. After settling.cl and settling_contact.cl.
+// Pulls at the four control points of each interval. This file follows settling.cl and
+// settling_contact.cl.
 //
-// The twin of settling_pull.wgsl, and of Pull in texere-core's pass.rs. Sums go in the order of the
-// lists.
+// Its twins are settling_pull.wgsl, and Pull in texere-core's pass.rs. Pulls are added up in the
+// order of the lists.
 //
 // Lanes write planes, each with one number for each place. The planes of the four slots come first.
-// A slot of the weighted form has eight: ways (x, y, z) and weight of contacts, then the same of
-// bends. A slot of the block form has nine: all ways, and the squares of their directions (xx, xy,
-// xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the length, the least distance
-// seen, mm, and the least distance over the sum of both reaches.
+// A slot of the weighted form has eight planes: the ways (x, y, z) and the weight of contacts, then
+// those of bends. A slot of the block form has nine planes: the sum of all ways, and the squares of
+// their directions (xx, xy, xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the
+// length, the least distance to another yarn, mm, and the least distance divided by the sum of both
+// reaches.
 
 #define WEIGHTED_SLOT 8u
 #define BLOCK_SLOT 9u
 
-// What both have seen: the least distances and radii, the most of lengths and steps.
+// The measures of both: the least of distances and radii, the largest of lengths and steps.
 float4 seen_by_both(float4 one, float4 other) {
     return (float4)(fmin(one.xy, other.xy), fmax(one.zw, other.zw));
 }
 
-// A bend at one place of an interval: where it would go, and the weight of each point. All 0 where
-// the bend is allowed.
+// The pull of a bend at one place of an interval: its direction, its way, and the weight of each
+// point. The sum of the weights is 0 if the bend does not pull.
 typedef struct {
     float3 towards;
     float3 way;
@@ -66,7 +68,8 @@ Meeting meeting_at(const SettlingParams *params, __global const uint4 *places, _
     return one;
 }
 
-// The start of an interval's visits to neighbours. The number of its first chord is `first`.
+// The state before the first neighbour of an interval is visited. `first` is the number of the
+// interval's first chord.
 ListedChord before_listed(__global const uint *starts, uint first) {
     ListedChord here;
     here.number = first - 1u;
@@ -74,8 +77,8 @@ ListedChord before_listed(__global const uint *starts, uint first) {
     return here;
 }
 
-// Writes the length and distances of an interval from plane `plane` on, and returns its share in
-// what all have seen.
+// Writes the length and the distances of an interval from plane `plane` on, and returns the
+// interval's measures.
 float4 write_own(const SettlingParams *params, __global float *pulls, uint plane, uint place, float3 length,
                  float arc, float wanted, const Sight *sight) {
     size_t step = params->places;
@@ -152,7 +155,7 @@ float4 pull_weighted(const SettlingParams *params, __global const uint4 *places,
     return write_own(params, pulls, 4u * WEIGHTED_SLOT, place, length, arc, lengths[place], &sight);
 }
 
-// The sum of all ways at a point, and of the squares of their directions.
+// The sum of all ways at a point, and the sum of the squares of their directions.
 typedef struct {
     float3 way;
     // xx, xy, xz and yy, yz, zz.
@@ -228,7 +231,8 @@ float4 pull_block(const SettlingParams *params, __global const uint4 *places, __
     return write_own(params, pulls, 4u * BLOCK_SLOT, place, length, arc, lengths[place], &sight);
 }
 
-// What a workgroup has seen, joined by a fixed tree over a power of two of lanes. Valid in lane 0.
+// The measures of a workgroup, whose number of lanes is a power of two. Lanes are joined in pairs,
+// always the same ones. The result is valid in lane 0.
 float4 seen_by_group(__local float4 *rows, uint lane, uint lanes, float4 seen) {
     rows[lane] = seen;
     for (uint reach = lanes / 2u; reach > 0u; reach /= 2u) {
@@ -242,8 +246,8 @@ float4 seen_by_group(__local float4 *rows, uint lane, uint lanes, float4 seen) {
 
 #define SETTLING_PULL_WEIGHTED_GROUP 64
 
-// Pulls of all intervals in the weighted form: a lane for each place, at which an interval begins.
-// Each workgroup writes a row of what it has seen.
+// Works out the pulls of all intervals in the weighted form, with one lane for each place at which
+// an interval may begin. Each workgroup writes a row of its measures.
 __kernel __attribute__((reqd_work_group_size(SETTLING_PULL_WEIGHTED_GROUP, 1, 1)))
 void settling_pull_weighted(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const uint4 *chords,
@@ -263,7 +267,8 @@ void settling_pull_weighted(const SettlingParams params, __global const uint4 *p
 
 #define SETTLING_PULL_BLOCK_GROUP 64
 
-// Pulls of all intervals in the block form, likewise.
+// Works out the pulls of all intervals in the block form, with one lane for each place at which an
+// interval may begin. Each workgroup writes a row of its measures.
 __kernel __attribute__((reqd_work_group_size(SETTLING_PULL_BLOCK_GROUP, 1, 1)))
 void settling_pull_block(const SettlingParams params, __global const uint4 *places,
                          __global const PlaceRow *place_rows, __global const uint4 *chords,
@@ -283,7 +288,7 @@ void settling_pull_block(const SettlingParams params, __global const uint4 *plac
 
 #define SETTLING_SEEN_GROUP 256
 
-// Joins the rows of all workgroups: one workgroup.
+// Joins the rows of all workgroups. It runs as one workgroup.
 __kernel __attribute__((reqd_work_group_size(SETTLING_SEEN_GROUP, 1, 1)))
 void settling_seen(const uint count, __global const float4 *rows, __global float4 *all) {
     __local float4 group[SETTLING_SEEN_GROUP];

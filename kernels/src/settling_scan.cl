@@ -1,10 +1,10 @@
-// Scans: each count is replaced by the sum of all before it. After settling.cl.
+// Scans: each count is replaced by the sum of all counts before it. This file follows settling.cl.
 //
-// The twin of settling_scan.wgsl. Sums saturate at the largest number, so that too many are
+// Its twin is settling_scan.wgsl. Sums saturate at the largest number, so that too large a sum is
 // noticed.
 
 #define SETTLING_SCAN_GROUP 256
-// Counts of a lane.
+// The number of counts that a lane scans.
 #define SCAN_VALUES 4
 
 // Each workgroup scans SETTLING_SCAN_GROUP * SCAN_VALUES values in place, and writes their sum to
@@ -42,7 +42,7 @@ void settling_scan(const uint count, __global uint *values, __global uint *sums)
 
 #define SETTLING_SCAN_ADD_GROUP 256
 
-// Each workgroup adds to its values the scanned sum of all workgroups before.
+// Each workgroup adds the sum of all workgroups before it to its values.
 __kernel __attribute__((reqd_work_group_size(SETTLING_SCAN_ADD_GROUP, 1, 1)))
 void settling_scan_add(const uint count, __global uint *values, __global const uint *sums) {
     uint before = sums[get_global_id(0) / SETTLING_SCAN_ADD_GROUP];

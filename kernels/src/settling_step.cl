@@ -1,10 +1,10 @@
-// Steps of control points. After settling.cl, settling_contact.cl and settling_pull.cl.
+// Steps of control points. This file follows settling.cl, settling_contact.cl and settling_pull.cl.
 //
-// The twin of settling_step.wgsl, and of Gathered in texere-core's pass.rs.
+// Its twins are settling_step.wgsl, and Gathered in texere-core's pass.rs.
 
-// The places of the four intervals that pull at a point, by the point's slot there. They begin one
-// place behind it, at it, one place before it, and two places before it. NOWHERE where the yarn has
-// none.
+// Four intervals pull at a point. They begin one place behind it, at it, one place before it, and
+// two places before it, and the point has slots 0 to 3 in them. NOWHERE stands for an interval that
+// the yarn does not have.
 #define NOWHERE 0xffffffffu
 
 uint interval_place(const StrandRow *strand, int number) {
@@ -21,12 +21,12 @@ uint4 intervals_of(const StrandRow *strand, uint place) {
                    interval_place(strand, point - 1), interval_place(strand, point - 2));
 }
 
-// A number of the pull of interval `interval`; `nothing` where there is none.
+// The number of interval `interval` in plane `plane`, or `nothing` if there is no interval.
 float pulled(const SettlingParams *params, __global const float *pulls, uint plane, uint interval, float nothing) {
     return interval == NOWHERE ? nothing : pulls[plane * (size_t)params->places + interval];
 }
 
-// The sum of plane `plane` over the point's slots in all four intervals. A slot has `slot` planes.
+// The sum of plane `plane` of the point's slots in all four intervals. A slot has `slot` planes.
 float gathered(const SettlingParams *params, __global const float *pulls, uint4 intervals, uint slot, uint plane) {
     return pulled(params, pulls, plane, intervals.x, 0.0f) + pulled(params, pulls, slot + plane, intervals.y, 0.0f) +
            pulled(params, pulls, 2u * slot + plane, intervals.z, 0.0f) +
@@ -45,7 +45,7 @@ float least_seen(const SettlingParams *params, __global const float *pulls, uint
                 fmin(pulled(params, pulls, plane, intervals.z, UNSEEN), pulled(params, pulls, plane, intervals.w, UNSEEN)));
 }
 
-// The step along z that the plates ask of a point, mm.
+// The step along z by which the plates press a point, mm.
 float press(const SettlingParams *params, uint4 place) {
     if ((params->flags & PLATES) == 0u) {
         return 0.0f;
@@ -54,7 +54,7 @@ float press(const SettlingParams *params, uint4 place) {
     return copysign(PRESS * params->ease * fmax(fabs(z) + halves(place).y - params->half_gap, 0.0f), -z);
 }
 
-// A step, limited to a share of the least distance seen and of the diameter.
+// A step, limited to a share of the least distance to another yarn and to a share of the diameter.
 float3 within_limits(float3 step, uint4 place, float near) {
     float2 both = halves(place);
     float diameter = 2.0f * fmin(both.x, both.y);
@@ -70,7 +70,7 @@ float3 step_weighted(const SettlingParams *params, __global const float *pulls, 
     float contacts = gathered(params, pulls, intervals, WEIGHTED_SLOT, 3u);
     float3 bend = gathered_way(params, pulls, intervals, WEIGHTED_SLOT, 4u);
     float bends = gathered(params, pulls, intervals, WEIGHTED_SLOT, 7u);
-    // Where yarns are about to pass through one another, contact alone counts.
+    // If yarns are about to pass through one another, contact alone counts.
     float apart = share((least_seen(params, pulls, intervals, own + 5u) / params->growth - CROSSING) * CROSSING_SHARE);
     float3 length = (float3)(pulled(params, pulls, own, intervals.y, 0.0f) - pulled(params, pulls, own, intervals.z, 0.0f),
                              pulled(params, pulls, own + 1u, intervals.y, 0.0f) -
@@ -92,7 +92,7 @@ float3 step_block(const SettlingParams *params, __global const float *pulls, uin
     float yy = gathered(params, pulls, intervals, BLOCK_SLOT, 6u) + INERTIA;
     float yz = gathered(params, pulls, intervals, BLOCK_SLOT, 7u);
     float zz = gathered(params, pulls, intervals, BLOCK_SLOT, 8u) + INERTIA;
-    // Solves matrix * x = `right` by cofactors; the matrix is symmetric.
+    // Solves matrix * x = `right` by cofactors. The matrix is symmetric.
     float a = yy * zz - yz * yz;
     float b = xz * yz - xy * zz;
     float c = xy * yz - xz * yy;
@@ -108,7 +108,7 @@ float3 step_block(const SettlingParams *params, __global const float *pulls, uin
     return within_limits(step, place, least_seen(params, pulls, intervals, 4u * BLOCK_SLOT + 4u));
 }
 
-// The length that an interval shall have after a pass in which lengths are free. `plane` holds the
+// The length that an interval should have after a pass in which lengths are free. `plane` holds the
 // lengths of all intervals.
 float freed(const SettlingParams *params, __global const float *pulls, uint plane, uint4 intervals, float length,
             float start) {
@@ -125,7 +125,7 @@ float freed(const SettlingParams *params, __global const float *pulls, uint plan
     return fmin(fmax(next, FREE_LEAST * start), FREE_MOST * start);
 }
 
-// Takes the step of place `number`, and returns its length.
+// Makes the step of place `number`, and returns its length.
 float take_step(const SettlingParams *params, bool block, __global const uint4 *places,
                 __global const PlaceRow *place_rows, __global const StrandRow *strands, __global const float *pulls,
                 __global float4 *steps, __global float *lengths, __global uint4 *next, uint number) {
@@ -151,7 +151,8 @@ float take_step(const SettlingParams *params, bool block, __global const uint4 *
 
 #define SETTLING_STEP_WEIGHTED_GROUP 64
 
-// Steps in the weighted form: a lane for each place. The longest goes into the workgroup's row.
+// Makes the steps in the weighted form, with one lane for each place. The longest step of a
+// workgroup goes into its row.
 __kernel __attribute__((reqd_work_group_size(SETTLING_STEP_WEIGHTED_GROUP, 1, 1)))
 void settling_step_weighted(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const StrandRow *strands,
@@ -171,7 +172,8 @@ void settling_step_weighted(const SettlingParams params, __global const uint4 *p
 
 #define SETTLING_STEP_BLOCK_GROUP 64
 
-// Steps in the block form, likewise.
+// Makes the steps in the block form, with one lane for each place. The longest step of a workgroup
+// goes into its row.
 __kernel __attribute__((reqd_work_group_size(SETTLING_STEP_BLOCK_GROUP, 1, 1)))
 void settling_step_block(const SettlingParams params, __global const uint4 *places,
                             __global const PlaceRow *place_rows, __global const StrandRow *strands,
@@ -191,12 +193,12 @@ void settling_step_block(const SettlingParams params, __global const uint4 *plac
 
 #define SETTLING_ENDS_GROUP 64
 
-// The mirror image of `other` in `here`.
+// The mirror image of `other` about the point `here`.
 uint4 reflected(uint4 here, uint4 other) {
     return (uint4)(here.xyz + (here.xyz - other.xyz), here.w);
 }
 
-// Renews the places beyond the ends of yarns: a lane for each yarn.
+// Renews the places beyond the ends of yarns, with one lane for each yarn.
 __kernel __attribute__((reqd_work_group_size(SETTLING_ENDS_GROUP, 1, 1)))
 void settling_ends(const SettlingParams params, __global const StrandRow *strands, __global uint4 *places) {
     size_t yarn = get_global_id(0);

@@ -1,10 +1,11 @@
-// Stage 1: the rings of a chunk. After common.cl and rings.cl.
+// Stage 1: the rings of a chunk. This file follows common.cl and rings.cl.
 //
-// The twin of trajectory.wgsl and of texere-cpu's serial/trajectory.rs.
+// Its twins are trajectory.wgsl and texere-cpu's serial/trajectory.rs.
 
 #define TRAJECTORY_GROUP 64
 
-// A workgroup of TRAJECTORY_GROUP for each row of the chunk's block table.
+// Writes the rings of a chunk, with one workgroup of TRAJECTORY_GROUP lanes for each row of its
+// block table.
 __kernel __attribute__((reqd_work_group_size(TRAJECTORY_GROUP, 1, 1)))
 void trajectory(const Params params, const ulong window, __global const uint4 *points,
                 __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,

@@ -1,14 +1,15 @@
-// Lengths along yarns up to each block's start, and the attributes of vertices. After common.wgsl.
+// Lengths along yarns up to each block's start, and the attributes of vertices. This file follows
+// common.wgsl.
 //
-// The twin of attributes.cl and of texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm
+// Its twins are attributes.cl and texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm
 // (Rust: ArcLength), the lower half first, so the order of the sums does not matter.
 
 const ATTRIBUTES_GROUP = 64u;
 const YARN_LENGTHS_GROUP = 256u;
 
-// The length of its yarn up to each block's start.
+// For each block, the length of its yarn up to the block's first ring.
 @group(0) @binding(42) var<storage, read_write> arc_lengths: array<vec2<u32>>;
-// An attribute (Rust: Attribute) is three of these: the yarn and the bits of the angle, of the
+// An attribute (Rust: Attribute) is three elements: the yarn and the bits of the angle, of the
 // length and the tangent's x, and of its y and z.
 @group(0) @binding(43) var<storage, read_write> attribute_pieces: array<vec2<u32>>;
 @group(0) @binding(10) var<storage, read> attribute_caps: array<CapRow>;
@@ -39,7 +40,7 @@ fn segment_speed(segment: Segment, t: f32) -> f32 {
     return sqrt(dot(velocity, velocity));
 }
 
-// A length by a single rule, and the lowest and the highest speed at its nodes.
+// A length by one rule, and the lowest and the highest speed at the rule's nodes.
 struct Rule {
     length: f32,
     slowest: f32,
@@ -68,7 +69,7 @@ fn length_by_rule(segment: Segment, start: f32, end: f32) -> Rule {
     return rule;
 }
 
-// The length between two parameters. Where the speed is uneven it is added up from parts.
+// The length between two parameters. If the speed is uneven, the length is added up from parts.
 fn segment_length(segment: Segment, start: f32, end: f32) -> f32 {
     let rule = length_by_rule(segment, start, end);
     if rule.slowest >= ARC_EVEN * rule.fastest {
@@ -83,22 +84,24 @@ fn segment_length(segment: Segment, start: f32, end: f32) -> f32 {
     return sum;
 }
 
-// The length from ring number `k` of the block, which is not the yarn's last, to the next ring.
+// The length from ring number `k` of the block to the next ring. The ring must not be the yarn's
+// last.
 fn step_length(block: Block, k: u32) -> vec2<u32> {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + k;
     let interval = quotient(place, per_interval);
     let part = place - interval * per_interval;
     let segment = segment_new(block.first_point + interval, params.s);
-    // Set to 1 at the end: the last multiple of the step may be a bit off 1.
+    // At the interval's end this is set to 1, since the last multiple of the step may differ
+    // slightly from 1.
     let end = select(f32(part + 1u) * params.step, 1.0, part + 1u == per_interval);
     return length_from_mm(segment_length(segment, f32(part) * params.step, end));
 }
 
 var<workgroup> length_sums: array<vec2<u32>, YARN_LENGTHS_GROUP>;
 
-// The sum of the lengths of all lanes up to and with this one. Until the next barrier `length_sums`
-// also holds the sum of all `lanes`. Every lane must call it.
+// The sum of the lengths of all lanes up to this one, inclusive. Until the next barrier the last of
+// `length_sums` is the sum of all `lanes`. Every lane must call this function.
 fn running_length(lane: u32, lanes: u32, length: vec2<u32>) -> vec2<u32> {
     length_sums[lane] = length;
     for (var reach = 1u; reach < lanes; reach *= 2u) {
@@ -114,7 +117,7 @@ fn running_length(lane: u32, lanes: u32, length: vec2<u32>) -> vec2<u32> {
     return length_sums[lane];
 }
 
-// The length from ring `lane` of a block to the next; 0 where no quads start from it.
+// The length from ring `lane` of a block to the next ring, or 0 if no quads start from ring `lane`.
 fn lane_length(block: Block, lane: u32) -> vec2<u32> {
     if lane >= block.quads {
         return vec2(0u, 0u);
@@ -122,8 +125,8 @@ fn lane_length(block: Block, lane: u32) -> vec2<u32> {
     return step_length(block, lane);
 }
 
-// The length of each block, from its first ring to the next block's. A workgroup of
-// ATTRIBUTES_GROUP for each row of a chunk's block table.
+// Writes the length of each block of a chunk, from its first ring to the next block's first ring.
+// It runs with one workgroup of ATTRIBUTES_GROUP lanes for each row of the block table.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {
@@ -138,8 +141,9 @@ fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
     }
 }
 
-// Replaces the length of each of a yarn's blocks by the sum of all blocks before it, tile by tile.
-// A workgroup of YARN_LENGTHS_GROUP for each of `params.blocks` yarns from `params.first_yarn` on.
+// Replaces the length of each block of a yarn by the total length of the blocks before it, one tile
+// of YARN_LENGTHS_GROUP blocks after the other. It runs with one workgroup of YARN_LENGTHS_GROUP
+// lanes for each of `params.blocks` yarns from `params.first_yarn` on.
 @compute @workgroup_size(YARN_LENGTHS_GROUP)
 fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                 @builtin(local_invocation_index) lane: u32) {
@@ -169,8 +173,8 @@ fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups
 // Length, tangent.
 var<workgroup> attribute_rings: array<vec4<f32>, ATTRIBUTES_GROUP>;
 
-// The attributes of the vertices of tubes. A workgroup of ATTRIBUTES_GROUP for each row of a
-// chunk's block table.
+// Writes the attributes of the vertices of a chunk's tubes. It runs with one workgroup of
+// ATTRIBUTES_GROUP lanes for each row of the block table.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
@@ -205,7 +209,8 @@ fn attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// The attributes of caps, which repeat those of the end rings. A lane for each cap vertex.
+// Writes the attributes of caps, which equal those of the end rings. It runs with one lane for each
+// cap vertex.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn cap_attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                   @builtin(local_invocation_index) lane: u32) {

@@ -1,6 +1,7 @@
-// The caps at the ends of yarns, after the tube vertices. After common.wgsl.
+// The caps at the ends of yarns. Their vertices come after those of the tubes. This file follows
+// common.wgsl.
 //
-// The twin of caps.cl and of texere-cpu's caps.rs.
+// Its twins are caps.cl and texere-cpu's caps.rs.
 
 const CAPS_GROUP = 64u;
 
@@ -9,8 +10,9 @@ const CAPS_GROUP = 64u;
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 
-// The vertices and triangles of caps. A lane for each cap vertex repeats the end ring's position
-// with the end's own normal; all lanes of a cap but two also write one of its sides - 2 triangles.
+// Writes the vertices and triangles of caps, with one lane for each vertex. A vertex has the
+// position of the end ring's vertex and the normal of the yarn's end. A cap has two triangles fewer
+// than sides, and all its lanes but two also write one triangle each.
 @compute @workgroup_size(CAPS_GROUP)
 fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {

@@ -1,9 +1,9 @@
-// What all stages share: tables, turns, the spline, frames and vertices.
+// The code that all stages share: tables, turns, the spline, frames and vertices.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
-// spline.rs, sampling.rs, frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no
-// feature required. texere-gpu writes two things before this file: the core's constants, such as
-// BLOCK_RINGS, and FLATTENED, which is false where all yarns are round.
+// spline.rs, sampling.rs, frame.rs, ring.rs), and common.cl is the twin of this file. It is core
+// WGSL, and requires no feature. texere-gpu writes two things before this file: the core's
+// constants, such as BLOCK_RINGS, and FLATTENED, which is false if all yarns are round.
 
 // Rust: texere_core::Block, 32 bytes.
 struct Block {
@@ -57,9 +57,9 @@ struct Params {
 
 // A control point (Rust: ControlPoint) is a vec4<u32>: the bits of x, y, z, and two half floats,
 // half width and half height. A section point (Rust: SectionPoint) is a vec4 of x, y, normal x,
-// normal y. A ring (Rust: Ring) is three vec4<u32>: the bits of centre and half width, of the
-// tangent and the roll, of half height and both growths. A vertex (Rust: Vertex) is six floats: x y
-// z nx ny nz.
+// normal y. A ring (Rust: Ring) is three vec4<u32>: the bits of the centre and the half width; of
+// the tangent, and the roll; of the half height and both growths, and the lean. A vertex (Rust:
+// Vertex) is six floats: x y z nx ny nz.
 
 // Points are bound from the start of the chunk's window.
 @group(0) @binding(0) var<uniform> params: Params;
@@ -133,7 +133,8 @@ struct Segment {
     c3: vec4<f32>,
     // The least half width.
     width_floor: f32,
-    // Half height of P[j] with its coefficients, and the least one: where yarns are FLATTENED.
+    // Half height of P[j] with its coefficients, and the least half height. Both have values only
+    // if yarns are FLATTENED.
     height: vec4<f32>,
     height_floor: f32,
     // A squared velocity up to this counts as zero.
@@ -147,7 +148,7 @@ struct Sample {
     half_width: f32,
     half_height: f32,
     tangent: vec3<f32>,
-    // Growth of both halves along the yarn.
+    // Growth of the half width and of the half height along the yarn.
     width_growth: f32,
     height_growth: f32,
 }
@@ -162,7 +163,8 @@ fn point_height(point: vec4<u32>) -> f32 {
     return unpack2x16float(point.w).y;
 }
 
-// Coefficients of t (x), t^2 (y) and t^3 (z) for a size with these differences from its start.
+// Coefficients of t (x), t^2 (y) and t^3 (z) for a size. `a`, `b` and `c` are its differences from
+// the start at the point before, at the end, and at the point after.
 fn size_terms(a: f32, b: f32, c: f32, s: f32) -> vec3<f32> {
     return vec3((b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0));
 }
@@ -196,8 +198,7 @@ fn segment_new(first: u32, s: f32) -> Segment {
     return segment;
 }
 
-// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's
-// speed.
+// A size at t (x), and its growth along the yarn (y). `inverse` is one over the spline's speed.
 fn size_sample(start: f32, terms: vec3<f32>, least: f32, t: f32, inverse: f32) -> vec2<f32> {
     let size = start + (terms.x + (terms.y + terms.z * t) * t) * t;
     let growth = (terms.x + (terms.y * 2.0 + terms.z * (3.0 * t)) * t) * inverse;
@@ -224,7 +225,7 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     let offset = (segment.c1.xyz + (segment.c2.xyz + segment.c3.xyz * t) * t) * t;
     let velocity = segment.c1.xyz + (segment.c2.xyz * 2.0 + segment.c3.xyz * (3.0 * t)) * t;
     let speed_squared = dot(velocity, velocity);
-    // Where the spline stands still nothing grows along it.
+    // If the spline stands still, nothing grows along it.
     var inverse = 0.0;
     var sample: Sample;
     if speed_squared > segment.at_rest {
@@ -248,8 +249,8 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     return sample;
 }
 
-// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an
-// integer division.
+// `part` / `whole`, rounded down. The result is exact for numbers as small as those of rings and
+// sides. It takes much less time than an integer division.
 fn quotient(part: u32, whole: u32) -> u32 {
     return u32((f32(part) + 0.5) * (1.0 / f32(whole)));
 }
@@ -264,7 +265,8 @@ struct RingSample {
     ends_interval: bool,
 }
 
-// Ring number `k` of the block, from 0. The ring after the block's last counts too.
+// The spline at ring number `k` of the block, counted from 0. `k` may also name the ring after the
+// block's last.
 fn ring_sample(yarn: YarnRow, block: Block, k: u32) -> RingSample {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + k;
@@ -305,13 +307,13 @@ struct Basis {
     up: vec3<f32>,
 }
 
-// The other axis of a section whose first is `side`: tangent x side.
+// The second axis of a section whose first axis is `side`: tangent x side.
 fn up_of(tangent: vec3<f32>, side: vec3<f32>) -> vec3<f32> {
     return vec3(tangent.y * side.z - tangent.z * side.y, tangent.z * side.x - tangent.x * side.z,
                 tangent.x * side.y - tangent.y * side.x);
 }
 
-// side = z x t, normalised (+y where t is along z); up = t x side.
+// The upright basis: side is z x t, normalised, or +y if t is along z. up is t x side.
 fn basis_upright(tangent: vec3<f32>) -> Basis {
     let level = tangent.x * tangent.x + tangent.y * tangent.y;
     var basis: Basis;
@@ -325,7 +327,7 @@ fn basis_upright(tangent: vec3<f32>) -> Basis {
     return basis;
 }
 
-// The side of a section that stands with `roll`: the upright one turned about the tangent, towards
+// The side of a section with the roll `roll`: the upright side, turned about the tangent towards
 // up.
 fn side_standing(tangent: vec3<f32>, roll: u32) -> vec3<f32> {
     let upright = basis_upright(tangent);
@@ -346,7 +348,7 @@ fn mirrored(v: vec3<f32>, mirror: vec3<f32>, mirror_squared: f32) -> vec3<f32> {
 fn transport_turns(tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>) -> f32 {
     var side = basis_upright(tangent).side;
     let length_squared = dot(chord, chord);
-    // Where two rings coincide the tangent stands in for the chord.
+    // If two rings coincide, the tangent is used in place of the chord.
     let apart = length_squared > NO_LENGTH;
     var mirror = select(tangent, chord, apart);
     var mirror_squared = select(1.0, length_squared, apart);
@@ -362,7 +364,7 @@ fn transport_turns(tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>
     return atan2_turns(dot(side, next.up), dot(side, next.side));
 }
 
-// The change of roll from a ring to the next; `twist` in turns per mm.
+// The change of roll from a ring to the next. `twist` is in turns per mm.
 fn frame_step(frame: u32, tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>, twist: f32) -> u32 {
     var turns = 0.0;
     if frame == ROTATION_MINIMIZING {
@@ -371,8 +373,8 @@ fn frame_step(frame: u32, tangent: vec3<f32>, next_tangent: vec3<f32>, chord: ve
     return turn_from_turns(turns + twist * sqrt(dot(chord, chord)));
 }
 
-// The roll of ring `ring`, where steps up to it add up to `sum`. Along a closed yarn the whole turn
-// is taken away bit by bit, so that its last ring meets its first.
+// The roll of ring `ring`, if the steps up to it add up to `sum`. In a closed yarn each ring loses
+// its share of the yarn's total turn, `whole`, so that the last ring has the roll of the first.
 fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
     let steps = yarn.rings - 1u;
     if yarn.closed == 0u {
@@ -383,7 +385,7 @@ fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
 
 // ---- Vertex ----
 
-// How a section stands on a ring, which all its vertices share.
+// How a section stands on a ring. All vertices of the ring share it.
 struct Stance {
     // Centre, half width.
     centre: vec4<f32>,
@@ -391,26 +393,28 @@ struct Stance {
     tangent: vec4<f32>,
     side: vec3<f32>,
     up: vec3<f32>,
-    // Half height and its growth, sine and cosine of the roll: where yarns are FLATTENED.
+    // Half height and its growth; sine and cosine of the roll less the lean. Both are used only if
+    // yarns are FLATTENED.
     height: vec2<f32>,
     sin_cos: vec2<f32>,
     round: bool,
 }
 
-// Whether a yarn is round and stays so. `width` and `height` are each a half and its growth. Round
-// rings are worked out alike whether other yarns are FLATTENED or not, so that no vertex depends on
-// other yarns.
+// Whether a yarn is round at a ring, and stays round there. `width` is the half width and its
+// growth, `height` the half height and its growth. Round rings are worked out in the same way
+// whether other yarns are FLATTENED or not, so that no vertex depends on other yarns.
 fn is_round(width: vec2<f32>, height: vec2<f32>) -> bool {
     return !FLATTENED || all(width == height);
 }
 
-// The side that a section stands with. A round section turns with the roll. The outline of a
-// flattened one leans, and the section turns inside it.
+// The side of a section. A round section turns with the roll. The outline of a flattened section
+// leans, and the section turns inside its outline.
 fn side_of(tangent: vec3<f32>, roll: u32, lean: u32, round: bool) -> vec3<f32> {
     return side_standing(tangent, select(lean, roll, round));
 }
 
-// `side` is that of `side_of`, `height` the half height and its growth, `sin_cos` that of the roll.
+// The stance of a section. `side` is the result of `side_of`, `height` is the half height and its
+// growth, and `sin_cos` are the sine and cosine of the roll less the lean.
 fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, height: vec2<f32>, sin_cos: vec2<f32>) -> Stance {
     var stance: Stance;
     stance.centre = centre;
@@ -423,7 +427,7 @@ fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, height: ve
     return stance;
 }
 
-// `q` turned by the roll.
+// `q`, turned by the roll less the lean.
 fn rolled(stance: Stance, q: vec2<f32>) -> vec2<f32> {
     return vec2(stance.sin_cos.y * q.x - stance.sin_cos.x * q.y, stance.sin_cos.x * q.x + stance.sin_cos.y * q.y);
 }
@@ -443,8 +447,8 @@ fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     let tangent = stance.tangent;
     if !stance.round {
         let q = rolled(stance, point.xy);
-        // Each component times the other half: the inverse transpose, times the product of both
-        // halves.
+        // Each component is multiplied by the other half. This is the inverse transpose, times the
+        // product of both halves.
         let normal = rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);
         let lean = tangent.w * q.x * normal.x + stance.height.y * q.y * normal.y;
         let inverse = 1.0 / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);
@@ -452,7 +456,7 @@ fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
         return across - tangent.xyz * (lean * inverse);
     }
     let across = stance.side * point.z + stance.up * point.w;
-    // Where the radius is constant no square root is needed.
+    // If the radius is constant, no square root is needed.
     if tangent.w == 0.0 {
         return across;
     }

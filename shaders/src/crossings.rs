@@ -2,10 +2,10 @@
 //!
 //! | file | entry points | work |
 //! |---|---|---|
-//! | `crossings.wgsl` | | tables, sites, what is gathered at one: stands before each of the others |
+//! | `crossings.wgsl` | | tables, sites, the block that is gathered at a site: stands before each of the files below |
 //! | `crossings_passage.wgsl` | | a thread that changes sides |
 //! | `crossings_terms.wgsl` | | the energy's terms at a crossing |
-//! | `crossings_pass.wgsl` | `crossings_move`, `crossings_seen` | the step of each crossing; what a pass has seen |
+//! | `crossings_pass.wgsl` | `crossings_move`, `crossings_seen` | the step of each crossing; the measures of a pass |
 
 use crate::{Resource, Shader, read, uniform, write};
 
@@ -16,8 +16,8 @@ const SOURCE: &str = concat!(
     include_str!("crossings_pass.wgsl")
 );
 
-/// The step of each crossing. A lane for each crossing; each workgroup writes a row of what it has
-/// seen.
+/// The step of each crossing. It runs with one lane for each crossing. Each workgroup writes a row
+/// of its measures.
 pub const MOVE: Shader = Shader {
     entry_point: "crossings_move",
     source: SOURCE,
@@ -33,7 +33,7 @@ pub const MOVE: Shader = Shader {
     ],
 };
 
-/// What a pass has seen, from the rows of all workgroups. One workgroup.
+/// The measures of a pass, from the rows of all workgroups. It runs as one workgroup.
 pub const SEEN: Shader = Shader {
     entry_point: "crossings_seen",
     source: SOURCE,

@@ -1,9 +1,9 @@
-// What the shaders of crossings share: tables, sites, and what is gathered at one of them. Stands
-// before each of them.
+// The code that the shaders of crossings share: tables, sites, and the block that is gathered at a
+// site. It stands before each of them.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (crossings/),
-// and crossings.cl is the twin of this file. Core WGSL, no feature required. Constants are the
-// core's; texere-gpu writes them before this file.
+// and crossings.cl is the twin of this file. It is core WGSL, and requires no feature. The
+// constants are the core's. texere-gpu writes them before this file.
 
 // Rust: texere_gpu::CrossingsParams, 48 bytes.
 struct CrossingsParams {
@@ -32,13 +32,13 @@ struct ThreadRow {
     after: i32,
 }
 
-// A lie (Rust: Lie) is a vec4<f32>: shift, height, half width, half height. A crossing is two of
-// them, its end's and its pick's.
+// A lie (Rust: ThreadState) is the state of a thread at a crossing, a vec4<f32>: shift, height,
+// half width, half height. A crossing is two lies, that of its end and that of its pick.
 
 @group(0) @binding(34) var<uniform> cloth: CrossingsParams;
 @group(0) @binding(35) var<storage, read> threads: array<ThreadRow>;
 @group(0) @binding(36) var<storage, read> ups: array<u32>;
-// The crossings as others find them in this pass.
+// The lies with momentum added, which this pass reads.
 @group(0) @binding(37) var<storage, read> found: array<vec4<f32>>;
 
 const WARP = 0u;
@@ -48,8 +48,8 @@ const WEFT = 1u;
 
 const NOWHERE = 0xffffffffu;
 
-// The number `by` further on than `at` among `count`. Where they repeat, the first follows the
-// last.
+// The number that is `by` further on than `at`, of `count` numbers. If they repeat, the first
+// follows the last. Otherwise numbers beyond both are NOWHERE.
 fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     let way = bitcast<i32>(at) + by;
     let whole = bitcast<i32>(count);
@@ -59,7 +59,8 @@ fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     return select(NOWHERE, bitcast<u32>(select(way - whole, way + whole, by < 0)), repeats);
 }
 
-// The crossing `along` further along a thread of `of_set`, and `across` threads of that set aside.
+// The crossing that lies `along` crossings further along a thread of `of_set`, and `across` threads
+// of that set aside.
 fn beside(site: vec2<u32>, of_set: u32, along: i32, across: i32) -> vec2<u32> {
     let ends = select(along, across, of_set == WARP);
     let picks = select(across, along, of_set == WARP);
@@ -87,7 +88,7 @@ fn thread_of(site: vec2<u32>, of_set: u32) -> ThreadRow {
     return threads[select(cloth.ends + site.y, site.x, of_set == WARP)];
 }
 
-// The way from a set's thread at a site to the one `steps` after it.
+// The distance from a set's thread at a site to the thread `steps` after it.
 fn way_of(site: vec2<u32>, of_set: u32, steps: i32) -> f32 {
     var way = thread_of(site, of_set).gap;
     for (var step = 1; step < steps; step++) {
@@ -108,9 +109,10 @@ fn side_of(site: vec2<u32>, of_set: u32) -> f32 {
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
-// A block is seen from one set: `own` are the set's four unknowns, `crossed` those of the other
-// set. Row k of `own_own` holds unknown k with all own unknowns, row k of `own_crossed` holds it
-// with those of the other set. Only entries up to the diagonal are used.
+// A block is described from one set. `own` holds the slopes in that set's four unknowns, and
+// `crossed` the slopes in those of the other set. Row k of `own_own` holds the curvatures in
+// unknown k and all own unknowns, row k of `own_crossed` those in unknown k and the unknowns of the
+// other set. Only entries up to the diagonal of `own_own` and `crossed_crossed` are used.
 struct CrossingBlock {
     own: vec4<f32>,
     crossed: vec4<f32>,
@@ -120,7 +122,7 @@ struct CrossingBlock {
     clearance: f32,
 }
 
-// The block, seen from the other set.
+// The block, described from the other set.
 fn turned(block: CrossingBlock) -> CrossingBlock {
     let rows = block.own_crossed;
     return CrossingBlock(
@@ -138,7 +140,7 @@ fn turned(block: CrossingBlock) -> CrossingBlock {
     );
 }
 
-// Notes a distance of two threads, as a share of what they need.
+// Notes the distance of two threads, divided by the distance that they need.
 fn see(block: ptr<function, CrossingBlock>, clearance: f32) {
     (*block).clearance = min((*block).clearance, clearance);
 }

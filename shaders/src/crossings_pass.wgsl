@@ -1,24 +1,27 @@
-// A pass: the step of every crossing, and what all of them have seen. After crossings_terms.wgsl.
+// A pass: it moves every crossing by one step, and gathers the longest step and the least clearance
+// of all. This file follows crossings_terms.wgsl.
 //
-// crossings_pass.cl is the twin of this file; CrossingBlock::step and CrossingsPlan in texere-core
+// crossings_pass.cl is the twin of this file. CrossingBlock::step and CrossingsPlan in texere-core
 // (crossings/) are the definitions.
 
-// The crossings as they are.
+// The lies after the last pass, without momentum.
 @group(0) @binding(38) var<storage, read_write> crossings: array<vec4<f32>>;
-// The crossings as others find them in the next pass.
+// The lies with momentum added, which the next pass reads.
 @group(0) @binding(39) var<storage, read_write> next: array<vec4<f32>>;
-// What workgroups have seen, and what passes have seen: the longest step and the least clearance.
+// A row for each workgroup, and a row for each pass: the longest step and the least clearance.
 @group(0) @binding(40) var<storage, read_write> group_rows: array<vec2<f32>>;
 @group(0) @binding(41) var<storage, read_write> pass_rows: array<vec2<f32>>;
 
 // ---- Eight equations by Cholesky's method, in two halves of four ----
 
-// The square root of a regularised pivot, which is no less than CROSSINGS_PIVOT.
+// The square root of a damped pivot, which is at least CROSSINGS_PIVOT. `left` is what is left of a
+// diagonal element, and `whole` is that element before anything was subtracted.
 fn pivot(left: f32, whole: f32) -> f32 {
     return sqrt(max(left + CROSSINGS_DAMPING + CROSSINGS_DAMPING * whole, CROSSINGS_PIVOT));
 }
 
-// The root of four rows. `whole` is their diagonal before anything was subtracted from them.
+// The Cholesky factor of a symmetric 4 x 4 matrix, of which the lower triangle is given. `whole` is
+// the diagonal before anything was subtracted from the matrix.
 fn root_of(rows: array<vec4<f32>, 4>, whole: vec4<f32>) -> array<vec4<f32>, 4> {
     var root: array<vec4<f32>, 4>;
     root[0].x = pivot(rows[0].x, whole.x);
@@ -46,7 +49,7 @@ fn forwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
     return vec4(x, y, z, w);
 }
 
-// Solves transpose of root * x = `right`.
+// Solves transpose(root) * x = `right`.
 fn backwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
     let w = right.w / root[3].w;
     let z = (right.z - root[3].z * w) / root[2].z;
@@ -59,7 +62,7 @@ fn dot4(one: vec4<f32>, other: vec4<f32>) -> f32 {
     return one.x * other.x + one.y * other.y + one.z * other.z + one.w * other.w;
 }
 
-// A value for both threads of a crossing: their lies, or their steps.
+// The steps of both threads of a crossing.
 struct Pair {
     warp: vec4<f32>,
     weft: vec4<f32>,
@@ -123,7 +126,7 @@ fn move_thread(number: u32, site: vec2<u32>, of_set: u32, step: vec4<f32>) -> f3
     let lie = 2u * number + of_set;
     let was = crossings[lie];
     let moved = bounded(found[lie] + step, thread);
-    // Others find it further on, where momentum carries it.
+    // The next pass reads this lie moved further by a share of this step (momentum).
     next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), thread);
     crossings[lie] = moved;
     return largest(moved - was);
@@ -153,8 +156,8 @@ const CROSSINGS_MOVE_GROUP = 64u;
 
 var<workgroup> lane_seen: array<vec2<f32>, CROSSINGS_MOVE_GROUP>;
 
-// Moves all crossings: a lane for each. Each workgroup writes a row of what it has seen, joined by
-// a fixed tree.
+// Moves all crossings, with one lane for each. Each workgroup writes a row: the longest step and
+// the least clearance of its lanes, which are joined in pairs.
 @compute @workgroup_size(CROSSINGS_MOVE_GROUP)
 fn crossings_move(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                   @builtin(local_invocation_index) lane: u32) {
@@ -180,7 +183,7 @@ const CROSSINGS_SEEN_GROUP = 256u;
 
 var<workgroup> lane_rows: array<vec2<f32>, CROSSINGS_SEEN_GROUP>;
 
-// Joins the rows of all workgroups into the row of this pass: one workgroup.
+// Joins the rows of all workgroups into the row of this pass. It runs as one workgroup.
 @compute @workgroup_size(CROSSINGS_SEEN_GROUP)
 fn crossings_seen(@builtin(local_invocation_index) lane: u32) {
     let count = (cloth.crossings + CROSSINGS_MOVE_GROUP - 1u) / CROSSINGS_MOVE_GROUP;

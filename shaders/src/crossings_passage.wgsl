@@ -1,7 +1,8 @@
-// A thread that changes sides between two threads of the other set. After crossings.wgsl.
+// A thread that changes sides between two threads of the other set. This file follows
+// crossings.wgsl.
 //
 // crossings_passage.cl is the twin of this file, and StraightPassage in texere-core
-// (crossings/passage.rs) the definition.
+// (crossings/passage.rs) is the definition.
 
 // A straight passage over the first of two crossed threads and under the second, at the slope that
 // leaves most room.
@@ -32,8 +33,8 @@ fn left_by(across: f32, rise: f32, halves: vec4<f32>, slope: vec2<f32>) -> f32 {
 fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> StraightPassage {
     let distance = sqrt(across * across + rise * rise);
     let excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // Candidates: the best slope of round threads, level, and upright. Wide ellipses leave most
-    // room at one of these.
+    // The steps below begin at the best of three slopes: that of round threads, level, and upright.
+    // Wide ellipses leave most room at one of the three.
     var slope = vec2(0.0, 1.0);
     if rise > 0.0 {
         slope = vec2(rise, across) / distance;

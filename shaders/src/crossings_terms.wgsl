@@ -1,13 +1,14 @@
-// The energy of a crossing: terms for what threads want, and terms that keep them apart. After
-// crossings.wgsl and crossings_passage.wgsl.
+// The energy of a crossing: terms of single threads, and terms that keep threads apart. This file
+// follows crossings.wgsl and crossings_passage.wgsl.
 //
-// crossings_terms.cl is the twin of this file, and texere-core (crossings/terms.rs) the definition.
+// crossings_terms.cl is the twin of this file, and texere-core's crossings/terms.rs is the
+// definition.
 
-// A crossing along a thread.
+// A crossing of a thread, some steps from another.
 struct Along {
     site: vec2<u32>,
     there: bool,
-    // The thread's lie there, and the way to the next crossing.
+    // The thread's lie at this crossing, and the distance to the next crossing.
     lie: vec4<f32>,
     gap: f32,
 }
@@ -23,7 +24,7 @@ fn along_of(site: vec2<u32>, of_set: u32, steps: i32) -> Along {
     return along;
 }
 
-// Terms of the section: its shape, its area, and the press.
+// Adds the terms of the section: its shape, its area, and the press.
 fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, radius: f32) {
     let wide = lie.z / radius;
     let thick = lie.w / radius;
@@ -36,8 +37,8 @@ fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, radius: f32)
     add_alone(block, vec4(0.0, press, 0.0, 0.0), 1.0, lie, 1.0);
 }
 
-// The term of a bend: a second difference along the thread, with slope `slope` in the unknowns of
-// this crossing.
+// Adds the term of a bend: a second difference along the thread, with slope `slope` in the unknowns
+// of this crossing.
 fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Along, middle: Along, after: Along, slope: f32, share: f32) {
     if !before.there || !middle.there || !after.there {
         return;
@@ -49,8 +50,8 @@ fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Alon
     add_alone(block, weights, share, before.lie - 2.0 * middle.lie + after.lie, slope);
 }
 
-// Terms of first differences along the thread, to a crossing `gap` away: tension, and evenness of
-// sections.
+// Adds the terms of first differences along the thread, to a crossing `gap` away: tension, and
+// evenness of sections.
 fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Along, gap: f32, tension: f32, evenness: f32) {
     if other.there {
         let taut = tension / gap;
@@ -59,19 +60,19 @@ fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Al
     }
 }
 
-// How a thread meets the threads that it crosses, between two crossings. This crossing is the
-// `second` of them, or else the first.
+// The room between a thread and the threads that it crosses, on the way between two crossings. This
+// crossing is the second of the two if `second` is true, and else the first.
 struct Meeting {
     room: f32,
-    // Slopes in its own height and half height, and in the unknowns of the thread that it crosses
-    // here.
+    // The slopes of the room in the thread's height and half height, and in the unknowns of the
+    // thread that it crosses here.
     slopes: vec2<f32>,
     crossed: vec4<f32>,
     clearance: f32,
 }
 
-// The meeting of a thread that stays on its side. Where it slopes, it has to clear the shoulder of
-// the thread under its upper end.
+// The meeting of a thread that stays on its side. If it slopes, it has to clear the shoulder of the
+// thread under its upper end.
 fn shoulder(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>, second: bool) -> Meeting {
     let rises = side * (last.lie.y - first.lie.y) > 0.0;
     let upper = select(first.lie, last.lie, rises);
@@ -103,7 +104,7 @@ fn passage(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>,
     let across = first.gap + two.x - one.x;
     let rise = side * (two.y - one.y);
     let found = passage_of(across, rise, vec4(one.zw, two.zw), first.lie.w + last.lie.w);
-    // This crossing's share of it.
+    // The slopes in the unknowns of this crossing.
     let c = found.slope.x;
     let s = found.slope.y;
     let lie = select(one, two, second);
@@ -133,8 +134,8 @@ fn add_meeting(block: ptr<function, CrossingBlock>, of_set: u32, first: Along, l
     }
 }
 
-// Adds what the thread has to clear between this crossing and the one `steps` further along it,
-// past threads of other levels.
+// Adds the term of the room between this crossing and the crossing `steps` further along the
+// thread, past threads of other levels.
 fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Along, steps: i32) {
     let other = along_of(here.site, of_set, steps);
     if !other.there {
@@ -151,7 +152,8 @@ fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Alon
     add_meeting(block, of_set, first, last, second);
 }
 
-// Keeps two ellipses clear of one another. `part` is the share of this crossing's thread in them.
+// Adds the term that keeps two ellipses clear of one another. `part` is the share of this
+// crossing's thread in them.
 fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: f32, thick: f32, sign: f32, part: f32) {
     let x = apart / wide;
     let z = rise / thick;
@@ -169,8 +171,8 @@ fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: 
     }
 }
 
-// Keeps neighbours of one set clear half way from this crossing to the `next`. There they are
-// ellipses `gap` apart.
+// Adds the term that keeps neighbours of one set clear half way from this crossing to the `next`.
+// There the neighbours are ellipses. They are `gap` apart before they shift.
 fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
     if !next.there {
         return;
@@ -184,9 +186,10 @@ fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>
     keep_clear(block, apart, rise, wide, thick, sign, 0.5);
 }
 
-// Keeps a thread and a neighbour of its set clear. At a crossing, neighbours of one level keep to
-// their own places, whatever their heights; neighbours of two levels lie side by side or one above
-// the other, as ellipses. Beside a crossing all are clear of one another.
+// Adds the terms that keep a thread and a neighbour of its set clear. At a crossing, neighbours of
+// one level lie side by side, whatever their heights. Neighbours of two levels lie side by side or
+// one above the other, as ellipses. Half way to the crossings before and after, all neighbours are
+// ellipses.
 fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, across: i32, of_level: bool) {
     let site = beside(here.site, of_set, 0, across);
     if !is_there(site) {
@@ -214,8 +217,8 @@ fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along
     add_half_way(block, of_set, here.lie, after, other, across, gap);
 }
 
-// Adds the neighbours of a thread on one side. The nearest of its own level lies `steps` threads
-// away.
+// Adds the terms of a thread's neighbours on one side. The nearest neighbour of its own level lies
+// `steps` threads away; 0 means that there is none.
 fn add_neighbours(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, side: i32, steps: i32) {
     if steps != 0 {
         add_neighbour(block, of_set, before, here, after, side * steps, true);
@@ -240,13 +243,13 @@ fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
     return steepest;
 }
 
-// Adds the contact of both threads of a crossing, one on top of the other. The block is seen from
-// the warp.
+// Adds the term of the contact between both threads of a crossing, one on top of the other. The
+// block is described from the warp.
 fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);
     let side = side_of(site, WARP);
-    // Threads of two layers slope where they cross, and along the other thread's slope an ellipse
+    // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
     // reaches further.
     var slope = vec2(0.0);
     if (cloth.flags & LAYERED) != 0u && thread_of(site, WARP).level != thread_of(site, WEFT).level {
@@ -277,7 +280,7 @@ fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     let after = along_of(site, of_set, 1);
     let two_after = along_of(site, of_set, 2);
     add_section(block, here.lie, radius);
-    // Slopes are 1, -2 and 1.
+    // The slopes of the second differences in this crossing's unknowns are 1, -2 and 1.
     add_bend(block, thread, two_before, before, here, 1.0, 4.0);
     add_bend(block, thread, before, here, after, -2.0, 2.0);
     add_bend(block, thread, here, after, two_after, 1.0, 4.0);
@@ -298,7 +301,7 @@ fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     }
 }
 
-// All terms that a crossing is part of, seen from the warp.
+// All terms that a crossing is part of, described from the warp.
 fn gathered(site: vec2<u32>) -> CrossingBlock {
     var block: CrossingBlock;
     block.clearance = UNSEEN;

@@ -3,15 +3,15 @@
 //!
 //! | file | entry points | work |
 //! |---|---|---|
-//! | `common.wgsl` | | tables, turn, spline, frame, vertex: stands before each of the others |
+//! | `common.wgsl` | | tables, turn, spline, frame, vertex: stands before each of the files below |
 //! | `rings.wgsl` | | a block's rings in workgroup memory: stands before `trajectory`, `mesh` and `packed` |
 //! | `share.wgsl` | | how lanes share a ring's stores: stands before `mesh` and `packed` |
 //! | `scan.wgsl` | `block_turns`, `yarn_rolls` | the roll at each block's start |
 //! | `trajectory.wgsl` | `trajectory` | stage 1 |
 //! | `mesh.wgsl` | `mesh`, `mesh_odd` | stage 2 with stage 1 in it |
 //! | `caps.wgsl` | `caps` | closed ends |
-//! | `packed.wgsl` | `packed`, `packed_odd`, `packed_caps` | stage 2 likewise, as packed vertices |
-//! | `unpack.wgsl` | | packed vertices as they were, for shaders of a caller's |
+//! | `packed.wgsl` | `packed`, `packed_odd`, `packed_caps` | stage 2 with stage 1 in it, as packed vertices |
+//! | `unpack.wgsl` | | how a caller's shaders unpack packed vertices |
 //! | `attributes.wgsl` | `block_lengths`, `yarn_lengths`, `attributes`, `cap_attributes` | attributes of vertices |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
@@ -29,7 +29,8 @@ pub mod picture;
 pub mod settling;
 
 /// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every
-/// device allows. The fewest possible workgroups are without work, since these take time too.
+/// device allows. The number of workgroups without work is as small as possible, since they take
+/// time, too.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));
@@ -51,9 +52,10 @@ pub enum Resource {
     Points = 1,
     /// `YarnRow`s.
     Yarns = 2,
-    /// `Block`s of a chunk; in the schedule per-yarn a row for each part.
+    /// `Block`s of a chunk. In the schedule per-yarn there is one for each part.
     Blocks = 3,
-    /// The whole turn of each yarn, then the roll at each block's start: `u32`s.
+    /// The total turn of each yarn, then the roll at each block's start, then, if any yarn leans,
+    /// the lean of each ring: `u32`s.
     Rolls = 4,
     /// `SectionPoint`s of all sections.
     Outlines = 5,
@@ -71,7 +73,7 @@ pub enum Resource {
     CapPattern = 11,
     /// `SettlingParams` of `texere-gpu`.
     SettlingParams = 12,
-    /// `PlaceRow`s, and one more, which ends the last interval's chords.
+    /// `PlaceRow`s, and one more, in which the last interval's chords end.
     PlaceRows = 13,
     /// `StrandRow`s.
     Strands = 14,
@@ -79,21 +81,22 @@ pub enum Resource {
     Places = 15,
     /// `ChordRow`s.
     ChordRows = 16,
-    /// Chords: where they begin and the place of their interval; their span and the thickest half.
+    /// Chords: for each the point where it begins and the place of its interval, then its span and
+    /// the largest half width or half height of its interval.
     Chords = 17,
-    /// Where each cell's chords begin, and the end of the last one's.
+    /// The position of each cell's first chord, and at the end the number of all chords.
     CellStarts = 18,
     /// Chords, cell by cell.
     CellChords = 19,
-    /// Where each chord's neighbours begin, and the end of the last one's.
+    /// The position of each chord's first neighbour, and at the end the number of all neighbours.
     ListStarts = 20,
-    /// Chords' neighbours.
+    /// The neighbours of all chords.
     Neighbours = 21,
-    /// The length that each interval shall have, mm.
+    /// The length that each interval should have, mm.
     Lengths = 22,
     /// Pulls at intervals' control points, plane by plane.
     Pulls = 23,
-    /// What each workgroup of places has seen.
+    /// The measures of each workgroup of places.
     SeenRows = 24,
     /// The extent of chords, a row from each workgroup.
     Extents = 25,
@@ -105,7 +108,7 @@ pub enum Resource {
     Steps = 28,
     /// `Place`s after a pass.
     NextPlaces = 29,
-    /// What a pass has seen.
+    /// The measures of a pass.
     Seen = 30,
     /// `SettledParams` of `texere-gpu`.
     SettledParams = 31,
@@ -117,19 +120,19 @@ pub enum Resource {
     CrossingsParams = 34,
     /// `ThreadRow`s, ends first.
     ThreadRows = 35,
-    /// Where the warp lies on the face: a bit for each crossing.
+    /// A bit for each crossing, set if the warp lies on the face.
     Ups = 36,
-    /// `CrossingState`s as others find them.
+    /// `CrossingState`s with momentum added, which a pass reads.
     FoundCrossings = 37,
-    /// `CrossingState`s as they are.
+    /// `CrossingState`s without momentum.
     Crossings = 38,
-    /// `CrossingState`s as others find them in the next pass.
+    /// `CrossingState`s with momentum added, which the next pass reads.
     NextCrossings = 39,
-    /// What each workgroup of crossings has seen.
+    /// The measures of each workgroup of crossings.
     CrossingsGroupRows = 40,
-    /// What each pass since the last wait has seen.
+    /// The measures of each pass since the last wait.
     CrossingsPassRows = 41,
-    /// The length of its yarn up to each block's start: `ArcLength`s.
+    /// For each block, the length of its yarn up to the block's first ring: `ArcLength`s.
     ArcLengths = 42,
     /// `Attribute`s of a chunk.
     Attributes = 43,
@@ -151,23 +154,23 @@ pub enum Access {
 /// A resource that a shader uses, and its access.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Binding {
-    /// The resource; its number is the binding's.
+    /// The resource. Its number is that of the binding.
     pub resource: Resource,
-    /// How it is used.
+    /// How the shader uses the resource.
     pub access: Access,
 }
 
 /// A compute shader.
 #[derive(Debug, Clone, Copy)]
 pub struct Shader {
-    /// Its entry point.
+    /// The name of the entry point.
     pub entry_point: &'static str,
     /// The WGSL source, complete.
     pub source: &'static str,
-    /// Lanes of a workgroup, in one dimension.
+    /// The number of lanes of a workgroup, in one dimension.
     pub workgroup: u32,
-    /// All resources that it uses, by number, in group 0. At most eight are storage buffers, the
-    /// number that WebGPU guarantees.
+    /// All resources that the shader uses, sorted by number, in group 0. At most eight are storage
+    /// buffers, the number that WebGPU guarantees.
     pub bindings: &'static [Binding],
 }
 
@@ -183,7 +186,7 @@ const fn write(resource: Resource) -> Binding {
     Binding { resource, access: Access::Write }
 }
 
-/// `rings.wgsl` for stages that write a block's own rings alone.
+/// `rings.wgsl` for stages that make only a block's own rings.
 macro_rules! rings {
     () => {
         concat!("const RINGS_BEYOND = 0u;\n", include_str!("rings.wgsl"))
@@ -198,7 +201,7 @@ const PACKED_SOURCE: &str =
 const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
-/// The turn of each block of a chunk. A workgroup for each row.
+/// The turn of each block of a chunk. It runs with one workgroup for each row.
 pub const BLOCK_TURNS: Shader = Shader {
     entry_point: "block_turns",
     source: SCAN_SOURCE,
@@ -212,7 +215,7 @@ pub const BLOCK_TURNS: Shader = Shader {
     ],
 };
 
-/// Rolls from turns, in place. A workgroup for each yarn.
+/// Rolls from turns, in place. It runs with one workgroup for each yarn.
 pub const YARN_ROLLS: Shader = Shader {
     entry_point: "yarn_rolls",
     source: SCAN_SOURCE,
@@ -220,7 +223,7 @@ pub const YARN_ROLLS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::Rolls)],
 };
 
-/// Rings of a chunk. A workgroup for each row.
+/// Rings of a chunk. It runs with one workgroup for each row.
 pub const TRAJECTORY: Shader = Shader {
     entry_point: "trajectory",
     source: concat!(include_str!("common.wgsl"), rings!(), include_str!("trajectory.wgsl")),
@@ -247,14 +250,15 @@ const MESH_BINDINGS: &[Binding] = &[
     write(Resource::Indices),
 ];
 
-/// Vertices and indices of a chunk's tubes, for an even number of sides. A workgroup for each row.
+/// Vertices and indices of a chunk's tubes, for an even number of sides. It runs with one workgroup
+/// for each row.
 pub const MESH: Shader =
     Shader { entry_point: "mesh", source: MESH_SOURCE, workgroup: 128, bindings: MESH_BINDINGS };
 
 /// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: Shader = Shader { entry_point: "mesh_odd", ..MESH };
 
-/// Vertices and indices of a chunk's caps. A lane for each vertex.
+/// Vertices and indices of a chunk's caps. It runs with one lane for each vertex.
 pub const CAPS: Shader = Shader {
     entry_point: "caps",
     source: concat!(include_str!("common.wgsl"), include_str!("caps.wgsl")),
@@ -269,7 +273,8 @@ pub const CAPS: Shader = Shader {
     ],
 };
 
-/// Packed vertices of a chunk's tubes, for an even number of sides. A workgroup for each row.
+/// Packed vertices of a chunk's tubes, for an even number of sides. It runs with one workgroup for
+/// each row.
 pub const PACKED: Shader = Shader {
     entry_point: "packed",
     source: PACKED_SOURCE,
@@ -288,7 +293,7 @@ pub const PACKED: Shader = Shader {
 /// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: Shader = Shader { entry_point: "packed_odd", ..PACKED };
 
-/// Packed vertices of a chunk's caps. A lane for each vertex.
+/// Packed vertices of a chunk's caps. It runs with one lane for each vertex.
 pub const PACKED_CAPS: Shader = Shader {
     entry_point: "packed_caps",
     source: PACKED_SOURCE,
@@ -319,7 +324,7 @@ pub const PACKED_CAPS: Shader = Shader {
 /// ```
 pub const UNPACK: &str = include_str!("unpack.wgsl");
 
-/// The length of each block of a chunk. A workgroup for each row.
+/// The length of each block of a chunk. It runs with one workgroup for each row.
 pub const BLOCK_LENGTHS: Shader = Shader {
     entry_point: "block_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -333,7 +338,8 @@ pub const BLOCK_LENGTHS: Shader = Shader {
     ],
 };
 
-/// Lengths along yarns up to each block's start, in place. A workgroup for each yarn.
+/// Lengths along yarns up to each block's start, in place. It runs with one workgroup for each
+/// yarn.
 pub const YARN_LENGTHS: Shader = Shader {
     entry_point: "yarn_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -341,7 +347,7 @@ pub const YARN_LENGTHS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::ArcLengths)],
 };
 
-/// Attributes of a chunk's tubes. A workgroup for each row.
+/// Attributes of a chunk's tubes. It runs with one workgroup for each row.
 pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     entry_point: "attributes",
     source: ATTRIBUTES_SOURCE,
@@ -356,7 +362,7 @@ pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     ],
 };
 
-/// Attributes of a chunk's caps. A lane for each vertex.
+/// Attributes of a chunk's caps. It runs with one lane for each vertex.
 pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     entry_point: "cap_attributes",
     source: ATTRIBUTES_SOURCE,
@@ -364,7 +370,7 @@ pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::CapRows), write(Resource::Attributes)],
 };
 
-/// The paper's algorithm 2. A lane for each part.
+/// The paper's algorithm 2. It runs with one lane for each part.
 pub const TRAJECTORY_PER_YARN: Shader = Shader {
     entry_point: "trajectory_per_yarn",
     source: PER_YARN_SOURCE,
@@ -378,7 +384,7 @@ pub const TRAJECTORY_PER_YARN: Shader = Shader {
     ],
 };
 
-/// The paper's algorithm 4. A lane for each part.
+/// The paper's algorithm 4. It runs with one lane for each part.
 pub const MESH_PER_YARN: Shader = Shader {
     entry_point: "mesh_per_yarn",
     source: PER_YARN_SOURCE,

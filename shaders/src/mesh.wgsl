@@ -1,15 +1,16 @@
-// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl,
-// rings.wgsl and share.wgsl.
+// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. This file follows
+// common.wgsl, rings.wgsl and share.wgsl.
 //
-// The twin of mesh.cl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so
-// lanes store 16 bytes at a time (8 where sides are odd in number), contiguous across the
+// Its twins are mesh.cl and texere-cpu's serial/mesh.rs. The speed of memory limits this stage.
+// Lanes therefore store 16 bytes at a time (8 if the number of sides is odd), contiguous across the
 // workgroup.
 
 const MESH_GROUP = 128u;
 
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
-// The indices of a ring's quads. These three lie four by four where sides are even in number, so
-// that every block starts at 16 bytes, and else two by two, at 8.
+// The indices of a ring's quads. If the number of sides is even, every block starts at a multiple
+// of 16 bytes: then the first three buffers are used, in elements of 16 bytes. If it is odd, the
+// last three are used, which are the same buffers in elements of 8 bytes.
 @group(0) @binding(6) var<storage, read> pattern: array<vec4<u32>>;
 @group(0) @binding(7) var<storage, read_write> vertices: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> indices: array<vec4<u32>>;
@@ -27,7 +28,8 @@ fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: v
     return select(later, vec4(position, normal.x), first == 0u);
 }
 
-// Two consecutive floats of ring `ring`'s vertices, likewise.
+// Two consecutive floats of ring `ring`'s vertex at `point`. The first is float `first` of the
+// vertex, an even number.
 fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, point);
@@ -35,9 +37,9 @@ fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     return select(select(normal.yz, vec2(position.z, normal.x), first == 2u), position.xy, first == 0u);
 }
 
-// Meshes an even number of sides. A workgroup of MESH_GROUP for each row of the chunk's block
-// table. Indices come first: they wait for nothing, and are on their way while the points are
-// fetched.
+// Meshes a chunk with an even number of sides, with one workgroup of MESH_GROUP lanes for each row
+// of the chunk's block table. Indices are written first: they do not depend on the points, and are
+// stored while the points are fetched.
 @compute @workgroup_size(MESH_GROUP)
 fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {
@@ -70,7 +72,7 @@ fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     }
 }
 
-// Meshes an odd number of sides, 8 bytes at a time.
+// Meshes a chunk with an odd number of sides, 8 bytes at a time.
 @compute @workgroup_size(MESH_GROUP)
 fn mesh_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
             @builtin(local_invocation_index) lane: u32) {

@@ -1,14 +1,16 @@
-// Stage 2 with stage 1 in it, as packed vertices. After common.wgsl, rings.wgsl and share.wgsl.
+// Stage 2 with stage 1 in it, as packed vertices. This file follows common.wgsl, rings.wgsl and
+// share.wgsl.
 //
-// The twin of packed.cl and of texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is
-// three words: x in bits 0 to 20 of the first two, y in bits 21 to 41, z in bits 42 to 62; then the
-// steps of the octahedral normal, 16 bits each. Lanes store two words at a time (one where sides
-// are odd in number), contiguous across the workgroup.
+// Its twins are packed.cl and texere-core's packed.rs. A packed vertex (Rust: PackedVertex) is
+// three words. The first two hold x in bits 0 to 20, y in bits 21 to 41 and z in bits 42 to 62. The
+// third holds both coordinates of the octahedral normal, 16 bits each. Lanes store two words at a
+// time (one if the number of sides is odd), contiguous across the workgroup.
 
 const PACKED_GROUP = 64u;
 
 @group(0) @binding(5) var<storage, read> packed_outlines: array<vec4<f32>>;
-// Two by two where sides are even in number, so that every block starts at 8 bytes.
+// Packed vertices in pairs of words, for an even number of sides: every block then starts at a
+// multiple of 8 bytes.
 @group(0) @binding(44) var<storage, read_write> packed_pairs: array<vec2<u32>>;
 @group(0) @binding(44) var<storage, read_write> packed_words: array<u32>;
 @group(0) @binding(10) var<storage, read> packed_cap_rows: array<CapRow>;
@@ -21,7 +23,7 @@ fn packed_coordinate(mm: f32) -> u32 {
     return bitcast<u32>(i32(round(rest))) & ((1u << COORDINATE_BITS) - 1u);
 }
 
-// The words of a position.
+// The two words of a position.
 fn packed_position(position: vec3<f32>) -> vec2<u32> {
     let x = packed_coordinate(position.x);
     let y = packed_coordinate(position.y);
@@ -42,8 +44,8 @@ fn packed_normal(normal: vec3<f32>) -> u32 {
 }
 
 // Two consecutive words of ring `ring`'s vertices. The first is word `first` of the vertex at
-// `point`, the second is of the vertex at `next`. The two vertices differ only where the first word
-// is a normal's.
+// `point`, the second belongs to the vertex at `next`. The two vertices differ only if the first
+// word is that of a normal.
 fn two_words(ring: u32, first: u32, point: vec4<f32>, next: vec4<f32>) -> vec2<u32> {
     let stance = stance_of(ring);
     let position = packed_position(position_at(stance, next));
@@ -54,7 +56,7 @@ fn two_words(ring: u32, first: u32, point: vec4<f32>, next: vec4<f32>) -> vec2<u
     return select(vec2(position.y, normal), vec2(normal, position.x), first == 2u);
 }
 
-// One word of ring `ring`'s vertices, likewise.
+// Word `first` of ring `ring`'s vertex at `point`.
 fn one_word(ring: u32, first: u32, point: vec4<f32>) -> u32 {
     let stance = stance_of(ring);
     if first == 2u {
@@ -64,8 +66,8 @@ fn one_word(ring: u32, first: u32, point: vec4<f32>) -> u32 {
     return select(position.y, position.x, first == 0u);
 }
 
-// Packs an even number of sides. A workgroup of PACKED_GROUP for each row of the chunk's block
-// table.
+// Packs a chunk with an even number of sides, with one workgroup of PACKED_GROUP lanes for each row
+// of the chunk's block table.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
           @builtin(local_invocation_index) lane: u32) {
@@ -91,7 +93,7 @@ fn packed(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     }
 }
 
-// Packs an odd number of sides, 4 bytes at a time.
+// Packs a chunk with an odd number of sides, 4 bytes at a time.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
@@ -115,8 +117,8 @@ fn packed_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// The packed vertices of caps: the end ring's position again, with the end's own normal. A lane for
-// each cap vertex.
+// Writes the packed vertices of caps. They have the positions of the end ring and the normal of the
+// yarn's end. It runs with one lane for each cap vertex.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {

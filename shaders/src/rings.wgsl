@@ -1,18 +1,18 @@
-// A block's rings in workgroup memory, with which all stages of the schedule per-ring begin. After
-// common.wgsl, and after RINGS_BEYOND: 1 where the ring that the block's last quads lead to is
-// wanted, too, else 0.
+// The rings of a block in workgroup memory. All stages of the schedule per-ring begin with them.
+// This file follows common.wgsl and the constant RINGS_BEYOND, which is 1 if the ring that the
+// block's last quads lead to is wanted, too, and else 0.
 //
 // rings.cl is the twin of this file.
 
-// Rings that there is room for: whole eights, for the scan.
+// The number of rings that there is room for. It is a multiple of eight, as the scan requires.
 const RINGS_HELD = BLOCK_RINGS + 8u * RINGS_BEYOND;
 
-// The whole turn of each yarn, then the roll at each block's start, then the leans of all rings
-// where any yarn leans: one buffer, since eight are all that WebGPU promises.
+// The total turn of each yarn, then the roll at each block's start, then, if any yarn leans, the
+// leans of all rings. They share one buffer, because WebGPU guarantees only eight.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
 
-// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis
-// instead of storing it: the less memory a workgroup takes, the more of them run at a time.
+// The rings of a block, each with its side and its roll. The rest of the basis is not stored:
+// `up_of` works it out. The less memory a workgroup takes, the more workgroups run at a time.
 struct BlockRings {
     // Centre, half width.
     centre: array<vec4<f32>, RINGS_HELD>,
@@ -21,7 +21,7 @@ struct BlockRings {
     // The side of `side_of`, and the half height.
     side: array<vec4<f32>, RINGS_HELD>,
     height_growth: array<f32, RINGS_HELD>,
-    // Sine and cosine of the roll against the outline: where yarns are FLATTENED.
+    // Sine and cosine of the roll less the lean. They have values only at rings that are not round.
     sin_cos: array<vec2<f32>, RINGS_HELD>,
     roll: array<u32, RINGS_HELD>,
     // Sums of the turns of eight rings each.
@@ -30,7 +30,7 @@ struct BlockRings {
 
 var<workgroup> standing: BlockRings;
 
-// Rings of `block` that are made.
+// The number of rings that are made for `block`.
 fn rings_made(block: Block) -> u32 {
     return min(block.rings + RINGS_BEYOND, max(block.rings, block.quads + 1u));
 }
@@ -43,8 +43,8 @@ fn lean_of(yarn: YarnRow, ring: u32) -> u32 {
     return rolls[params.yarns + params.leans + yarn.first_block * BLOCK_RINGS + ring];
 }
 
-// Makes the rings of `block`: a lane for each ring. The workgroup has at least RINGS_HELD lanes,
-// and every lane must call it.
+// Makes the rings of `block`, with one lane for each ring. The workgroup has at least RINGS_HELD
+// lanes, and every lane must call this function.
 fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     let rings = rings_made(block);
     var here: RingSample;
@@ -53,7 +53,8 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     if lane < rings {
         here = ring_sample(yarn, block, lane);
         standing.tangent[lane] = vec4(here.sample.tangent, here.sample.width_growth);
-        // The step from the ring before needs the offset. The side takes its place afterwards.
+        // The offset is stored for the step from the ring before. Later the side is stored in its
+        // place.
         standing.side[lane] = vec4(here.sample.offset, 0.0);
     }
     if params.rolled != 0u {
@@ -85,8 +86,8 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
             let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block.first_ring + lane, start + sum - turn, rolls[block.yarn]);
             lean = lean_of(yarn, block.first_ring + lane);
-            // An upright section leans with its outline. A section that is carried along only
-            // starts with that lean.
+            // An upright section turns by the lean of its ring. A section in a rotation minimising
+            // frame starts with the lean of its yarn's first ring.
             if yarn.frame == ROTATION_MINIMIZING {
                 roll += lean_of(yarn, 0u);
             } else {

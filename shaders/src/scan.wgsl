@@ -1,21 +1,21 @@
-// The roll at each block's start, summed over the blocks before it. After common.wgsl.
+// The roll at each block's start, summed over the blocks before it. This file follows common.wgsl.
 //
-// The twin of scan.cl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a
-// running sum over a yarn's blocks then gives the roll at each block's first ring. Turns wrap, so
-// the order of the sums does not matter.
+// Its twins are scan.cl and texere-cpu's serial/scan.rs. The turn of a block is the sum of its
+// steps. A running sum over a yarn's blocks then gives the roll at each block's first ring. Turns
+// wrap, so the order of the sums does not matter.
 
 const TURNS_GROUP = 64u;
 const ROLLS_GROUP = 256u;
 
-// The whole turn of each yarn, then the roll at each block's start.
+// The total turn of each yarn, then the roll at each block's start.
 @group(0) @binding(4) var<storage, read_write> rolls: array<u32>;
 
 var<workgroup> turn_tangents: array<vec3<f32>, TURNS_GROUP>;
 var<workgroup> turn_offsets: array<vec3<f32>, TURNS_GROUP>;
 var<workgroup> turn_sums: array<u32, TURNS_GROUP>;
 
-// The turn of each block, chunk after chunk. A workgroup of TURNS_GROUP for each row of a chunk's
-// block table.
+// Writes the turn of each block of a chunk. It runs with one workgroup of TURNS_GROUP lanes for
+// each row of the chunk's block table.
 @compute @workgroup_size(TURNS_GROUP)
 fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
@@ -33,8 +33,8 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         turn_offsets[lane] = here.sample.offset;
     }
     workgroupBarrier();
-    // A step leads from a ring to the next. There are as many as quads, so the last leads to the
-    // next block's first ring.
+    // A step leads from a ring to the next. There are as many steps as rings from which quads
+    // start, so the last step leads to the next block's first ring.
     var turn = 0u;
     if lane < block.quads {
         var next_tangent: vec3<f32>;
@@ -69,8 +69,9 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
 
 var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
 
-// Turns become rolls in place, tile by tile, and their total becomes the yarn's whole turn. A
-// workgroup of ROLLS_GROUP for each of `params.blocks` yarns from `params.first_yarn` on.
+// Replaces the turn of each block by the roll at the block's start, one tile of ROLLS_GROUP blocks
+// after the other. The sum of all turns is the yarn's total turn. It runs with one workgroup of
+// ROLLS_GROUP lanes for each of `params.blocks` yarns from `params.first_yarn` on.
 @compute @workgroup_size(ROLLS_GROUP)
 fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {

@@ -2,13 +2,14 @@
 //!
 //! | file | entry points | work |
 //! |---|---|---|
-//! | `settling.wgsl` | | tables, places, intervals, chords: stands before each of the others but the scan |
-//! | `settling_chords.wgsl` | `settling_chords` | where chords lie |
+//! | `settling.wgsl` | | tables, places, intervals, chords: stands before each of the files below but the scan |
+//! | `settling_chords.wgsl` | `settling_chords` | the chords of all intervals |
 //! | `settling_list.wgsl` | `settling_extent`, `settling_cell_count`, `settling_cell_fill`, `settling_count`, `settling_fill` | each chord's neighbours |
 //! | `settling_scan.wgsl` | `settling_scan`, `settling_scan_add` | sums of all counts before each one |
-//! | `settling_contact.wgsl` | | where two intervals come near one another: stands before the next one |
-//! | `settling_pull.wgsl` | `settling_pull_weighted`, `settling_pull_block`, `settling_seen` | what pulls at the control points of an interval; what a pass has seen |
-//! | `settling_step.wgsl` | `settling_step_weighted`, `settling_step_block`, `settling_ends` | the step that each control point takes; places beyond yarns' ends |
+//! | `settling_contact.wgsl` | | the places where two intervals come near one another: stands before `settling_pull.wgsl` |
+//! | `settling_pull.wgsl` | `settling_pull_weighted`, `settling_pull_block`, `settling_seen` | the pulls at the control points of an interval; the measures of a pass |
+//! | `settling_step.wgsl` | `settling_step_weighted`, `settling_step_block`, `settling_ends` | the step of each control point; the places beyond yarns' ends |
+//! | `settling_points.wgsl` | `settling_points`, `settling_bounds` | control points from settled places; the box round them |
 
 use crate::{Resource, Shader, read, uniform, write};
 
@@ -20,7 +21,7 @@ const PULL_SOURCE: &str = concat!(
 );
 const STEP_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_step.wgsl"));
 
-/// Chords from places. A lane for each chord.
+/// Chords from places. It runs with one lane for each chord.
 pub const CHORDS: Shader = Shader {
     entry_point: "settling_chords",
     source: concat!(include_str!("settling.wgsl"), include_str!("settling_chords.wgsl")),
@@ -34,7 +35,7 @@ pub const CHORDS: Shader = Shader {
     ],
 };
 
-/// The longest chord, and the box round all middles. A row from each workgroup.
+/// The longest chord, and the box round all middles. Each workgroup writes a row.
 pub const EXTENT: Shader = Shader {
     entry_point: "settling_extent",
     source: LIST_SOURCE,
@@ -42,7 +43,7 @@ pub const EXTENT: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::Extents)],
 };
 
-/// The number of chords in each cell. A lane for each chord.
+/// The number of chords in each cell. It runs with one lane for each chord.
 pub const CELL_COUNT: Shader = Shader {
     entry_point: "settling_cell_count",
     source: LIST_SOURCE,
@@ -50,7 +51,7 @@ pub const CELL_COUNT: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::CellStarts)],
 };
 
-/// Chords sorted by cells. A lane for each chord.
+/// Chords sorted by cells. It runs with one lane for each chord.
 pub const CELL_FILL: Shader = Shader {
     entry_point: "settling_cell_fill",
     bindings: &[
@@ -62,7 +63,8 @@ pub const CELL_FILL: Shader = Shader {
     ..CELL_COUNT
 };
 
-/// Replaces each value by the sum of those before it. A workgroup scans [`SCAN_VALUES`] values.
+/// Replaces each value by the sum of the values before it. A workgroup scans [`SCAN_VALUES`]
+/// values.
 pub const SCAN: Shader = Shader {
     entry_point: "settling_scan",
     source: include_str!("settling_scan.wgsl"),
@@ -74,10 +76,10 @@ pub const SCAN: Shader = Shader {
 /// [`SCAN`].
 pub const SCAN_ADD: Shader = Shader { entry_point: "settling_scan_add", ..SCAN };
 
-/// Values of a workgroup of [`SCAN`].
+/// The number of values that a workgroup of [`SCAN`] scans.
 pub const SCAN_VALUES: u32 = 1024;
 
-/// The number of each chord's neighbours. A lane for each chord.
+/// The number of each chord's neighbours. It runs with one lane for each chord.
 pub const COUNT: Shader = Shader {
     entry_point: "settling_count",
     source: LIST_SOURCE,
@@ -95,11 +97,11 @@ pub const COUNT: Shader = Shader {
     ],
 };
 
-/// The neighbours of each chord. A lane for each chord.
+/// The neighbours of each chord. It runs with one lane for each chord.
 pub const FILL: Shader = Shader { entry_point: "settling_fill", ..COUNT };
 
-/// Pulls at each interval's points, in the weighted form. A lane for each place; each workgroup
-/// writes a row of what it has seen.
+/// Pulls at each interval's points, in the weighted form. It runs with one lane for each place.
+/// Each workgroup writes a row of its measures.
 pub const PULL_WEIGHTED: Shader = Shader {
     entry_point: "settling_pull_weighted",
     source: PULL_SOURCE,
@@ -120,8 +122,8 @@ pub const PULL_WEIGHTED: Shader = Shader {
 /// [`PULL_WEIGHTED`] in the block form.
 pub const PULL_BLOCK: Shader = Shader { entry_point: "settling_pull_block", ..PULL_WEIGHTED };
 
-/// The step of each point, in the weighted form. A lane for each place; the longest step goes into
-/// the workgroup's row.
+/// The step of each point, in the weighted form. It runs with one lane for each place. The longest
+/// step goes into the workgroup's row.
 pub const STEP_WEIGHTED: Shader = Shader {
     entry_point: "settling_step_weighted",
     source: STEP_SOURCE,
@@ -142,7 +144,7 @@ pub const STEP_WEIGHTED: Shader = Shader {
 /// [`STEP_WEIGHTED`] in the block form.
 pub const STEP_BLOCK: Shader = Shader { entry_point: "settling_step_block", ..STEP_WEIGHTED };
 
-/// The places beyond yarns' ends. A lane for each yarn.
+/// The places beyond yarns' ends. It runs with one lane for each yarn.
 pub const ENDS: Shader = Shader {
     entry_point: "settling_ends",
     source: STEP_SOURCE,
@@ -150,7 +152,7 @@ pub const ENDS: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Strands), write(Resource::NextPlaces)],
 };
 
-/// What a pass has seen, from the rows of all workgroups. One workgroup.
+/// The measures of a pass, from the rows of all workgroups. It runs as one workgroup.
 pub const SEEN: Shader = Shader {
     entry_point: "settling_seen",
     source: PULL_SOURCE,
@@ -160,7 +162,7 @@ pub const SEEN: Shader = Shader {
 
 const POINTS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_points.wgsl"));
 
-/// Control points from settled places. A lane for each place.
+/// Control points from settled places. It runs with one lane for each place.
 pub const POINTS: Shader = Shader {
     entry_point: "settling_points",
     source: POINTS_SOURCE,

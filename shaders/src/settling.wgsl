@@ -1,10 +1,10 @@
-// What the shaders of settling share: tables, places, intervals and chords. Stands before each of
-// them.
+// The code that the shaders of settling share: tables, places, intervals and chords. It stands
+// before each of them.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
-// and settling.cl is the twin of this file. Core WGSL, no feature required. texere-gpu writes two
-// things before this file: the core's constants, and FLATTENED, which is false where all yarns are
-// round.
+// and settling.cl is the twin of this file. It is core WGSL, and requires no feature. texere-gpu
+// writes two things before this file: the core's constants, and FLATTENED, which is false if all
+// yarns are round.
 
 // Rust: texere_gpu::PlaceRow, 16 bytes.
 struct PlaceRow {
@@ -73,9 +73,10 @@ struct SeenRow {
 
 // A place (Rust: Place) is a vec4<i32>: x, y and z, units, and two half floats, half width and half
 // height. A row of the chord table (Rust: texere_gpu::ChordRow) is a vec4<u32>: the place of its
-// interval, where along the yarn it begins and ends, and the bits of the largest half of its
-// interval. A chord as passes see it is two vec4<u32>: where it begins and the place of its
-// interval; the bits of its span, mm, and of the largest half of its interval.
+// interval, where along the yarn it begins and ends, and the bits of the largest half width or half
+// height of its interval. A chord that passes read is two vec4<u32>. The first has the point where
+// the chord begins and the place of its interval, the second the bits of the chord's span, mm, and
+// of the largest half width or half height of the interval.
 
 @group(0) @binding(12) var<uniform> settling: SettlingParams;
 @group(0) @binding(13) var<storage, read> place_rows: array<PlaceRow>;
@@ -93,12 +94,12 @@ fn share(value: f32) -> f32 {
     return min(max(value, 0.0), 1.0);
 }
 
-// A way in units, in mm.
+// The way `units`, converted to mm.
 fn to_mm(units: vec3<i32>) -> vec3<f32> {
     return vec3<f32>(units) * settling.unit;
 }
 
-// The units that a place moves by for a step in mm.
+// The step `step`, mm, in whole units.
 fn to_units(step: vec3<f32>) -> vec3<i32> {
     return vec3<i32>(floor(step * settling.per_mm + 0.5));
 }
@@ -116,7 +117,7 @@ struct Interval {
     c1: vec3<f32>,
     c2: vec3<f32>,
     c3: vec3<f32>,
-    // Half width and half height at its beginning, and their growth to its end.
+    // Half width and half height at the interval's beginning, and the growth of both to its end.
     halves: vec2<f32>,
     growth: vec2<f32>,
 }
@@ -162,7 +163,7 @@ fn interval_reach(interval: Interval, u: f32, towards: vec3<f32>) -> f32 {
     if width == height || level <= VERTICAL * square {
         return width;
     }
-    // Side is (-y, x, 0), up is tangent x side, both over their lengths.
+    // Side is (-y, x, 0), and up is tangent x side, both divided by their lengths.
     let aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
     let up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
     return sqrt((aside * aside + up * up / square) / level);
@@ -192,21 +193,21 @@ fn chord_middle(chord: Chord) -> vec3<i32> {
     return chord.at + to_units(chord.span * 0.5);
 }
 
-// The number of repeats to a chord's image that is nearest to another chord, which begins `way`
-// before it.
+// The number of repeats to the image of chord `other` that is nearest to chord `one`. Chord `other`
+// begins `way` from the beginning of chord `one`.
 fn nearest_image(one: vec3<f32>, other: vec3<f32>, way: vec3<i32>) -> vec2<i32> {
     let apart = to_mm(way) + (other - one) * 0.5;
     let frequency = vec2(settling.frequency_x, settling.frequency_y);
     return -vec2<i32>(floor(apart.xy * frequency + 0.5));
 }
 
-// The way to the image that is `image` repeats away.
+// `way`, led on by `image` repeats: the way to that image.
 fn to_image(way: vec3<i32>, image: vec2<i32>) -> vec3<i32> {
     return vec3(way.x + image.x * settling.period_x, way.y + image.y * settling.period_y, way.z);
 }
 
-// The places where two chords come nearest to one another, as shares of them. The second begins
-// `way` from the first.
+// The places where two chords come nearest to one another, as shares of the chords. The second
+// chord begins `way` from the beginning of the first.
 fn chords_nearest(one: vec3<f32>, other: vec3<f32>, way: vec3<f32>) -> vec2<f32> {
     let a = max(dot3(one, one), SHORT);
     let e = max(dot3(other, other), SHORT);
@@ -214,7 +215,7 @@ fn chords_nearest(one: vec3<f32>, other: vec3<f32>, way: vec3<f32>) -> vec2<f32>
     let c = -dot3(one, way);
     let f = -dot3(other, way);
     let determinant = a * e - b * b;
-    // On parallel chords one place does as well as another.
+    // On parallel chords no place of the first is better than another, so its middle is taken.
     var first = 0.5;
     if determinant > PARALLEL * (a * e) {
         first = share((b * f - c * e) / determinant);

@@ -1,4 +1,4 @@
-// Chords from places. After settling.wgsl. Its twin is a part of settling.cl.
+// Chords from places. This file follows settling.wgsl. Its twin is a part of settling.cl.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(16) var<storage, read> chord_rows: array<vec4<u32>>;
@@ -6,7 +6,7 @@
 
 const SETTLING_CHORDS_GROUP = 64u;
 
-// Works out all chords from places: a lane for each.
+// Works out all chords from places, with one lane for each chord.
 @compute @workgroup_size(SETTLING_CHORDS_GROUP)
 fn settling_chords(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {

@@ -1,35 +1,35 @@
-// Contacts: where two intervals come near one another, and the pulls that follow. After
-// settling.wgsl, before settling_pull.wgsl.
+// Contacts: the places where two intervals come near one another, and the pulls there. This file
+// follows settling.wgsl, and comes before settling_pull.wgsl.
 //
-// settling_contact.cl is the twin of this file, and contact.rs and the first half of pass.rs of
-// texere-core the definition.
+// settling_contact.cl is the twin of this file. The definition is in texere-core's contact.rs and
+// in the first half of its pass.rs.
 
-// What an interval has seen: the least distance to another yarn, mm; the least distance over the
-// sum of both reaches; the least radius of curvature, in diameters.
+// The measures of an interval: the least distance to another yarn, mm; the least distance divided
+// by the sum of both reaches; the least radius of curvature, in diameters.
 struct Sight {
     near: f32,
     clearance: f32,
     radius: f32,
 }
 
-// Places on both intervals, and the way from the first to the second.
+// A place on each of two intervals, and the way from the first place to the second.
 struct Contact {
     at: vec2<f32>,
     way: vec3<f32>,
     distance: f32,
 }
 
-// What a contact asks of the first interval's points: the step of its place, mm, the direction to
-// the other yarn, and the weight of each of the four points. Weights are all 0 where it asks for
-// nothing.
+// The pull of a contact on the first interval's points: the step that its place should make, mm,
+// the direction to the other yarn, and the weight of each of the four points. All weights are 0 if
+// the contact does not pull.
 struct Push {
     back: vec3<f32>,
     direction: vec3<f32>,
     weights: vec4<f32>,
 }
 
-// The weights of four points. A point beyond an open yarn's end hands its weight to the points that
-// it is made of.
+// The weights of four points. The weight of a point beyond an open yarn's end goes to the points
+// that it is made from.
 fn folded(tags: u32, weights: vec4<f32>) -> vec4<f32> {
     var own = weights;
     if (tags & TAG_OPENS) != 0u {
@@ -57,8 +57,8 @@ fn contact_at(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>) -> 
     return Contact(at, between, length3(between));
 }
 
-// The exact places near `at`: one step of Newton's method, at most `stride` long, if it comes
-// nearer.
+// The exact places near `at`, by one step of Newton's method. The step is at most `stride` long,
+// and is made only if the places come nearer to one another.
 fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride: vec2<f32>) -> Contact {
     let start = contact_at(one, other, way, at);
     let velocity = interval_velocity(one, at.x);
@@ -81,7 +81,8 @@ fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride
     return start;
 }
 
-// The direction from the first place to the second. Where both coincide it is square to both yarns.
+// The direction from the first place to the second. If both places coincide, it is at right angles
+// to both yarns.
 fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3<f32>) -> vec3<f32> {
     var way = contact.way;
     if contact.distance <= ONE_PLACE {
@@ -98,14 +99,14 @@ fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3
     return vec3(0.0, 0.0, 1.0);
 }
 
-// The chord whose neighbours are visited: its number, where its list ends, and the chord itself.
+// The chord whose neighbours are visited: its number, the end of its list, and the chord itself.
 struct ListedChord {
     number: u32,
     end: u32,
     chord: Chord,
 }
 
-// Goes on to the chord that has entry `next` of an interval's lists.
+// Goes on to the chord whose list has entry `next`.
 fn go_to(here: ptr<function, ListedChord>, next: u32) {
     while next >= (*here).end {
         (*here).number += 1u;
@@ -115,16 +116,16 @@ fn go_to(here: ptr<function, ListedChord>, next: u32) {
     }
 }
 
-// An interval whose chords meet their neighbours one after the other.
+// An interval whose chords are tested against their neighbours one after the other.
 struct Meeting {
     interval: Interval,
     tags: u32,
-    // Its first chord, and one over the number of its chords.
+    // The number of the interval's first chord, and one over the number of its chords.
     first: u32,
     step: f32,
 }
 
-// Another chord at the place where it comes nearest to the one here.
+// Another chord, and the places where it and the chord `here` come nearest to one another.
 struct Approach {
     there: Chord,
     image: vec2<i32>,
@@ -144,7 +145,7 @@ fn approach_of(here: Chord, number: u32) -> Approach {
     return approach;
 }
 
-// Whether chord `number` may touch the one here. The distance of one that may not is noted.
+// Whether chord `number` may touch the chord `here`. If it may not, its distance goes into `sight`.
 fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
     let approach = approach_of(here, number);
     let most = here.thickest + approach.there.thickest;
@@ -158,15 +159,15 @@ fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
 
 const MOST_AT_ONCE = 32u;
 
-// The neighbours that may touch, of the `count` from entry `begin` on, a bit for each. Lanes first
-// sort them out, and then meet those few together.
+// A bit for each of the `count` neighbours from entry `begin` on, which is set if the neighbour may
+// touch. Lanes first find these few neighbours, and then work out their contacts together.
 fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sight>) -> u32 {
     var here = start;
     var bits = 0u;
     for (var entry = 0u; entry < count; entry++) {
         go_to(&here, begin + entry);
         let number = neighbours[begin + entry];
-        // An entry whose number is no chord's is left over.
+        // An entry that was left over has a number that is no chord's.
         if number < settling.chords {
             bits |= u32(may_touch(here.chord, number, sight)) << entry;
         }
@@ -174,7 +175,7 @@ fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sig
     return bits;
 }
 
-// The contact of chord `number` with the one here.
+// The pull of the contact of chord `number` with the chord `here`.
 fn meet(one: Meeting, here: ListedChord, number: u32, sight: ptr<function, Sight>) -> Push {
     var push: Push;
     let approach = approach_of(here.chord, number);

@@ -1,20 +1,20 @@
-// Lists of neighbours. After settling.wgsl.
+// Lists of neighbours. This file follows settling.wgsl.
 //
-// settling_list.cl is the twin of this file, and neighbours.rs of texere-core the definition.
-// Chords are sorted into cells in any order, but a chord's neighbours end in the order of their
-// numbers.
+// settling_list.cl is the twin of this file, and texere-core's neighbours.rs is the definition.
+// Chords lie in their cells in any order, but the neighbours of a chord are listed in the order of
+// their numbers.
 
 @group(0) @binding(14) var<storage, read> strands: array<StrandRow>;
 @group(0) @binding(16) var<storage, read> chord_rows: array<vec4<u32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
-// The entry behind each cell is first its count, then where its next chord goes, and in the end
-// where the cell ends.
+// The entry behind each cell is first the cell's count, then the position of its next chord, and at
+// last the position where the cell ends.
 @group(0) @binding(18) var<storage, read_write> cell_counts: array<atomic<u32>>;
 @group(0) @binding(18) var<storage, read> cells: array<u32>;
 @group(0) @binding(19) var<storage, read_write> to_sort: array<u32>;
 @group(0) @binding(19) var<storage, read> sorted: array<u32>;
-// First the number of each chord's neighbours, then where they begin, and the end of the last
-// chord's.
+// At first the number of each chord's neighbours. Later the position of the first of them, and the
+// number of all neighbours at the end.
 @group(0) @binding(20) var<storage, read_write> starts: array<u32>;
 @group(0) @binding(21) var<storage, read_write> neighbours: array<u32>;
 @group(0) @binding(25) var<storage, read_write> extents: array<ExtentRow>;
@@ -38,7 +38,8 @@ fn extent_of_both(one: ExtentRow, other: ExtentRow) -> ExtentRow {
     );
 }
 
-// The longest chord, and the box round all middles. Any number of workgroups share the chords.
+// Finds the longest chord, and the box round the middles of all chords. Any number of workgroups
+// share the chords, and each writes a row.
 @compute @workgroup_size(SETTLING_EXTENT_GROUP)
 fn settling_extent(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {
@@ -64,7 +65,7 @@ fn settling_extent(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgro
 
 // ---- Cells ----
 
-// The number of a cell along one axis. `low` is 0 where the axis repeats.
+// The number of a cell along one axis. `low` is 0 if the axis repeats.
 fn cell_along(middle: i32, period: i32, low: i32, size: u32, count: u32) -> u32 {
     var beyond = bitcast<u32>(middle - low);
     if period > 0 {
@@ -88,8 +89,8 @@ fn chord_cell(number: u32) -> u32 {
 
 const SETTLING_CELL_GROUP = 64u;
 
-// Counts the chords of each cell: a lane for each chord. A cell's count lies one entry behind the
-// cell.
+// Counts the chords of each cell, with one lane for each chord. A cell's count lies one entry
+// behind the cell.
 @compute @workgroup_size(SETTLING_CELL_GROUP)
 fn settling_cell_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -99,7 +100,7 @@ fn settling_cell_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
     }
 }
 
-// Sorts chords into cells: a lane for each chord.
+// Sorts chords into cells, with one lane for each chord.
 @compute @workgroup_size(SETTLING_CELL_GROUP)
 fn settling_cell_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                       @builtin(local_invocation_index) lane: u32) {
@@ -112,13 +113,14 @@ fn settling_cell_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_work
 
 // ---- Neighbours ----
 
-// Whether no more than `window` of the yarn lies between an end and a start.
+// Whether less than `window` of the yarn lies between an end and a start.
 fn between(end: u32, start: u32, window: i32) -> bool {
     let units = bitcast<i32>(start - end);
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn lie so close along it that they can't be clear of one another.
+// Whether two chords of one yarn lie so close along the yarn that they can't be clear of one
+// another.
 fn leads_on(one: vec4<u32>, other: vec4<u32>, image: vec2<i32>, window: i32, strand: StrandRow) -> bool {
     let shift = vec2(strand.shift_x, strand.shift_y);
     let here = all(image == vec2(0)) && (between(one.z, other.y, window) || between(other.z, one.y, window));
@@ -159,8 +161,8 @@ fn cells_beside(cell: u32, period: i32, count: u32) -> vec2<u32> {
     return vec2(first, min(cell + 1u, count - 1u) - first + 1u);
 }
 
-// Finds the neighbours of chord `number`, and returns their number. It puts up to `room` of them
-// into the list from `start` on, sorted by number.
+// Finds the neighbours of chord `number`, and returns how many there are. The first `room` that are
+// found are written to the list from `start` on, sorted by number.
 fn find_neighbours(number: u32, start: u32, room: u32) -> u32 {
     let one = chord(number);
     let cell = cell_of(chord_middle(one));
@@ -192,7 +194,7 @@ fn find_neighbours(number: u32, start: u32, room: u32) -> u32 {
 
 const SETTLING_LIST_GROUP = 64u;
 
-// Counts the neighbours of each chord: a lane for each.
+// Counts the neighbours of each chord, with one lane for each chord.
 @compute @workgroup_size(SETTLING_LIST_GROUP)
 fn settling_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                   @builtin(local_invocation_index) lane: u32) {
@@ -202,9 +204,9 @@ fn settling_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgrou
     }
 }
 
-// Lists the neighbours of each chord: a lane for each. The compiler may round differently here than
-// in the shader that counted. Entries that are left over for that reason get a number that is no
-// chord's.
+// Lists the neighbours of each chord, with one lane for each chord. The compiler may round
+// differently here than in the shader that counted. Entries that are left over for that reason get
+// a number that is no chord's.
 @compute @workgroup_size(SETTLING_LIST_GROUP)
 fn settling_fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

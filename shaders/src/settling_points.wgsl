@@ -1,4 +1,4 @@
-// Control points from settled places, and the box round them. After settling.wgsl.
+// Control points from settled places, and the box round them. This file follows settling.wgsl.
 //
 // The formulas are those of texere-core (Scale::point, renew_virtual_ends), and settling_points.cl
 // is the twin of this file.
@@ -53,8 +53,8 @@ fn control_point(position: vec3<f32>, halves: u32) -> vec4<u32> {
     return vec4(bitcast<vec3<u32>>(position), halves);
 }
 
-// Writes control points: a lane for each place, which also writes the virtual ends that depend on
-// it.
+// Writes control points, with one lane for each place. The lane also writes the virtual ends that
+// depend on its place.
 @compute @workgroup_size(64)
 fn settling_points(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {
@@ -92,8 +92,8 @@ const BOUNDS_GROUP = 256u;
 var<workgroup> lane_low: array<vec3<i32>, BOUNDS_GROUP>;
 var<workgroup> lane_high: array<vec3<i32>, BOUNDS_GROUP>;
 
-// The box round control points: a row from each workgroup. Any number of workgroups share the
-// places.
+// Finds the box round all control points. Any number of workgroups share the places, and each
+// writes a row.
 @compute @workgroup_size(BOUNDS_GROUP)
 fn settling_bounds(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                    @builtin(local_invocation_index) lane: u32) {

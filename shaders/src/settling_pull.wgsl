@@ -1,13 +1,15 @@
-// Pulls at the four control points of each interval. After settling.wgsl and settling_contact.wgsl.
+// Pulls at the four control points of each interval. This file follows settling.wgsl and
+// settling_contact.wgsl.
 //
-// settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs the definition. Sums
-// go in the order of the lists.
+// settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs is the definition.
+// Pulls are added up in the order of the lists.
 //
 // Lanes write planes, each with one number for each place. The planes of the four slots come first.
-// A slot of the weighted form has eight: ways (x, y, z) and weight of contacts, then the same of
-// bends. A slot of the block form has nine: all ways, and the squares of their directions (xx, xy,
-// xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the length, the least distance
-// seen, mm, and the least distance over the sum of both reaches.
+// A slot of the weighted form has eight planes: the ways (x, y, z) and the weight of contacts, then
+// those of bends. A slot of the block form has nine planes: the sum of all ways, and the squares of
+// their directions (xx, xy, xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the
+// length, the least distance to another yarn, mm, and the least distance divided by the sum of both
+// reaches.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
@@ -25,8 +27,8 @@ fn interval_at(place: u32) -> Interval {
     return interval_of(places[place - 1u], places[place], places[place + 1u], places[place + 2u]);
 }
 
-// A bend at one place of an interval: where it would go, and the weight of each point. All 0 where
-// the bend is allowed.
+// The pull of a bend at one place of an interval: its direction, its way, and the weight of each
+// point. The sum of the weights is 0 if the bend does not pull.
 struct Bend {
     towards: vec3<f32>,
     way: vec3<f32>,
@@ -72,7 +74,8 @@ fn meeting_at(place: u32) -> Meeting {
     return one;
 }
 
-// The start of an interval's visits to neighbours. The number of its first chord is `first`.
+// The state before the first neighbour of an interval is visited. `first` is the number of the
+// interval's first chord.
 fn before_listed(first: u32) -> ListedChord {
     var here: ListedChord;
     here.number = first - 1u;
@@ -94,8 +97,8 @@ fn write(plane: u32, place: u32, value: f32) {
     pulls[plane * settling.places + place] = value;
 }
 
-// Writes the length and distances of an interval from plane `plane` on, and returns its share in
-// what all have seen.
+// Writes the length and the distances of an interval from plane `plane` on, and returns the
+// interval's measures.
 fn write_own(plane: u32, place: u32, length: vec3<f32>, arc: f32, sight: Sight) -> SeenRow {
     let wanted = lengths[place];
     write(plane, place, length.x);
@@ -130,7 +133,7 @@ struct Ways {
     d: vec4<f32>,
 }
 
-// The sums with one more pull: each point adds `ways` times `way`, and `weights`.
+// The sums with one more pull: `ways` times `way`, and `weights`, are added at the four points.
 fn add_ways(sums: Ways, way: vec3<f32>, ways: vec4<f32>, weights: vec4<f32>) -> Ways {
     return Ways(
         sums.a + vec4(way * ways.x, weights.x),
@@ -175,7 +178,7 @@ fn pull_weighted(place: u32) -> SeenRow {
     return write_own(4u * WEIGHTED_SLOT, place, length, arc, sight);
 }
 
-// The sum of all ways at a point, and of the squares of their directions.
+// The sum of all ways at a point, and the sum of the squares of their directions.
 struct Block {
     way: vec3<f32>,
     // xx, xy, xz and yy, yz, zz.
@@ -199,7 +202,8 @@ struct Blocks {
     d: Block,
 }
 
-// The sums with one more pull: each point adds `ways` times `way`, and `weights` in `direction`.
+// The sums with one more pull: `ways` times `way`, and `weights` in `direction`, are added at the
+// four points.
 fn add_blocks(sums: Blocks, way: vec3<f32>, ways: vec4<f32>, direction: vec3<f32>, weights: vec4<f32>) -> Blocks {
     return Blocks(
         add_block(sums.a, way * ways.x, direction, weights.x),
@@ -256,7 +260,7 @@ fn pull_block(place: u32) -> SeenRow {
     return write_own(4u * BLOCK_SLOT, place, length, arc, sight);
 }
 
-// What both have seen: the least distances and radii, the most of lengths and steps.
+// The measures of both: the least of distances and radii, the largest of lengths and steps.
 fn seen_by_both(one: SeenRow, other: SeenRow) -> SeenRow {
     return SeenRow(
         min(one.clearance, other.clearance),
@@ -270,7 +274,8 @@ const SETTLING_PULL_GROUP = 64u;
 
 var<workgroup> lane_seen: array<SeenRow, SETTLING_PULL_GROUP>;
 
-// Writes the row of a workgroup: what its lanes have seen, joined by a fixed tree.
+// Writes the row of a workgroup: the measures of its lanes. Lanes are joined in pairs, always the
+// same ones.
 fn write_row(number: u32, lane: u32, seen: SeenRow) {
     lane_seen[lane] = seen;
     for (var reach = SETTLING_PULL_GROUP / 2u; reach > 0u; reach /= 2u) {
@@ -288,8 +293,8 @@ fn has_interval(place: u32) -> bool {
     return place < settling.places && (place_rows[place].tags & TAG_INTERVAL) != 0u;
 }
 
-// Pulls of all intervals in the weighted form: a lane for each place, at which an interval begins.
-// Each workgroup writes a row of what it has seen.
+// Works out the pulls of all intervals in the weighted form, with one lane for each place at which
+// an interval may begin. Each workgroup writes a row of its measures.
 @compute @workgroup_size(SETTLING_PULL_GROUP)
 fn settling_pull_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                           @builtin(local_invocation_index) lane: u32) {
@@ -302,7 +307,8 @@ fn settling_pull_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_
     write_row(number, lane, seen);
 }
 
-// Pulls of all intervals in the block form, likewise.
+// Works out the pulls of all intervals in the block form, with one lane for each place at which an
+// interval may begin. Each workgroup writes a row of its measures.
 @compute @workgroup_size(SETTLING_PULL_GROUP)
 fn settling_pull_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -319,7 +325,7 @@ const SETTLING_SEEN_GROUP = 256u;
 
 var<workgroup> lane_rows: array<SeenRow, SETTLING_SEEN_GROUP>;
 
-// Joins the rows of all workgroups: one workgroup.
+// Joins the rows of all workgroups. It runs as one workgroup.
 @compute @workgroup_size(SETTLING_SEEN_GROUP)
 fn settling_seen(@builtin(local_invocation_index) lane: u32) {
     let count = (settling.places + SETTLING_PULL_GROUP - 1u) / SETTLING_PULL_GROUP;

@@ -1,13 +1,13 @@
-// Scans: each count is replaced by the sum of all before it. It needs no other file.
+// Scans: each count is replaced by the sum of all counts before it. This file needs no other.
 //
-// settling_scan.cl is the twin of this file. Sums saturate at the largest number, so that too many
-// are noticed.
+// settling_scan.cl is the twin of this file. Sums saturate at the largest number, so that too large
+// a sum is noticed.
 
 const SETTLING_SCAN_GROUP = 256u;
-// Counts of a lane.
+// The number of counts that a lane scans.
 const SCAN_VALUES = 4u;
 
-// Bound as long as they are.
+// The values. The binding is as long as the values are, since there is no other count of them.
 @group(0) @binding(26) var<storage, read_write> values: array<u32>;
 @group(0) @binding(27) var<storage, read_write> sums: array<u32>;
 
@@ -58,7 +58,7 @@ fn settling_scan(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
     }
 }
 
-// Each workgroup adds to its values the scanned sum of all workgroups before.
+// Each workgroup adds the sum of all workgroups before it to its values.
 @compute @workgroup_size(SETTLING_SCAN_GROUP)
 fn settling_scan_add(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                      @builtin(local_invocation_index) lane: u32) {

@@ -1,6 +1,7 @@
-// Steps of control points. After settling.wgsl.
+// Steps of control points. This file follows settling.wgsl.
 //
-// settling_step.cl is the twin of this file, and Gathered in texere-core's pass.rs the definition.
+// settling_step.cl is the twin of this file, and Gathered in texere-core's pass.rs is the
+// definition.
 
 @group(0) @binding(14) var<storage, read> strands: array<StrandRow>;
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
@@ -14,9 +15,9 @@
 const WEIGHTED_SLOT = 8u;
 const BLOCK_SLOT = 9u;
 
-// The places of the four intervals that pull at a point, by the point's slot there. They begin one
-// place behind it, at it, one place before it, and two places before it. NOWHERE where the yarn has
-// none.
+// Four intervals pull at a point. They begin one place behind it, at it, one place before it, and
+// two places before it, and the point has slots 0 to 3 in them. NOWHERE stands for an interval that
+// the yarn does not have.
 const NOWHERE = 0xffffffffu;
 
 fn interval_place(strand: StrandRow, number: i32) -> u32 {
@@ -24,7 +25,7 @@ fn interval_place(strand: StrandRow, number: i32) -> u32 {
     let count = bitcast<i32>(select(strand.points - 1u, strand.points, goes_on));
     var own = number;
     if goes_on {
-        // It has three points at least.
+        // A yarn that goes on has at least three points.
         own = select(own, own + count, own < 0);
         own = select(own, own - count, own >= count);
     }
@@ -41,7 +42,7 @@ fn intervals_of(strand: StrandRow, place: u32) -> vec4<u32> {
     );
 }
 
-// A number of the pull of interval `interval`; `nothing` where there is none.
+// The number of interval `interval` in plane `plane`, or `nothing` if there is no interval.
 fn pulled(plane: u32, interval: u32, nothing: f32) -> f32 {
     if interval == NOWHERE {
         return nothing;
@@ -49,7 +50,7 @@ fn pulled(plane: u32, interval: u32, nothing: f32) -> f32 {
     return pulls[plane * settling.places + interval];
 }
 
-// The sum of plane `plane` over the point's slots in all four intervals. A slot has `slot` planes.
+// The sum of plane `plane` of the point's slots in all four intervals. A slot has `slot` planes.
 fn gathered(intervals: vec4<u32>, slot: u32, plane: u32) -> f32 {
     return pulled(plane, intervals.x, 0.0) + pulled(slot + plane, intervals.y, 0.0)
         + pulled(2u * slot + plane, intervals.z, 0.0) + pulled(3u * slot + plane, intervals.w, 0.0);
@@ -70,7 +71,7 @@ fn least_seen(intervals: vec4<u32>, plane: u32) -> f32 {
     );
 }
 
-// The step along z that the plates ask of a point, mm.
+// The step along z by which the plates press a point, mm.
 fn press(place: vec4<i32>) -> f32 {
     if (settling.flags & PLATES) == 0u {
         return 0.0;
@@ -80,7 +81,7 @@ fn press(place: vec4<i32>) -> f32 {
     return select(far, -far, z >= 0.0);
 }
 
-// A step, limited to a share of the least distance seen and of the diameter.
+// A step, limited to a share of the least distance to another yarn and to a share of the diameter.
 fn within_limits(step: vec3<f32>, place: vec4<i32>, near: f32) -> vec3<f32> {
     let both = halves(place);
     let diameter = 2.0 * min(both.x, both.y);
@@ -98,7 +99,7 @@ fn step_weighted(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec
     let contacts = gathered(intervals, WEIGHTED_SLOT, 3u);
     let bend = gathered_way(intervals, WEIGHTED_SLOT, 4u);
     let bends = gathered(intervals, WEIGHTED_SLOT, 7u);
-    // Where yarns are about to pass through one another, contact alone counts.
+    // If yarns are about to pass through one another, contact alone counts.
     let apart = share((least_seen(intervals, own + 5u) / settling.growth - CROSSING) * CROSSING_SHARE);
     let length = vec3(
         pulled(own, intervals.y, 0.0) - pulled(own, intervals.z, 0.0),
@@ -119,7 +120,7 @@ fn step_block(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec3<f
     let yy = gathered(intervals, BLOCK_SLOT, 6u) + INERTIA;
     let yz = gathered(intervals, BLOCK_SLOT, 7u);
     let zz = gathered(intervals, BLOCK_SLOT, 8u) + INERTIA;
-    // Solves matrix * x = `right` by cofactors; the matrix is symmetric.
+    // Solves matrix * x = `right` by cofactors. The matrix is symmetric.
     let a = yy * zz - yz * yz;
     let b = xz * yz - xy * zz;
     let c = xy * yz - xz * yy;
@@ -137,7 +138,7 @@ fn step_block(intervals: vec4<u32>, place: vec4<i32>, last: vec3<f32>) -> vec3<f
     return within_limits(step, place, least_seen(intervals, 4u * BLOCK_SLOT + 4u));
 }
 
-// The length that an interval shall have after a pass in which lengths are free. `plane` holds the
+// The length that an interval should have after a pass in which lengths are free. `plane` holds the
 // lengths of all intervals.
 fn freed(plane: u32, intervals: vec4<u32>, length: f32, start: f32) -> f32 {
     var sum = 0.0;
@@ -157,7 +158,7 @@ const SETTLING_STEP_GROUP = 64u;
 
 var<workgroup> lane_longest: array<f32, SETTLING_STEP_GROUP>;
 
-// Takes the step of place `place`, and writes the workgroup's longest step into its row.
+// Makes the step of place `place`, and writes the workgroup's longest step into its row.
 fn take_step(group: u32, lane: u32, block: bool) {
     let number = group * SETTLING_STEP_GROUP + lane;
     var longest = 0.0;
@@ -195,14 +196,16 @@ fn take_step(group: u32, lane: u32, block: bool) {
     }
 }
 
-// Steps in the weighted form: a lane for each place.
+// Makes the steps in the weighted form, with one lane for each place. The longest step of a
+// workgroup goes into its row.
 @compute @workgroup_size(SETTLING_STEP_GROUP)
 fn settling_step_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                           @builtin(local_invocation_index) lane: u32) {
     take_step(group.y * grid.x + group.x, lane, false);
 }
 
-// Steps in the block form, likewise.
+// Makes the steps in the block form, with one lane for each place. The longest step of a workgroup
+// goes into its row.
 @compute @workgroup_size(SETTLING_STEP_GROUP)
 fn settling_step_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {
@@ -211,12 +214,12 @@ fn settling_step_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
 
 const SETTLING_ENDS_GROUP = 64u;
 
-// The mirror image of `other` in `here`.
+// The mirror image of `other` about the point `here`.
 fn reflected(here: vec4<i32>, other: vec4<i32>) -> vec4<i32> {
     return vec4(here.xyz + (here.xyz - other.xyz), here.w);
 }
 
-// Renews the places beyond the ends of yarns: a lane for each yarn.
+// Renews the places beyond the ends of yarns, with one lane for each yarn.
 @compute @workgroup_size(SETTLING_ENDS_GROUP)
 fn settling_ends(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

@@ -1,12 +1,13 @@
-// Stage 1: the rings of a chunk. After common.wgsl and rings.wgsl.
+// Stage 1: the rings of a chunk. This file follows common.wgsl and rings.wgsl.
 //
-// The twin of trajectory.cl and of texere-cpu's serial/trajectory.rs.
+// Its twins are trajectory.cl and texere-cpu's serial/trajectory.rs.
 
 const TRAJECTORY_GROUP = 64u;
 
 @group(0) @binding(9) var<storage, read_write> rings: array<vec4<u32>>;
 
-// A workgroup of TRAJECTORY_GROUP for each row of the chunk's block table.
+// Writes the rings of a chunk, with one workgroup of TRAJECTORY_GROUP lanes for each row of its
+// block table.
 @compute @workgroup_size(TRAJECTORY_GROUP)
 fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {

@@ -5,7 +5,7 @@
 fn unpacked_position(words: vec2<u32>, near: vec3<f32>, quantum: f32) -> vec3<f32> {
     let wrapped = bitcast<vec3<i32>>(vec3(words.x, (words.x >> 21u) | (words.y << 11u), words.y >> 10u));
     let whole = vec3<i32>(round(near / quantum));
-    // Only 21 bits are stored. The difference is the smallest that they can stand for.
+    // Only 21 bits are stored. They stand for the smallest difference that has these bits.
     let steps = ((wrapped - whole) << vec3(11u)) >> vec3(11u);
     return vec3<f32>(whole + steps) * quantum;
 }

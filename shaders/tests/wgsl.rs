@@ -1,5 +1,5 @@
-//! Every shader parses, validates, and says the same as the Rust that launches it. No device
-//! needed.
+//! Every shader parses and validates, and has the layouts, bindings and sizes of the Rust code that
+//! launches it. No device is needed.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -29,7 +29,8 @@ fn parse(shader: &Shader) -> (Module, ModuleInfo) {
 }
 
 fn parse_source(source: &str) -> (Module, ModuleInfo) {
-    // Core WGSL, no feature that a device may lack: all but OpenGL's read half floats.
+    // The shaders are core WGSL, and need no feature that a device may lack. All devices but those
+    // of OpenGL read half floats.
     parse_with(source, Capabilities::SHADER_FLOAT16_IN_FLOAT32)
 }
 
@@ -42,7 +43,7 @@ fn parse_with(source: &str, capabilities: Capabilities) -> (Module, ModuleInfo) 
     (module, info)
 }
 
-/// It takes vertices as `PACKED_LAYOUT` of texere-wgpu lays them out.
+/// The vertices are laid out as in `PACKED_LAYOUT` of texere-wgpu.
 #[test]
 fn what_unpacks_stands_alone_in_a_vertex_shader() {
     let (module, _) = parse_source(&format!(
@@ -69,7 +70,8 @@ fn picture_shaders_have_their_entry_points() {
     }
 }
 
-/// What draws without a mesh stands after the prelude, with round yarns and with all.
+/// The shaders that draw without a mesh follow the prelude, once for round yarns alone and once for
+/// all yarns.
 #[test]
 fn drawing_shaders_have_their_entry_points() {
     let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
@@ -93,7 +95,7 @@ fn drawing_shaders_have_their_entry_points() {
     }
 }
 
-/// Members by name with their offsets, and the stride in an array.
+/// The offset of each member of structure `name`, and the stride of the structure in an array.
 fn layout(module: &Module, name: &str) -> (BTreeMap<String, usize>, usize) {
     let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).unwrap();
     let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no structure") };
@@ -143,7 +145,7 @@ fn tables_lie_as_in_rust() {
 
 #[test]
 fn tables_of_settling_lie_as_in_rust() {
-    // The scan needs none of them.
+    // The scan needs none of these structures.
     for shader in settling::ALL.into_iter().filter(|shader| shader.source.contains("struct SettlingParams")) {
         let (module, _) = parse(shader);
         same_layout!(&module, PlaceRow { tags, yarn, first_chord, start_length });
@@ -202,14 +204,14 @@ fn tables_of_crossings_lie_as_in_rust() {
             padding
         }
     );
-    // Read as vectors: the order of the fields matters.
+    // Shaders read these as vectors, so the order of the fields matters.
     assert_eq!((offset_of!(CrossingState, warp), offset_of!(CrossingState, weft)), (0, 16));
     assert_eq!([offset_of!(ThreadState, shift), offset_of!(ThreadState, height)], [0, 4]);
     assert_eq!([offset_of!(ThreadState, half_width), offset_of!(ThreadState, half_height)], [8, 12]);
     assert_eq!([offset_of!(CrossingsSeenRow, step), offset_of!(CrossingsSeenRow, clearance)], [0, 4]);
 }
 
-/// Bytes of an element, and whether they are floats, of each runtime array that a shader binds.
+/// For each binding, the bytes of an element of each runtime array that the shader binds there.
 fn elements(module: &Module) -> BTreeMap<u32, Vec<usize>> {
     let mut elements = BTreeMap::<u32, Vec<usize>>::new();
     for (_, global) in module.global_variables.iter() {
@@ -234,15 +236,15 @@ fn tables_of_points_at_rest_lie_as_in_rust() {
 
 #[test]
 fn untyped_tables_have_elements_that_divide_the_rust_type() {
-    // What a binding holds, in bytes of the Rust type; a shader may read it in smaller pieces.
+    // The bytes of the Rust type that each binding holds. A shader may read it in smaller pieces.
     let rust = [
         (1, size_of::<ControlPoint>()),
         (2, size_of::<YarnRow>()),
         (3, size_of::<Block>()),
         (4, size_of::<u32>()),
         (5, size_of::<SectionPoint>()),
-        // For an even number of sides, two vertices, or the indices of two quads, are the least
-        // that a ring has more.
+        // An even number of sides has an even number of vertices and of quads, so shaders may read
+        // two of them at a time.
         (6, 12 * size_of::<u32>()),
         (7, 2 * size_of::<Vertex>()),
         (8, 12 * size_of::<u32>()),
@@ -253,7 +255,7 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (14, size_of::<StrandRow>()),
         (15, size_of::<Place>()),
         (16, size_of::<ChordRow>()),
-        // Two vectors a chord.
+        // A chord is two vectors.
         (17, 32),
         (18, size_of::<u32>()),
         (19, size_of::<u32>()),
@@ -265,7 +267,7 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (25, size_of::<ExtentRow>()),
         (26, size_of::<u32>()),
         (27, size_of::<u32>()),
-        // A vector a step.
+        // A step is one vector.
         (28, 16),
         (29, size_of::<Place>()),
         (30, size_of::<SeenRow>()),
@@ -280,7 +282,7 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (41, size_of::<CrossingsSeenRow>()),
         (42, size_of::<ArcLength>()),
         (43, size_of::<Attribute>()),
-        // Two at a time, with an even number of sides.
+        // With an even number of sides shaders may write two at a time.
         (44, 2 * size_of::<PackedVertex>()),
     ];
     let rust = BTreeMap::from(rust);
@@ -293,8 +295,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
     }
     let offsets = [offset_of!(ChordRow, from), offset_of!(ChordRow, to), offset_of!(ChordRow, thickest)];
     assert_eq!((offset_of!(Place, halves), offsets), (12, [4, 8, 12]));
-    // Read as four components: the order of the fields matters. Half floats are read the lower one
-    // first.
+    // Shaders read these as four components, so the order of the fields matters. The lower half
+    // float comes first.
     assert_eq!((offset_of!(ControlPoint, x), offset_of!(ControlPoint, z)), (0, 8));
     let point: [u32; 4] = bytemuck::cast(ControlPoint::default().flattened(1.0, 2.0));
     assert_eq!(point[3], 0x4000_3c00);
@@ -307,9 +309,9 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         [offset_of!(Ring, half_height), offset_of!(Ring, width_growth), offset_of!(Ring, height_growth)];
     assert_eq!(sizes, [32, 36, 40]);
     assert_eq!((offset_of!(Vertex, position), offset_of!(Vertex, normal)), (0, 12));
-    // Written word by word.
+    // Shaders write this word by word.
     assert_eq!((offset_of!(PackedVertex, position), offset_of!(PackedVertex, normal)), (0, 8));
-    // Written as three pairs.
+    // Shaders write this as three pairs.
     let attribute =
         [offset_of!(Attribute, angle), offset_of!(Attribute, along), offset_of!(Attribute, tangent)];
     assert_eq!((offset_of!(Attribute, yarn), attribute), (0, [4, 8, 12]));
@@ -352,7 +354,7 @@ fn entry_points_use_what_is_declared() {
     }
 }
 
-/// Workgroup memory that every device has, bytes.
+/// The workgroup memory that every device has, bytes.
 const WORKGROUP_BYTES: u32 = 16_384;
 
 #[test]

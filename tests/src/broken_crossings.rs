@@ -1,5 +1,5 @@
 //! Broken settlers of crossings. Each does one thing wrong, and the comparison with `cpu-serial`
-//! has to find it.
+//! has to find the fault.
 
 use std::sync::Arc;
 
@@ -14,9 +14,9 @@ use texere_core::{BackendError, CrossingsError};
 pub enum CrossingsSabotage {
     /// No fault.
     None,
-    /// The first crossing takes itself for its neighbour at the next end.
+    /// The first crossing reads itself in place of its neighbour at the next end.
     LostNeighbour,
-    /// Crossings have the positions that they had one pass before.
+    /// Every crossing reads the other crossings as they were one pass before.
     StaleStep,
     /// The repeat is left out: there is nothing beyond the last end and the last pick.
     LostRepeat,
@@ -29,16 +29,17 @@ impl CrossingsSabotage {
     pub const ALL: [Self; 4] = [Self::LostNeighbour, Self::StaleStep, Self::LostRepeat, Self::LostMomentum];
 }
 
-/// A settler with code of its own, which is broken in the way of its [`CrossingsSabotage`].
+/// A settler with code of its own, which is broken as its [`CrossingsSabotage`] says.
 #[derive(Debug)]
 pub struct SabotagedCrossings {
     sabotage: CrossingsSabotage,
     plan: Arc<CrossingsPlan>,
-    /// The plan that it works by: the given one, or one without the repeat.
+    /// The plan that the settler works by: the given plan, or one without the repeat.
     by: CrossingsPlan,
     crossings: Vec<CrossingState>,
-    /// The crossings as others see them, now and one pass before.
+    /// The crossings with momentum added, as other crossings read them.
     found: Vec<CrossingState>,
+    /// The crossings with momentum added, as they were one pass before.
     before: Vec<CrossingState>,
 }
 
@@ -59,7 +60,7 @@ impl SabotagedCrossings {
         Ok(Self { sabotage, plan: Arc::new(plan), by, crossings, found, before })
     }
 
-    /// All crossings as crossing `number` sees them.
+    /// All crossings as crossing `number` reads them.
     fn found_by(&self, number: usize) -> Vec<CrossingState> {
         let mut found = match self.sabotage {
             CrossingsSabotage::StaleStep => {

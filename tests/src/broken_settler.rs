@@ -1,4 +1,5 @@
-//! Broken settlers. Each does one thing wrong, and the comparison with `cpu-serial` has to find it.
+//! Broken settlers. Each does one thing wrong, and the comparison with `cpu-serial` has to find the
+//! fault.
 
 use std::sync::Arc;
 
@@ -30,8 +31,8 @@ impl SettlingSabotage {
     pub const ALL: [Self; 4] = [Self::LostContacts, Self::LostShift, Self::StaleList, Self::WrongSlot];
 }
 
-/// A settler with code of its own. It compares every chord with every other, and is broken in the
-/// way of its [`SettlingSabotage`].
+/// A settler with code of its own. It compares every chord with every other, and is broken as its
+/// [`SettlingSabotage`] says.
 #[derive(Debug)]
 pub struct SabotagedSettler {
     sabotage: SettlingSabotage,

@@ -26,7 +26,7 @@ use crate::oracle::Oracle;
 /// # Ok::<(), texere_conformance::drive::DriveError>(())
 /// ```
 ///
-/// **Errors**: [`DriveError`] where the device fails.
+/// **Errors**: [`DriveError`] if the device fails.
 pub fn check(
     yarns: &Yarns,
     settings: Settings,
@@ -38,7 +38,7 @@ pub fn check(
 
 /// [`check`] with chunks that are cut to the limit `tight`.
 ///
-/// **Errors**: [`DriveError`] where the device fails.
+/// **Errors**: [`DriveError`] if the device fails.
 pub fn check_within(
     yarns: &Yarns,
     settings: Settings,

@@ -1,4 +1,4 @@
-//! A device can do what it claims, and nothing else.
+//! The check that a device can do what it claims, and nothing else.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use texere_core::{Backend, BackendError, Pipeline, PipelineError, Settings, Yarn
 
 use crate::{cases, rest};
 
-/// Passes if every capability in [`DeviceInfo::can`](texere_core::DeviceInfo::can) opens, and every
-/// other one is refused by name. Pictures have tests of their own.
+/// Passes if the device has every capability that [`DeviceInfo::can`](texere_core::DeviceInfo::can)
+/// claims, and refuses every other one by name. Pictures have tests of their own.
 pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     let can = device.info().can;
     let yarns = cases::winding(100, Yarn::default());
@@ -32,7 +32,8 @@ pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     holds("pack", can.pack, Pipeline::new(&yarns).packed(device), refused)
 }
 
-/// Passes if `done` succeeds exactly where the device claims the capability.
+/// Passes if `done` succeeds and the device claims the capability, or if `done` is refused and it
+/// does not.
 fn holds<T, E: std::error::Error + Send + Sync + 'static>(
     what: &str,
     said: bool,

@@ -1,9 +1,9 @@
 //! A backend that behaves like a GPU, with the output of the gold reference.
 //!
 //! A launch only records the work, which is done when it is read. Chunks are as small as possible.
-//! Results come in small pieces from memory that held NaN before, and a third chunk takes the
-//! memory of the first. The backend thus shows whether the core or the suite relies on results
-//! being there early, as they are on a CPU.
+//! Results come in small pieces from memory that held NaN before, and a third chunk uses the memory
+//! of the first. The backend thus shows whether the core or the suite relies on results being there
+//! early, as they are on a CPU.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ const PIECE_BYTES: usize = 4096;
 /// The memory of a chunk: one block, and the row of the ring that a cut repeats.
 const LIMITS: Limits = Limits { blocks: 2, ..Limits::NONE };
 
-/// The serial backend behind a queue.
+/// The serial backend, with its work deferred as in a queue.
 ///
 /// ```
 /// use texere_conformance::DeferredBackend;
@@ -39,7 +39,7 @@ pub struct DeferredBackend {
 }
 
 impl DeferredBackend {
-    /// Opens it.
+    /// Opens the backend.
     #[must_use]
     pub fn new() -> Self {
         let serial = SerialBackend::new();

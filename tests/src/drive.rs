@@ -26,22 +26,23 @@ pub enum DriveError {
 /// The ways through a session. All have to give the same output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Both stages in one, straight into the caller's memory; rings afterwards, from a stage of
-    /// their own.
+    /// Both stages in one, straight into the caller's memory. Rings come afterwards, from a stage
+    /// of their own.
     Into,
-    /// Two chunks in flight: one is computed while the one before is read. Control points come in
+    /// Two chunks at a time: one is made while the one before is read. Control points come in
     /// pieces.
     Streamed,
-    /// Stage 1, read, stage 2, read; control points come in pieces, the last piece first.
+    /// Stage 1, whose rings are read, and then stage 2, whose mesh is read. Control points come in
+    /// pieces, the last piece first.
     Staged,
 }
 
 /// A backend's whole output, chunk by chunk.
 #[derive(Debug)]
 pub struct DeviceOutput {
-    /// The plan.
+    /// The plan of the output.
     pub plan: Arc<Plan>,
-    /// The chunks.
+    /// The chunks of the plan.
     pub chunks: Vec<Chunk>,
     /// The output of each chunk.
     pub meshes: Vec<ChunkOutput>,
@@ -50,11 +51,11 @@ pub struct DeviceOutput {
 /// The output of a backend for one chunk, with the planned length.
 #[derive(Debug)]
 pub struct ChunkOutput {
-    /// Its rings.
+    /// The rings of the chunk.
     pub rings: Vec<Ring>,
-    /// Its vertices.
+    /// The vertices of the chunk.
     pub vertices: Vec<Vertex>,
-    /// Its indices.
+    /// The indices of the chunk.
     pub indices: Vec<u32>,
 }
 
@@ -75,13 +76,13 @@ const PIECE_POINTS: usize = 7;
 /// The most pieces of a piecewise upload.
 const PIECES: usize = 100;
 
-/// Runs `yarns` through a new session of `device` in the way of `way`. Chunks are cut to `limits`
-/// and to the limits of the device.
+/// Runs `yarns` through a new session of `device` by way `way`. Chunks are cut to `limits` and to
+/// the limits of the device.
 ///
 /// Breaches of a session's rules, such as too many pieces or pieces out of order, go to `report`.
 /// The output itself is not checked.
 ///
-/// **Errors**: [`DriveError`] where planning or the backend fails.
+/// **Errors**: [`DriveError`] if planning or the backend fails.
 pub fn drive(
     device: &dyn Backend,
     plan: &Arc<Plan>,
@@ -212,9 +213,9 @@ fn read_mesh(
 /// A chunk's mesh, joined from the pieces that a session lends.
 #[derive(Debug, Default, PartialEq)]
 pub struct Lent {
-    /// Its vertices.
+    /// The vertices of the chunk.
     pub vertices: Vec<Vertex>,
-    /// Its indices.
+    /// The indices of the chunk.
     pub indices: Vec<u32>,
 }
 

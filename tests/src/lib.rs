@@ -2,7 +2,7 @@
 //!
 //! Every [case](cases) runs on every device that a [registry](REGISTRY) opens, and is compared with
 //! an [f64 oracle](oracle) that shares no geometry with the core, and with the gold reference, the
-//! serial CPU backend. [`compare`] has the tolerances; the broken backends of [`Sabotage`] show
+//! serial CPU backend. [`compare`] has the tolerances. The broken backends of [`Sabotage`] show
 //! that the comparison can fail.
 //!
 //! [`rest`] has starts for settling, and checks of the cloth at rest.

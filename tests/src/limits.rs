@@ -4,7 +4,7 @@ use texere_core::backend::Plan;
 use texere_core::{Limits, PlanError};
 
 /// The suite's own chunks hold at most this share of a plan's blocks. Every case of more than one
-/// block is cut, but none into so many chunks that it takes long.
+/// block is cut, but no case into so many chunks that it takes a long time.
 const CUTS: u64 = 40;
 
 /// The limit that chunks are cut to.
@@ -12,11 +12,11 @@ const CUTS: u64 = 40;
 pub enum Tight {
     /// No limit: one chunk, if the device takes it.
     Nothing,
-    /// The blocks of a launch.
+    /// A limit of the blocks of a launch.
     Blocks,
-    /// The bytes of the largest buffer.
+    /// A limit of the bytes of the largest buffer.
     Binding,
-    /// The bytes of all memory.
+    /// A limit of the bytes of all memory.
     Memory,
 }
 
@@ -44,7 +44,7 @@ impl Tight {
 ///
 /// # Panics
 ///
-/// If a refusal names another limit than the given one, or does not ask for more than that.
+/// If a refusal names another limit than the given one, or asks for no more than it.
 #[must_use]
 pub fn least(plan: &Plan, limits: impl Fn(u64) -> Limits) -> u64 {
     let mut limit = 0;

@@ -1,4 +1,4 @@
-//! Packed vertices against the mesh, unpacked in f64 by code of this file.
+//! Compares packed vertices with the mesh. They are unpacked in f64 by code of this file.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -22,20 +22,20 @@ pub enum PackedError {
     /// The device failed, or packs nothing.
     #[error(transparent)]
     Session(#[from] SessionError),
-    /// A vertex lies too far from the mesh's.
+    /// A packed vertex lies too far from that of the mesh.
     #[error("{place:?} lies at {actual}, not {expected}")]
     Position {
-        /// The vertex.
+        /// The place of the vertex.
         place: MeshPlace,
-        /// Its position in the mesh, mm.
+        /// The vertex's position in the mesh, mm.
         expected: DVec3,
-        /// Its unpacked position, mm.
+        /// The vertex's unpacked position, mm.
         actual: DVec3,
     },
     /// A normal differs too much from the mesh's.
     #[error("{place:?} points to {actual}, not {expected}")]
     Normal {
-        /// The vertex.
+        /// The place of the vertex.
         place: MeshPlace,
         /// The mesh's normal.
         expected: DVec3,
@@ -46,11 +46,11 @@ pub enum PackedError {
     /// differently.
     #[error("{place:?} is {one:?} and {other:?}: a crack")]
     Crack {
-        /// The vertex.
+        /// The place of the vertex.
         place: MeshPlace,
-        /// Its bits in the one place.
+        /// The vertex's bits in one chunk or cut.
         one: PackedVertex,
-        /// Its bits in the other place.
+        /// The vertex's bits in the other chunk or cut.
         other: PackedVertex,
     },
 }
@@ -96,7 +96,7 @@ pub fn check_packed(
                 return Err(PackedError::Position { place, expected, actual });
             }
             let (actual, expected) = (normal(packed), DVec3::from(vertex.normal.map(f64::from)));
-            // The cosine is useless for small angles.
+            // The sine is compared, because the cosine does not show small angles.
             if !(actual.cross(expected).length() <= turned && actual.dot(expected) > 0.0) {
                 return Err(PackedError::Normal { place, expected, actual });
             }

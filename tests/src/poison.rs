@@ -21,7 +21,7 @@ pub(crate) const POISONED_RING: Ring = Ring {
     lean: Turn(0x7fc0_bad1),
 };
 
-/// An index that was never written. No chunk has so many vertices.
+/// An index that was never written. No chunk has as many vertices as this.
 pub(crate) const POISONED_INDEX: u32 = u32::MAX;
 
 /// Whether `value` is poison.

@@ -1,4 +1,4 @@
-//! The backends that the suite runs on: one line each.
+//! The backends that the suite runs on.
 
 use std::sync::{Arc, OnceLock};
 
@@ -11,8 +11,8 @@ use texere_wgpu::WgpuBackend;
 use crate::DeferredBackend;
 use crate::cases::{self, Case};
 
-/// All devices on which yarns of a mesh can be edited, and for each device that does not open the
-/// reason.
+/// All devices on which yarns of a mesh can be edited, and the reason for each device that does not
+/// open.
 #[must_use]
 pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
     let (devices, missing): (Vec<_>, Vec<_>) = REGISTRY.iter().map(Entry::devices).unzip();
@@ -20,7 +20,7 @@ pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
     (devices.collect(), missing.concat())
 }
 
-/// How a backend's devices are opened.
+/// A backend, and how its devices are opened.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -34,12 +34,12 @@ pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
 pub struct Entry {
     /// The backend's name in `TEXERE_REQUIRE`.
     pub name: &'static str,
-    /// Whether its output has to equal the gold reference to the bit.
+    /// Whether the backend's output has to equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all of its devices, once for every schedule. A device that does not open counts as
-    /// missing, and a backend without devices does, too.
+    /// Opens all devices of the backend, once for every schedule. A device that does not open
+    /// counts as missing, and a backend without devices does, too.
     pub open: OpenAll,
-    /// The cases that its devices run.
+    /// The cases that the backend's devices run.
     pub cases: fn() -> Vec<Case>,
 }
 
@@ -66,8 +66,8 @@ impl Entry {
         Self { cases, ..self }
     }
 
-    /// The devices that open. For each that does not, and for a backend without devices, the
-    /// reason.
+    /// The devices that open, and the reason for each device that does not. A backend without
+    /// devices has a reason, too.
     #[must_use]
     pub fn devices(&self) -> (Vec<Arc<dyn Backend>>, Vec<String>) {
         let (mut devices, mut missing) = (Vec::new(), Vec::new());

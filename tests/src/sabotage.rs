@@ -1,4 +1,4 @@
-//! Broken backends. Each does one thing wrong, and the suite has to find it.
+//! Broken backends. Each does one thing wrong, and the suite has to find the fault.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -102,7 +102,7 @@ impl Sabotage {
         Self::OpenCap,
     ];
 
-    /// The faults that the comparison has to find in its output. It may find no others.
+    /// The faults that the comparison has to find in the output. It may find no other faults.
     #[must_use]
     pub const fn faults(self) -> &'static [Fault] {
         match self {
@@ -119,7 +119,7 @@ impl Sabotage {
             | Self::Lazy => &[],
             Self::ShiftedVertex => &[Fault::Position],
             Self::SwappedIndices | Self::OpenCap => &[Fault::Index],
-            // Bits differ, too, because the chunks beside it share rings with it.
+            // Bits differ, too, because the chunks beside the faulty one share rings with it.
             Self::Zeros => {
                 &[Fault::Position, Fault::Normal, Fault::Size, Fault::Tangent, Fault::Index, Fault::Bits]
             }

@@ -1,5 +1,5 @@
-//! The cases that a schedule leaves out. They are decided here from the case, so that no backend
-//! can excuse itself.
+//! The cases that a schedule leaves out. They are decided here from the case alone, so that a
+//! backend can't leave out more.
 
 use std::sync::Arc;
 
@@ -22,12 +22,11 @@ pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
             || (0..yarns.layout().yarns().len()).any(|yarn| yarns.layout().is_steep(yarn)))
 }
 
-/// All devices of [`REGISTRY`] on this machine that have to do `yarns` with `settings`.
+/// All devices of [`REGISTRY`] on this machine that have to make `yarns` with `settings`.
 ///
 /// # Panics
 ///
-/// If a device is missing of a backend in `TEXERE_REQUIRE`. For other backends the reason is
-/// printed.
+/// If a backend in `TEXERE_REQUIRE` lacks a device. For other backends the reason is printed.
 pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = Arc<dyn Backend>> {
     let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let opened = REGISTRY.iter().flat_map(move |entry| {

@@ -38,7 +38,7 @@ pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
     PROMISES.into_iter().map(trial).collect()
 }
 
-/// Settings and a yarn that use all stages, with scan and caps unless the device's schedule does
+/// Settings and a yarn that use all stages, with scan and caps unless the device's schedule has
 /// neither.
 fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     if device.info().schedule == Schedule::PerYarn {
@@ -60,7 +60,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     session.scan()?;
     for chunk in plan.chunks(&device.info().limits)? {
         session.trajectory(&chunk)?;
-        // Wait for the stage, so that reading does not.
+        // The call waits for the stage, so that reading does not wait for it.
         session.timings();
         let _ = session.read_trajectory(&chunk, &mut |_| ControlFlow::Continue(()))?;
         session.mesh(&chunk)?;
@@ -205,9 +205,9 @@ fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Yarns that a settler has moved are meshed where it left them. The mesh equals that of yarns that
-/// are read and sent again. No byte goes through the host, unless the host's memory is the device's
-/// own.
+/// Yarns that a settler has moved are meshed where they lie after settling. The mesh equals that of
+/// yarns that are read and sent again. No byte goes through the host, unless the host's memory is
+/// the device's own.
 fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
     if !device.info().can.settle {
         return Ok(());
@@ -243,7 +243,8 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
         sent.upload(0, &points)?;
         sent.scan()?;
         let sent = meshes(&mut sent, &chunks)?;
-        // A unit of settling positions, and the last bit of coordinates of a few mm.
+        // The bound is four units of settling positions, and the last bit of coordinates of a few
+        // mm.
         let most = 4.0 * settling.scale().unit() + 2e-6;
         let vertices = |meshes: Vec<Lent>| meshes.into_iter().flat_map(|mesh| mesh.vertices);
         let mut count = 0;
@@ -256,7 +257,7 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
             }
             count += 1;
         }
-        // An edit of one point. Virtual ends depend on points that this edit does not send.
+        // One point is edited. Virtual ends depend on points that this edit does not send.
         let raised = [ControlPoint { z: points[1].z + 1.0, ..points[1] }];
         session.upload(1, &raised)?;
         session.scan()?;

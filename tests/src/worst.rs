@@ -16,8 +16,8 @@ impl Table {
         self.0.lock().unwrap().push((trial, Quantity::ALL.map(|quantity| report.worst(quantity))));
     }
 
-    /// Prints one line for each trial, and the worst of all at the end: the error of each quantity,
-    /// and its share of the tolerance.
+    /// Prints one line for each trial, and the worst values of all trials at the end: the error of
+    /// each quantity, and its share of the tolerance.
     pub(crate) fn print(&self) {
         let mut rows = self.0.lock().unwrap();
         rows.sort_by(|(a, _), (b, _)| a.cmp(b));

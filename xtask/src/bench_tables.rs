@@ -2,10 +2,11 @@
 
 use crate::steps::{Steps, root};
 
-/// Where the report goes, from the repository's root.
+/// The folder of the report, from the repository's root.
 const OUTPUT: &str = "target/tables";
 
-/// Measures and writes the report; `args` go to `texere-bench tables`, such as `--device opencl:0`.
+/// Measures, and writes the report. `args` are passed to `texere-bench tables`, such as `--device
+/// opencl:0`.
 pub(crate) fn run(steps: &mut Steps, args: &[String]) {
     let command = [&["cargo xtask bench-tables".to_owned()], args].concat().join(" ");
     let heading = format!("`{command}` at commit {}.", commit(steps));
@@ -18,7 +19,7 @@ pub(crate) fn run(steps: &mut Steps, args: &[String]) {
     }
 }
 
-/// The commit that is checked out, or a word that it is not known.
+/// The commit that is checked out, or "unknown".
 pub(crate) fn commit(steps: &Steps) -> String {
     let described = steps.output("git", &["describe", "--always", "--dirty"], &[]);
     described.map_or_else(|| "unknown".into(), |commit| commit.trim().to_owned())

@@ -1,7 +1,7 @@
 //! `cargo xtask bundle`: the programs that test and measure texere, in a folder for a machine that
 //! has a GPU and no toolchain.
 //!
-//! Needs Debian's packages; the bundle is for the same kind of processor.
+//! The task needs Debian's packages. The bundle is for the kind of processor on which it is made.
 
 use std::fs;
 use std::io;
@@ -13,7 +13,7 @@ use crate::steps::{Steps, command, root};
 /// The folder, from the repository's root. An archive of it lies beside.
 const FOLDER: &str = "target/bundle";
 
-/// Debian's packages with the loaders that drivers are found through.
+/// Debian's packages with the loaders through which programs find drivers.
 const LOADERS: [&str; 8] = [
     "libvulkan1",
     "libegl1",
@@ -25,7 +25,7 @@ const LOADERS: [&str; 8] = [
     "ocl-icd-libopencl1",
 ];
 
-/// Builds, collects, packs.
+/// Builds the programs, collects them in the folder, and packs it.
 pub(crate) fn run(steps: &mut Steps) {
     let build = ["build", "--release", "--locked"];
     let bench = ["--package", "texere-bench", "--features", "gpu", "--bin", "texere-bench"];
@@ -41,7 +41,7 @@ pub(crate) fn run(steps: &mut Steps) {
     if !steps.succeed() {
         return;
     }
-    // Built by now: cargo only names the program's path.
+    // The suite is built already, so cargo only names the program's path.
     let output = steps.output("cargo", &[&built[..], &suite].concat(), &[]).unwrap_or_default();
     let Some(suite) = output.rsplit_once('(').and_then(|(_, path)| path.split(')').next()) else {
         return steps.fail("cargo does not say where the conformance suite is".into());
@@ -80,7 +80,7 @@ fn collect(steps: &mut Steps, suite: &str) -> io::Result<()> {
     loaders(&folder)
 }
 
-/// Fetches the loaders, and lays their libraries side by side.
+/// Downloads the loaders, and puts their libraries side by side.
 fn loaders(folder: &Path) -> io::Result<()> {
     let packages = folder.join("packages");
     let fetched = command("apt-get", &["download"]).args(LOADERS).current_dir(&packages).status()?;
@@ -101,7 +101,7 @@ fn loaders(folder: &Path) -> io::Result<()> {
             if path.is_dir() {
                 folders.push(path);
             } else if name.to_string_lossy().contains(".so.") {
-                // Links are followed: a copy under each name.
+                // Links are followed, so that there is a copy under each name.
                 fs::copy(&path, folder.join("lib").join(name))?;
             }
         }

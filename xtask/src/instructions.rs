@@ -1,30 +1,34 @@
-//! Instructions for a ring of a mesh and for a control point: a check of speed that other programs
-//! on the machine don't disturb.
+//! Counts the instructions for a ring of a mesh and for a control point. This is a check of speed
+//! that other programs on the machine don't disturb.
 //!
-//! `valgrind --tool=callgrind` counts them. The difference between two runs leaves out start-up.
+//! `valgrind --tool=callgrind` counts the instructions. The difference between two runs leaves out
+//! start-up.
 
 use std::fmt::Write;
 use std::path::PathBuf;
 
 use crate::steps::{Steps, root};
 
-/// Kinds of mesh and of control points, as `benches/src/instructions.rs` knows them.
+/// The kinds of mesh of `benches/src/instructions.rs`.
 const MESHES: [&str; 5] = ["upright", "flattened", "minimizing", "bare", "streamed"];
+
+/// The kinds of control points of `benches/src/instructions.rs`.
 const POINTS: [&str; 2] = ["crossing", "round"];
 
 /// The number of times that the longer run does the work of the shorter one.
 const TIMES: u32 = 10;
 
-/// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that
-/// is no longer vectorised several times as much.
+/// The factor by which a count may exceed the baseline. Another compiler changes counts by some per
+/// cent, and a loop that is no longer vectorised by several times as much.
 const TOLERANCE: f64 = 1.05;
 
-/// A line for each path and kind: path, kind, instructions a ring or a control point.
+/// The file of the baseline. It has a line for each path and kind: path, kind, and the instructions
+/// for a ring or a control point.
 fn baseline() -> PathBuf {
     root().join("benches/instructions.txt")
 }
 
-/// Compares with the baseline. Prints the paths that are left out, and why.
+/// Compares the current counts with the baseline. Prints the paths that are left out, and why.
 pub(crate) fn check(steps: &mut Steps) {
     if !cfg!(target_arch = "x86_64") {
         println!("\ninstructions: left out, the baseline is that of x86-64 processors");
@@ -59,7 +63,7 @@ pub(crate) fn record(steps: &mut Steps) {
     }
 }
 
-/// Instructions a ring or a control point, by path and kind.
+/// The instructions for a ring or a control point, by path and kind.
 fn count(steps: &mut Steps) -> Vec<(String, f64)> {
     let build = ["build", "--release", "--locked", "--package", "texere-bench", "--bin", "instructions"];
     steps.cargo("instructions to count", &build, &[]);
@@ -80,8 +84,8 @@ fn count(steps: &mut Steps) -> Vec<(String, f64)> {
     counts
 }
 
-/// Paths of the CPU backend, and the kinds that each makes: those that the processor has, without
-/// AVX-512, which valgrind does not run. Control points have one path only.
+/// The paths of the CPU backend that the processor has, and the kinds that each makes. AVX-512 is
+/// left out, because valgrind does not run it. Control points have one path only.
 fn runs() -> Vec<(&'static str, &'static str)> {
     let mut runs: Vec<_> = POINTS.iter().chain(&MESHES).map(|kind| ("portable", *kind)).collect();
     if has_avx2() {
@@ -99,7 +103,7 @@ fn has_avx2() -> bool {
     false
 }
 
-/// Instructions of a run, and how many rings or control points it says it made.
+/// The instructions of a run, and the number of rings or control points that it prints.
 fn collected(steps: &Steps, path: &str, kind: &str, times: u32) -> Option<(f64, f64)> {
     let program = root().join("target/release/instructions");
     let times = times.to_string();

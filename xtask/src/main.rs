@@ -87,7 +87,8 @@ fn main() -> ExitCode {
     steps.finish()
 }
 
-/// All tests: a program that links the library, units, integration, conformance, doctests.
+/// Runs all tests: a program that links the library, unit tests, integration tests, the conformance
+/// suite and doctests.
 fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
     install(steps, "a screen", &SCREEN);
@@ -96,8 +97,8 @@ fn test(steps: &mut Steps) {
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
 }
 
-/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Other
-/// crates have the versions that the workspace is tested with.
+/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Its
+/// other crates have the versions with which the workspace is tested.
 fn consumer(steps: &mut Steps) {
     let versions = root().join("Cargo.lock");
     if let Err(error) = std::fs::copy(versions, root().join("tests/consumer/Cargo.lock")) {
@@ -137,7 +138,7 @@ fn features(steps: &mut Steps) {
     let tree =
         ["tree", "--package", "texere", "--edges", "normal", "--prefix", "none", "--no-dedupe", "--locked"];
     let Some(tree) = steps.output("cargo", &tree, &[]) else { return };
-    // A name and a version begin each line; a path may follow.
+    // Each line begins with a name and a version. A path may follow.
     let package = |line: &str| line.split(' ').take(2).collect::<Vec<_>>().join(" ");
     let linked: BTreeSet<_> = tree.lines().filter(|line| line.contains(" v")).map(package).collect();
     if linked.len() > LINKED_MOST {
@@ -145,7 +146,7 @@ fn features(steps: &mut Steps) {
     }
 }
 
-/// The checks that run no tests.
+/// Runs the checks that are no tests.
 fn check(steps: &mut Steps) {
     steps.cargo("format", &["fmt", "--all", "--check"], &[]);
     sources::run(steps);
@@ -157,7 +158,7 @@ fn check(steps: &mut Steps) {
     features(steps);
     let documented = ["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"];
     steps.cargo("docs", &documented, &[("RUSTDOCFLAGS", "-D warnings -A rustdoc::private_intra_doc_links")]);
-    // The docs that the README opens, and those of texere without features.
+    // The docs of the facade with all features, and those without any.
     for features in [&["--all-features"][..], &[]] {
         let facade = [&["doc", "--package", "texere", "--no-deps", "--locked"], features].concat();
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);
@@ -175,8 +176,8 @@ fn check(steps: &mut Steps) {
 /// The version of `typos` that checks the sources.
 const TYPOS: &str = "1.52.0";
 
-/// Checks the spelling, with the exceptions of `typos.toml`. The program comes from PyPI as a
-/// binary if there is Python's installer; else cargo builds it.
+/// Checks the spelling, with the exceptions of `typos.toml`. If Python's installer is there, the
+/// program comes from PyPI as a binary. Otherwise cargo builds it.
 fn spelling(steps: &mut Steps) {
     let folder = "target/typos";
     let typos = format!("{folder}/bin/typos");

@@ -1,7 +1,7 @@
 //! The mutants that the suite has to catch: a line with a plausible mistake, in each kernel and in
 //! the prelude before all of them.
 
-/// One line of a kernel or of the prelude, broken.
+/// A mutant: one line of a kernel or of the prelude, and a broken replacement.
 #[derive(Debug)]
 pub(crate) struct Mutant {
     /// The backend's name, in `TEXERE_REQUIRE` and in the names of trials.
@@ -12,7 +12,7 @@ pub(crate) struct Mutant {
     pub(crate) kernel: &'static str,
     /// A part of a line that occurs once in the file.
     pub(crate) line: &'static str,
-    /// Its replacement.
+    /// The replacement of that part.
     pub(crate) broken: &'static str,
 }
 
@@ -41,7 +41,7 @@ const fn wgpu(file: &'static str, kernel: &'static str, line: &'static str, brok
     Mutant { backend: "wgpu", file, kernel, line, broken }
 }
 
-/// All mutants. Where twins have the same line, each has a fault of its own.
+/// All mutants. If twin files have the same line, each of them gets a fault of its own.
 pub(crate) const MUTANTS: &[Mutant] = &[
     // The arctangent uses a wrong coefficient.
     opencl(
@@ -59,12 +59,12 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // Flattened yarns get the program for round yarns.
     opencl("crates/texere-gpu/src/upload.rs", "runs", "!all_round(lent)", "lent.is_empty()"),
-    // The clamp at the yarn's last ring is forgotten: it takes t = 0 of an interval that does not
-    // exist.
+    // The clamp at the yarn's last ring is left out: the ring lies at t = 0 of an interval that
+    // does not exist.
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
     // The ring's own turn is counted in.
     opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
-    // Every block takes the roll of its yarn's first block, which yarns of one block don't show.
+    // Every block gets the roll of its yarn's first block, which yarns of one block don't show.
     opencl(
         "kernels/src/rings.cl",
         "block_rings",
@@ -73,23 +73,23 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // The step to the next block's first ring is left out.
     opencl("kernels/src/scan.cl", "block_turns", "lane < block.quads", "lane + 1u < block.quads"),
-    // Only the tile before counts, which yarns of no more than two tiles don't show.
+    // Only the tile before is added, which yarns of no more than two tiles don't show.
     opencl("kernels/src/scan.cl", "yarn_rolls", "before += sums", "before = sums"),
-    // All rings of a block get the first one's tangent.
+    // All rings of a block get the tangent of the first.
     opencl(
         "kernels/src/trajectory.cl",
         "trajectory",
         "float4 tangent = standing.tangent[ring];",
         "float4 tangent = standing.tangent[0];",
     ),
-    // A store that begins with the end of a normal takes that of the next vertex.
+    // A store that begins with the end of a normal gets the normal of the next vertex.
     opencl(
         "kernels/src/mesh.cl",
         "mesh",
         "normal_point = outline[4u * store / 6u];",
         "normal_point = outline[(4u * store + 2u) / 6u];",
     ),
-    // Where a ring has more stores than a workgroup lanes, the rest is left out.
+    // If a ring has more stores than a workgroup has lanes, the rest is left out.
     opencl(
         "kernels/src/share.cl",
         "share_of",
@@ -117,7 +117,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "select(vec2(1.0), vec2(-1.0), level < vec2(0.0));",
         "select(vec2(-1.0), vec2(1.0), level < vec2(0.0));",
     ),
-    // Words of odd sides begin with the wrong one.
+    // If the number of sides is odd, words begin with the wrong one.
     wgpu(
         "shaders/src/packed.wgsl",
         "packed_odd",
@@ -131,7 +131,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "packed_words[own + 2u] = packed_normal(cap_normal(cap));",
         "packed_words[own + 2u] = packed_words[ring + 2u];",
     ),
-    // Caps look inwards.
+    // The normals of caps point inwards.
     opencl(
         "kernels/src/common.cl",
         "cap_normal",
@@ -145,7 +145,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "(float4)(sample.half_height, sample.width_growth, sample.height_growth, 0.0f)",
         "(float4)(sample.half_height, 0.0f, sample.height_growth, 0.0f)",
     ),
-    // Every yarn takes the leans of the fabric's first yarn.
+    // Every yarn gets the leans of the fabric's first yarn.
     opencl(
         "kernels/src/rings.cl",
         "lean_of",
@@ -175,7 +175,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // The last quads of each part are missing.
     opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring < part.quads", "ring + 1u < part.quads"),
-    // A mirror image: the side points the other way.
+    // The side points the other way, as in a mirror image.
     wgpu(
         "shaders/src/common.wgsl",
         "turn_sin_cos",
@@ -189,7 +189,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];",
         "let start = 0u;",
     ),
-    // Every ring takes the lean of the next ring.
+    // Every ring gets the lean of the next ring.
     wgpu(
         "shaders/src/rings.wgsl",
         "lean_of",
@@ -210,7 +210,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "before + roll_sums[lane] - turn;",
         "before + roll_sums[lane];",
     ),
-    // Every ring of a block gets the first one's roll.
+    // Every ring of a block gets the roll of the first.
     wgpu("shaders/src/trajectory.wgsl", "trajectory", "standing.roll[ring]);", "standing.roll[0]);"),
     // Two coordinates change places in one of three stores.
     wgpu(
@@ -219,7 +219,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "select(vec4(normal.yz, position.xy),",
         "select(vec4(normal.yz, position.yx),",
     ),
-    // Indices of a block whose sides are odd count from the chunk's first vertex.
+    // If the number of sides is odd, a block's indices are counted from the chunk's first vertex.
     wgpu(
         "shaders/src/mesh.wgsl",
         "mesh_odd",
@@ -235,7 +235,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "var place = part.first_ring % per_interval;",
         "var place = 0u;",
     ),
-    // All yarns take the first section.
+    // All yarns get the first section.
     wgpu(
         "shaders/src/per_yarn.wgsl",
         "mesh_per_yarn",

@@ -1,8 +1,8 @@
-//! `cargo xtask mutate`: whether the suite sees that a kernel is broken.
+//! `cargo xtask mutate`: whether the suite fails if a kernel is broken.
 //!
-//! It works on a copy of the repository under `target/`, with a build of its own, so that no broken
-//! file is left behind. For each schedule of a backend the suite must pass on the unchanged copy.
-//! For each mutant it must then compile, find its devices, and fail.
+//! The task works on a copy of the repository under `target/`, which is built separately, so that
+//! no broken file is left behind. For each schedule of a backend the suite must pass on the
+//! unchanged copy. For each mutant it must then compile, find its devices, and fail.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -19,7 +19,7 @@ enum Suite {
     Passed,
     /// This number of trials failed.
     Failed(usize),
-    /// It ended before its trials; its output.
+    /// The suite ended before its trials. The text is its output.
     Broken(String),
 }
 

@@ -1,15 +1,16 @@
-//! Whether crates.io would take the packages that go there, and docs.rs show them.
+//! Checks that crates.io would accept the packages that are published, and that docs.rs would show
+//! them.
 
 use std::collections::BTreeSet;
 
 use crate::steps::Steps;
 use crate::workspace::{Package, packages};
 
-/// Files that each package has beside its sources.
+/// The files that each package must have beside its sources.
 const BESIDE: [&str; 4] = ["Cargo.toml", "LICENSE-APACHE", "LICENSE-MIT", "README.md"];
 
-/// Packs all packages that are published, in the order of their dependencies, and looks at what is
-/// in each. Nothing is built: the lints have built the same sources.
+/// Packs all packages that are published, in the order of their dependencies, and checks the files
+/// in each. Nothing is built, because the lints have built the same sources.
 pub(crate) fn check(steps: &mut Steps) {
     let packages = match packages() {
         Ok(packages) => packages,
@@ -29,12 +30,12 @@ pub(crate) fn check(steps: &mut Steps) {
     }
 }
 
-/// A sentence on what a package lacks to be published, if anything.
+/// A sentence on what a package lacks to be published; none if it lacks nothing.
 fn lack(package: &Package, published: &BTreeSet<&str>, files: &BTreeSet<&str>) -> Option<String> {
     if let Some(missing) = BESIDE.iter().find(|name| !files.contains(*name)) {
         return Some(format!("has no {missing}"));
     }
-    // A header is what C programs link the package by.
+    // A header is a source, too: C programs include it to link the package.
     let is_source =
         |path: &str| ["src/", "examples/", "include/"].iter().any(|folder| path.starts_with(folder));
     let cargos = ["build.rs", "Cargo.lock", "Cargo.toml.orig", ".cargo_vcs_info.json"];

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
 
-/// The steps run so far. After a failure further steps are skipped.
+/// The steps that have run. After a failure all further steps are skipped.
 #[derive(Debug, Default)]
 pub(crate) struct Steps {
     done: Vec<(String, Duration)>,
@@ -33,7 +33,7 @@ impl Steps {
         }
     }
 
-    /// A command's output, standard and error, if it succeeds.
+    /// A command's standard output and error output, if it succeeds.
     pub(crate) fn output(&self, program: &str, args: &[&str], env: &[(&str, &str)]) -> Option<String> {
         let output = command(program, args).envs(env.iter().copied()).output().ok()?;
         let text = [output.stdout, output.stderr].concat();
@@ -45,7 +45,7 @@ impl Steps {
         self.failed.get_or_insert(failure);
     }
 
-    /// Whether a command runs and succeeds; its output is dropped.
+    /// Whether a command runs and succeeds. Its output is dropped.
     pub(crate) fn succeeds(&self, program: &str, args: &[&str]) -> bool {
         let status = command(program, args).stdout(Stdio::null()).stderr(Stdio::null()).status();
         status.is_ok_and(|status| status.success())

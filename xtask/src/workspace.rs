@@ -1,4 +1,4 @@
-//! The workspace's packages, as cargo tells them.
+//! The workspace's packages, from cargo's metadata.
 
 use std::path::PathBuf;
 
@@ -13,21 +13,22 @@ const SAID: [&str; 6] = ["description", "license", "repository", "readme", "keyw
 #[derive(Debug)]
 pub(crate) struct Package {
     pub(crate) name: String,
-    /// Whether it goes to crates.io.
+    /// Whether the package is published on crates.io.
     pub(crate) published: bool,
-    /// The root files of its library and its programs.
+    /// The root files of the package's library and programs.
     pub(crate) roots: Vec<PathBuf>,
-    /// The packages of the workspace that it is built with.
+    /// The packages of the workspace with which this one is built.
     pub(crate) needs: Vec<String>,
-    /// The keys of a published manifest that its own lacks.
+    /// The keys of a published manifest that the package's manifest lacks.
     pub(crate) unsaid: Vec<&'static str>,
-    /// Whether it is a library with features, and does not tell docs.rs which ones to show.
+    /// Whether the package is a library with features that does not tell docs.rs which of them to
+    /// show.
     pub(crate) hides_features: bool,
 }
 
 /// All packages of the workspace.
 ///
-/// **Errors**: a sentence, where cargo can't read the manifests.
+/// **Errors**: a sentence, if cargo can't read the manifests.
 pub(crate) fn packages() -> Result<Vec<Package>, String> {
     let ask = ["metadata", "--format-version", "1", "--no-deps", "--locked", "--quiet"];
     let told = command("cargo", &ask).output().map_err(|error| format!("cargo metadata: {error}"))?;

@@ -1,22 +1,23 @@
-//! What the benches of all stages share: ids, throughput, and the share of the floor.
+//! The code that the benches of all stages share: ids, throughput, and the share of the floor.
 
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
 use texere_bench::{median, stream};
 
-/// The most bytes that a fill writes. Past the caches its time grows with the bytes, so larger
-/// fills are extrapolated.
+/// The most bytes that a fill writes. Beyond the size of the caches its time grows in proportion to
+/// the bytes, so larger fills are extrapolated.
 const FILL: u64 = 1 << 30;
 
-/// Samples of a benchmark: as few as criterion takes, since a large mesh takes its time.
+/// The number of samples of a benchmark: the fewest that criterion allows, because a large mesh
+/// takes long.
 const SAMPLES: usize = 10;
 
-/// A benchmark, `stage/fabric/size/backend`, and what one run of it makes.
+/// A benchmark, `stage/fabric/size/backend`, and the elements and bytes that one run of it makes.
 pub(crate) struct Bench<'a> {
     pub(crate) stage: &'a str,
     pub(crate) fabric: &'a str,
-    /// Ends and picks.
+    /// The numbers of ends and picks.
     pub(crate) size: (usize, usize),
     pub(crate) backend: &'a str,
     pub(crate) elements: u64,
@@ -39,8 +40,9 @@ impl Floor {
         start.elapsed().as_secs_f64() * bytes as f64 / filled as f64
     }
 
-    /// Measures `work`, which returns its own time, beside a fill of as many bytes. Prints its
-    /// share of the fill's bandwidth: the median over the samples, each with a fill of its own.
+    /// Measures `work`, which returns its own time, beside a fill of as many bytes. Prints the
+    /// work's share of the fill's bandwidth: the median over the samples, each of which has a fill
+    /// of its own.
     pub(crate) fn bench(
         &mut self,
         criterion: &mut Criterion,
@@ -68,7 +70,7 @@ impl Floor {
     }
 }
 
-/// The time of `work`. Its value is dropped afterwards.
+/// The time of `work`. The value that it returns is dropped after the time is taken.
 pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> Duration {
     let start = Instant::now();
     let _made = work();

@@ -1,4 +1,4 @@
-//! A GPU by its name, and the fill on it.
+//! A GPU that is named, and the fill on it.
 
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ use super::{Fill, opencl, wgpu};
 /// An open GPU to measure.
 #[derive(Debug)]
 pub enum Gpu {
-    /// By its number among OpenCL's.
+    /// An OpenCL device, with its number among those of OpenCL.
     OpenCl(OpenClBackend, usize),
     /// A wgpu device.
     Wgpu(WgpuBackend),
@@ -23,7 +23,7 @@ pub enum Gpu {
 impl Gpu {
     /// Opens a GPU device by a name such as `opencl:1` or `wgpu:0`.
     ///
-    /// **Errors**: [`BackendError`] where there is no such device.
+    /// **Errors**: [`BackendError`] if there is no such device.
     pub fn open(name: &str) -> Result<Self, BackendError> {
         match numbered(name) {
             Some(("opencl", index)) => {
@@ -34,7 +34,7 @@ impl Gpu {
         }
     }
 
-    /// The device as texere uses it.
+    /// The device's backend.
     #[must_use]
     pub fn backend(&self) -> &dyn Backend {
         match self {
@@ -45,7 +45,7 @@ impl Gpu {
 
     /// A fill of buffers of `bytes` each on the same device.
     ///
-    /// **Errors**: [`BackendError`] where there is no room for them.
+    /// **Errors**: [`BackendError`] if there is no room for them.
     pub fn fill(&self, bytes: &[u64]) -> Result<Box<dyn Fill>, BackendError> {
         Ok(match self {
             Self::OpenCl(_, index) => Box::new(OpenClFill::new(*index, bytes)?),
@@ -57,7 +57,7 @@ impl Gpu {
 /// Makes an empty context of a GPU, and returns the time by the host's clock. The first context of
 /// a process also loads the driver. None for a device that is no GPU.
 ///
-/// **Errors**: [`BackendError`] where there is no such device.
+/// **Errors**: [`BackendError`] if there is no such device.
 pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {
     let start = Instant::now();
     match numbered(name) {
@@ -68,7 +68,7 @@ pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {
     Ok(Some(start.elapsed()))
 }
 
-/// Interface and number in a device's name, whatever its schedule.
+/// The interface and the number in a device's name, whatever the name's schedule.
 fn numbered(name: &str) -> Option<(&str, usize)> {
     let (family, rest) = name.split_once(':')?;
     let (index, _) = rest.split_once('/').unwrap_or((rest, ""));

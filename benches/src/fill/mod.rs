@@ -13,23 +13,23 @@ pub use self::gpu::{Gpu, context};
 
 /// Fills memory that lies on the device of a backend.
 pub trait Fill: Debug {
-    /// Writes all of its buffers once, and returns the time on the device.
+    /// Writes all buffers once, and returns the time on the device.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn run(&mut self) -> Result<Duration, BackendError>;
 
-    /// Copies all of its buffers to pinned memory of the host, and returns the time by the host's
-    /// clock: it shows the bandwidth of the bus.
+    /// Copies all buffers to pinned memory of the host, and returns the time by the host's clock.
+    /// It shows the bandwidth of the bus.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_to_host(&mut self) -> Result<Duration, BackendError>;
 
-    /// Copies from pinned memory of the host to all of its buffers, and returns the time by the
-    /// host's clock. None where a driver offers no memory that is certain to be the host's.
+    /// Copies from pinned memory of the host to all buffers, and returns the time by the host's
+    /// clock. None if a driver offers no memory that is certain to be the host's.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError>;
 }
 
-/// Bytes of a copy over the bus, enough to make its start-up time negligible.
+/// The bytes of a copy over the bus, enough to make its start-up time negligible.
 const COPY_BYTES: u64 = 256 << 20;

@@ -34,10 +34,10 @@ pub(super) struct OpenClFill {
     queue: CommandQueue,
     kernel: Kernel,
     buffers: Vec<(Buffer<u8>, u64)>,
-    /// Pinned, and mapped for good.
+    /// Pinned memory of the host, which stays mapped.
     pinned: Buffer<u8>,
     mapped: *mut c_void,
-    // Dropped last.
+    // The context is dropped last.
     _context: Context,
 }
 
@@ -82,7 +82,7 @@ impl OpenClFill {
         };
         let pinned = pinned.map_err(driver("clCreateBuffer"))?;
         let mut mapped = ptr::null_mut();
-        // SAFETY: the whole of a buffer of this context; nothing reads it.
+        // SAFETY: the whole buffer is mapped. It is of this context, and nothing reads it.
         unsafe {
             let flags = CL_MAP_READ | CL_MAP_WRITE;
             queue.enqueue_map_buffer(&pinned, CL_BLOCKING, flags, 0, COPY_BYTES as usize, &mut mapped, &[])
@@ -91,8 +91,8 @@ impl OpenClFill {
         Ok(Self { queue, kernel, buffers, pinned, mapped, _context: context })
     }
 
-    /// Starts `copy` for each range of each buffer: (queue, buffer, offset, bytes, pinned memory).
-    /// Waits for all.
+    /// Calls `copy` for each range of each buffer, with queue, buffer, offset, bytes and pinned
+    /// memory. Waits for all copies.
     fn copy(
         &self,
         copy: impl Fn(*mut c_void, *mut c_void, usize, usize, *mut c_void) -> Result<*mut c_void, i32>,
@@ -113,7 +113,8 @@ impl OpenClFill {
 
 impl Drop for OpenClFill {
     fn drop(&mut self) {
-        // SAFETY: mapped once, and nothing uses it any more. A queue that is gone has unmapped it.
+        // SAFETY: the memory was mapped once, and nothing uses it any more. A queue that is lost
+        // has unmapped it.
         let _ = unsafe { self.queue.enqueue_unmap_mem_object(self.pinned.get(), self.mapped, &[]) };
     }
 }
@@ -154,7 +155,7 @@ impl super::Fill for OpenClFill {
     }
 
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError> {
-        // SAFETY: as above; any bytes will do.
+        // SAFETY: the pinned memory is as large as the largest range, and may hold any bytes.
         self.copy(|queue, buffer, offset, bytes, host| unsafe {
             enqueue_write_buffer(queue, buffer, CL_NON_BLOCKING, offset, bytes, host, 0, ptr::null())
         })

@@ -10,7 +10,8 @@ use wgpu::{
 
 use super::COPY_BYTES;
 
-/// One vec4 a lane. The grid has two dimensions, since one dimension has at most 65,535 workgroups.
+/// The shader writes one vec4 in each lane. The grid has two dimensions, because one dimension has
+/// at most 65,535 workgroups.
 const SOURCE: &str = "
 @group(0) @binding(0) var<storage, read_write> out: array<vec4<u32>>;
 @compute @workgroup_size(256)
@@ -33,14 +34,14 @@ pub(super) struct WgpuFill {
     pipeline: wgpu::ComputePipeline,
     bound: Vec<(wgpu::BindGroup, u32)>,
     filled: Vec<wgpu::Buffer>,
-    /// Where copies go.
+    /// The host's memory that copies go to.
     host: wgpu::Buffer,
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
     mapped: wgpu::Buffer,
 }
 
-/// A device of its own, with nothing on it.
+/// A new device, with nothing on it.
 pub(super) fn context(index: usize) -> Result<(wgpu::Device, wgpu::Queue), BackendError> {
     let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -64,8 +65,7 @@ impl WgpuFill {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u64]) -> Self {
         let descriptor =
             ShaderModuleDescriptor { label: Some("fill"), source: ShaderSource::Wgsl(SOURCE.into()) };
-        // SAFETY: the shader checks its one bound itself, and needs no further checks, as texere's
-        // own.
+        // SAFETY: the shader checks its one bound itself, so it needs no further checks.
         let module = unsafe {
             device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked())
         };
@@ -139,7 +139,7 @@ impl super::Fill for WgpuFill {
         pass.set_pipeline(&self.pipeline);
         for (group, workgroups) in &self.bound {
             pass.set_bind_group(0, group, &[]);
-            // Rows as even as possible: a workgroup without work takes time, too.
+            // The rows are as even as possible, because a workgroup without work takes time, too.
             let rows = workgroups.div_ceil(65_535);
             pass.dispatch_workgroups(workgroups.div_ceil(rows), rows, 1);
         }
@@ -173,7 +173,7 @@ impl super::Fill for WgpuFill {
         Ok(start.elapsed())
     }
 
-    /// None: the memory that wgpu maps for writing may be the device's own.
+    /// Returns none, because the memory that wgpu maps for writing may be the device's own.
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError> {
         Ok(None)
     }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::results::{Cloth, Column, PICTURE, Run};
 use crate::phases::Phases;
 
-/// Triangles a second that the paper states for its largest cloth: its GPU, its CPU.
+/// The triangles per second that the paper states for its largest cloth, on its GPU and on its CPU.
 const PAPER: [(&str, f64); 2] = [("the paper, RTX 5070 Ti", 37.99e6), ("the paper, i7-8700K", 3.84e6)];
 
 pub(super) fn report(
@@ -56,7 +56,7 @@ fn devices(text: &mut String, columns: &[Column]) {
     });
 }
 
-/// Table 1.
+/// Writes table 1, the cloths.
 fn sizes(text: &mut String, cloths: &[Cloth]) {
     text.push_str("\n## Table 1: the cloths\n\n");
     table(text, &["cloth", "yarns", "control points", "rings", "triangles", "bytes"], |rows| {
@@ -68,7 +68,7 @@ fn sizes(text: &mut String, cloths: &[Cloth]) {
     });
 }
 
-/// Table 2.
+/// Writes table 2, the times of the stages.
 fn times(text: &mut String, cloths: &[Cloth], columns: &[Column]) {
     text.push_str(
         "\n## Table 2: time of the stages, ms\n\nAlgorithms 1 and 3 are the paper's serial ones, 2 and 4 its \
@@ -94,7 +94,7 @@ fn times(text: &mut String, cloths: &[Cloth], columns: &[Column]) {
     });
 }
 
-/// Table 3: times of a device, once for all cloths.
+/// Writes the part of table 3 with the times of a device, once for all cloths.
 fn once(text: &mut String, columns: &[Column]) {
     text.push_str(
         "\n## Table 3: what comes on top, ms\n\nOnce for all cloths: a context (the first of a driver pays for the \
@@ -107,7 +107,7 @@ fn once(text: &mut String, columns: &[Column]) {
     });
 }
 
-/// Table 3: times of each cloth beside its stages.
+/// Writes the part of table 3 with the times of each cloth beside its stages.
 fn beside(text: &mut String, cloths: &[Cloth], columns: &[Column]) {
     text.push_str(
         "\nFor each cloth: memory and tables, control points to the device, the mesh to the host, and giving memory \

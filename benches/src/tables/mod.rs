@@ -18,9 +18,9 @@ use crate::paper_cloth;
 use crate::phases::{PhaseTimer, Phases};
 use results::{Cloth, Column, PICTURE, Run};
 
-/// Measures `devices` on the paper's cloth in `sizes` (ends, picks), the median of `rounds` each,
-/// and writes `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` says in the
-/// report how it was made.
+/// Measures `devices` on the paper's cloth in `sizes` (ends, picks), with the medians of `rounds`
+/// runs, and writes `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` goes
+/// into the report, and says how the report was made.
 ///
 /// # Errors
 ///
@@ -80,7 +80,7 @@ pub fn figure_5(
     Ok(())
 }
 
-/// One device on all cloths.
+/// Measures one device on all cloths.
 fn column(device: &str, cloths: &[Cloth], rounds: usize) -> Result<Column, Box<dyn Error>> {
     let first_context = context(device)?;
     let next_context = context(device)?.unwrap_or_default();
@@ -101,8 +101,8 @@ fn column(device: &str, cloths: &[Cloth], rounds: usize) -> Result<Column, Box<d
     Ok(Column { info: backend.info().clone(), context: first_context, build, runs })
 }
 
-/// Geometry, buffers and drawing of each cloth on the first of `devices` that draws; empty where
-/// none does.
+/// The times of geometry, buffers and drawing of each cloth on the first of `devices` that draws.
+/// Empty if none draws.
 fn phases(devices: &[String], cloths: &[Cloth]) -> Result<Vec<Phases>, Box<dyn Error>> {
     let Some(device) = devices.iter().find(|name| name.starts_with("wgpu:") && !name.contains('/')) else {
         return Ok(Vec::new());

@@ -11,7 +11,7 @@ use crate::phases::Phases;
 /// A line of a figure: its name, and a time for each cloth.
 type Line = (String, Vec<Duration>);
 
-/// Geometry and buffers, serial and parallel, and drawing, as SVG.
+/// The figure of geometry and buffers, serial and parallel, and of drawing, as SVG.
 pub(super) fn figure_5(cloths: &[Cloth], phases: &[Phases]) -> Result<String, Box<dyn Error>> {
     let lines = Phases::NAMES
         .into_iter()
@@ -20,7 +20,7 @@ pub(super) fn figure_5(cloths: &[Cloth], phases: &[Phases]) -> Result<String, Bo
     draw("Phases of the simulation", cloths, &lines.collect::<Vec<_>>())
 }
 
-/// Both stages of each device, as SVG.
+/// The figure of both stages of each device, as SVG.
 pub(super) fn figure_6(cloths: &[Cloth], columns: &[Column]) -> Result<String, Box<dyn Error>> {
     let lines = columns
         .iter()
@@ -28,7 +28,8 @@ pub(super) fn figure_6(cloths: &[Cloth], columns: &[Column]) -> Result<String, B
     draw("Trajectory and mesh", cloths, &lines.collect::<Vec<_>>())
 }
 
-/// Milliseconds over triangles, both axes logarithmic: work that is linear is a line of slope one.
+/// Draws milliseconds against triangles, with both axes logarithmic. Work that is linear appears as
+/// a line of slope one.
 fn draw(title: &str, cloths: &[Cloth], lines: &[Line]) -> Result<String, Box<dyn Error>> {
     let ms = |time: &Duration| time.as_secs_f64() * 1e3;
     let times = || lines.iter().flat_map(|(_, times)| times).map(ms).filter(|time| *time > 0.0);

@@ -1,4 +1,4 @@
-//! What was measured.
+//! The measurements of the tables.
 
 use std::time::Duration;
 
@@ -7,23 +7,24 @@ use texere::mesh::{Counts, PlanError};
 use texere::{DeviceInfo, Settings, Yarns};
 use texere_core::backend::StageTimings;
 
-/// One device's work on one cloth.
+/// The times of one device for one cloth.
 #[derive(Debug)]
 pub(super) struct Run {
-    /// Memory and tables, by the host's clock.
+    /// Allocating memory and sending tables, by the host's clock.
     pub(super) creation: Duration,
-    /// Control points to the device, by the host's clock.
+    /// Sending control points to the device, by the host's clock.
     pub(super) upload: Duration,
     /// From the open device to the first mesh in its memory, by the host's clock.
     pub(super) first: Duration,
-    /// Stage 1 and stage 2 one after the other, by the device's clock where it has one. None where
-    /// stages are fused.
+    /// Stage 1 and stage 2 one after the other, by the device's clock if it has one. None if stages
+    /// are fused.
     pub(super) staged: Option<StageTimings>,
-    /// Both stages as fast as the device does them, by the device's clock where it has one.
+    /// Both stages as fast as the device makes them, by the device's clock if it has one.
     pub(super) whole: Duration,
-    /// The mesh to the host, by the host's clock. None where it lies there already.
+    /// Copying the mesh to the host, by the host's clock. None if it is in the host's memory
+    /// already.
     pub(super) readback: Option<Duration>,
-    /// Giving memory back, by the host's clock.
+    /// Freeing memory, by the host's clock.
     pub(super) clean_up: Duration,
 }
 
@@ -48,7 +49,7 @@ pub(super) struct Cloth {
     pub(super) counts: Counts,
 }
 
-/// Pixels of the picture that is drawn.
+/// The width and height of the picture that is drawn, pixels.
 pub(super) const PICTURE: [u32; 2] = [1600, 1200];
 
 impl Cloth {

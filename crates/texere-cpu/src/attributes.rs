@@ -17,7 +17,7 @@ pub(crate) fn block_length(plan: &Plan, points: &PaddedPoints, yarn: usize, bloc
     (first..end).map(|ring| plan.sampling().step_length(padded, ring)).sum()
 }
 
-/// Replaces the length of each of a yarn's blocks by the sum of all blocks before it.
+/// Replaces the length of each block of a yarn by the total length of the blocks before it.
 pub(crate) fn sum_up(blocks: &mut [ArcLength]) {
     let mut along = ArcLength::ZERO;
     for block in blocks {
@@ -25,7 +25,7 @@ pub(crate) fn sum_up(blocks: &mut [ArcLength]) {
     }
 }
 
-/// The blocks of a yarn, numbered over all yarns.
+/// The numbers of a yarn's blocks, counted over all yarns.
 pub(crate) fn blocks_of(plan: &Plan, yarn: usize) -> Range<usize> {
     let first = plan.block_offsets()[yarn] as usize;
     first..first + plan.rings(yarn).div_ceil(BLOCK_RINGS) as usize
@@ -53,8 +53,8 @@ pub(crate) fn block(work: &Work, block: &Block, out: &mut [Attribute]) {
     }
 }
 
-/// Writes the attributes of caps, which repeat those of the end rings. The attributes of tubes must
-/// be there.
+/// Writes the attributes of caps. They equal those of the end rings, which must be in `out`
+/// already.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: &mut [Attribute]) {
     let sides = work.plan.settings().sides as usize;
     for cap in chunk.caps() {

@@ -70,7 +70,7 @@ impl ParallelBackend {
     /// # Ok::<(), texere_core::BackendError>(())
     /// ```
     ///
-    /// **Errors**: [`BackendError::NoInstructionSet`] where `TEXERE_SIMD` names no vectors of this
+    /// **Errors**: [`BackendError::NoInstructionSet`] if `TEXERE_SIMD` names no vectors of this
     /// processor.
     pub fn open() -> Result<Self, BackendError> {
         Ok(Self::with("cpu", Parallel::new()?))

@@ -5,8 +5,8 @@ use texere_core::{Cap, End, Topology, Vertex};
 
 use crate::engine::Work;
 
-/// Writes the caps of `chunk`: the positions of the end ring again, with the end's own normal. The
-/// tube's vertices must be there.
+/// Writes the caps of `chunk`. A cap has the positions of the end ring and the normal of the yarn's
+/// end. The tube's vertices must be in `out` already.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
     let plan = &work.plan;
     let sides = plan.settings().sides as usize;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::IVec3;
 use texere_core::settling::SettlingPlan;
 
-/// The place of each chord's interval.
+/// For each chord, the place at which its interval begins.
 pub(crate) fn owners(plan: &SettlingPlan) -> Vec<u32> {
     let mut owners = vec![0; plan.counts().chords as usize];
     for (place, bounds) in (0..).zip(plan.chords().windows(2)) {
@@ -15,11 +15,12 @@ pub(crate) fn owners(plan: &SettlingPlan) -> Vec<u32> {
     owners
 }
 
-/// How far chords reach, and the longest of them: what cells are made from.
+/// The extent of some chords: what a grid of cells is made from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extent {
-    /// The least coordinates of their middles, units; `high` are the greatest.
+    /// The least coordinates of the chords' middles, units.
     pub(crate) low: IVec3,
+    /// The greatest coordinates of the chords' middles, units.
     pub(crate) high: IVec3,
     /// The longest chord, mm.
     pub(crate) longest: f32,
@@ -29,12 +30,12 @@ impl Extent {
     /// The extent of no chords.
     pub(crate) const NOTHING: Self = Self { low: IVec3::MAX, high: IVec3::MIN, longest: 0.0 };
 
-    /// This extent with one more chord.
+    /// The extent of this extent's chords and one more.
     pub(crate) fn with(self, middle: IVec3, length: f32) -> Self {
         self.and(Self { low: middle, high: middle, longest: length })
     }
 
-    /// The extent of both.
+    /// The extent of the chords of both extents.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -45,21 +46,21 @@ impl Extent {
 }
 
 /// Cells over x and y, numbered row by row. They are so large that a chord's neighbours lie in its
-/// own cell or one beside it.
+/// own cell or in one beside it.
 #[derive(Debug)]
 pub(crate) struct Grid {
-    /// Where the grid begins, units; 0 along an axis that repeats.
+    /// The x and y at which the grid begins, units; 0 along an axis that repeats.
     low: [f64; 2],
-    /// One over the grid's width and height.
+    /// One over the grid's width and height in units.
     inverse: [f64; 2],
-    /// Columns and rows.
+    /// The number of columns, and the number of rows.
     count: [u32; 2],
     repeats: [bool; 2],
 }
 
 impl Grid {
-    /// A grid whose cells are as large as `growth` requires. It has no more cells than there are
-    /// chords, for a cloth may lie scattered over a large field.
+    /// A grid whose cells are as large as `growth` requires, or larger. It has no more cells than
+    /// there are chords (or than 64), because a cloth may lie scattered over a large field.
     pub(crate) fn new(plan: &SettlingPlan, growth: f32, extent: &Extent) -> Self {
         let most = (plan.counts().chords as i64).max(64);
         let mut size =
@@ -69,7 +70,7 @@ impl Grid {
             let open = i64::from(extent.high[axis]) - i64::from(extent.low[axis]) + 1;
             if repeats[axis] { i64::from(plan.period()[axis]) } else { open.max(1) }
         });
-        // The most cells of which each has the size at least.
+        // The most columns and rows of which each is at least `size` wide.
         let mut count = spans.map(|span| (span / size).max(1));
         while count[0] * count[1] > most {
             size *= 2;
@@ -100,8 +101,8 @@ impl Grid {
         cell[1] * self.count[0] + cell[0]
     }
 
-    /// A cell and those beside it, none of them twice, as ranges of their numbers. Some ranges may
-    /// be empty.
+    /// The cell `cell` and the cells beside it, each of them once, as ranges of their numbers. Some
+    /// ranges may be empty.
     #[inline]
     pub(crate) fn beside(&self, cell: u32) -> [Range<u32>; 6] {
         let [width, height] = self.count;
@@ -117,7 +118,7 @@ impl Grid {
     }
 }
 
-/// A column (or row) of `count`, and those beside it.
+/// Column (or row) number `own` of `count`, and the columns (or rows) beside it.
 #[inline]
 fn around(own: u32, count: u32, repeats: bool) -> [Range<u32>; 2] {
     let here = own.saturating_sub(1)..(own + 2).min(count);

@@ -6,39 +6,40 @@ use texere_core::BackendError;
 use texere_core::backend::zeroed;
 use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, CrossingsSeen};
 
-/// The states of all crossings.
+/// The states of all crossings, before and after a pass.
 #[derive(Debug)]
 pub(crate) struct CrossingsMemory {
     pub(crate) plan: Arc<CrossingsPlan>,
-    /// The crossings as they are.
+    /// The states after the last pass, without momentum.
     pub(crate) crossings: Vec<CrossingState>,
-    /// The crossings as others find them: in the next pass, and in the one after it.
+    /// The states with momentum added, which the next pass reads.
     pub(crate) found: Vec<CrossingState>,
+    /// The states with momentum added that the next pass writes.
     pub(crate) next: Vec<CrossingState>,
 }
 
 impl CrossingsMemory {
-    /// Takes memory for a plan.
+    /// Allocates the memory for `plan`.
     pub(crate) fn new(plan: Arc<CrossingsPlan>) -> Result<Self, BackendError> {
         let count = plan.crossings() as u64;
         let room = || zeroed("crossings", count);
         Ok(Self { crossings: room()?, found: room()?, next: room()?, plan })
     }
 
-    /// Takes the states that crossings start from.
+    /// Sets the states that crossings start from.
     pub(crate) fn upload(&mut self, crossings: &[CrossingState]) {
         self.crossings.copy_from_slice(crossings);
         self.found.copy_from_slice(crossings);
     }
 
-    /// Ends a pass: what it wrote for others to find is what the next pass finds.
+    /// Ends a pass: the states in `next` become those that the next pass reads.
     pub(crate) fn end_pass(&mut self) {
         std::mem::swap(&mut self.found, &mut self.next);
     }
 }
 
-/// Crossing `number` makes its step of a pass. It reads all crossings as `found`, and writes to
-/// `next` what the next pass finds of it.
+/// Moves crossing `number` by one step of a pass. All crossings are read from `found`. The moved
+/// state goes to `crossing`, and that with momentum added to `next`.
 pub(crate) fn step(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,

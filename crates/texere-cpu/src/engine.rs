@@ -1,5 +1,4 @@
-//! The engine on a CPU: it holds memory and takes timings. The stages themselves are an
-//! [`Executor`]'s.
+//! The engine on a CPU, which holds memory and takes timings. An [`Executor`] runs the stages.
 
 use std::fmt::Debug;
 use std::ops::{ControlFlow, Range};
@@ -18,13 +17,14 @@ use texere_core::{
 use crate::pages;
 use crate::rolls::Rolls;
 
-/// What all stages read.
+/// The input of all stages.
 #[derive(Debug)]
 pub(crate) struct Work {
     pub(crate) plan: Arc<Plan>,
     pub(crate) points: PaddedPoints,
     pub(crate) rolls: Rolls,
-    /// The length of its yarn up to each block's first ring. Empty until attributes are asked for.
+    /// For each block, the length of its yarn up to the block's first ring. Empty until attributes
+    /// are asked for.
     pub(crate) lengths: Vec<ArcLength>,
 }
 
@@ -42,18 +42,19 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
         yarns: Range<usize>,
     ) -> Result<(), BackendError>;
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
-    /// Makes the mesh of `chunk`. `rings` are the chunk's; where the executor is
-    /// [`FUSED`](Self::FUSED) they mean nothing.
+    /// Makes the mesh of `chunk`. `rings` are the chunk's rings; they have no meaning if the
+    /// executor is [`FUSED`](Self::FUSED).
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>);
-    /// Makes the packed vertices of `chunk`; `rings` likewise.
+    /// Makes the packed vertices of `chunk`. `rings` are the chunk's rings; they have no meaning if
+    /// the executor is [`FUSED`](Self::FUSED).
     fn packed(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: &mut [PackedVertex]);
-    /// Works out the lengths of `yarns` up to each block's start. `lengths` has one for each block
-    /// of the plan.
+    /// Works out the lengths of `yarns` up to the start of each block. `lengths` has one value for
+    /// each block of the plan.
     fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>);
     fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]);
 }
 
-/// The memory of a chunk in flight. The next chunk but one takes it again.
+/// The memory of one chunk at a time. It is used again for the next chunk but one.
 #[derive(Debug, Default)]
 struct ChunkMemory {
     rings: Vec<Ring>,
@@ -66,7 +67,7 @@ struct ChunkMemory {
 #[derive(Debug)]
 pub(crate) struct CpuEngine<E> {
     work: Work,
-    /// One for each [`Slot`].
+    /// The memory of each [`Slot`].
     memory: Vec<ChunkMemory>,
     timings: StageTimings,
     executor: E,
@@ -85,7 +86,8 @@ impl<E: Executor> CpuEngine<E> {
     }
 }
 
-/// Makes `buffer` `length` values long. What it held is lost; memory that is large enough is kept.
+/// Makes `buffer` `length` values long. If its memory is too small, new memory full of zeros takes
+/// its place. Otherwise the values that are in it stay.
 pub(crate) fn resize<T: bytemuck::Zeroable>(
     what: &'static str,
     buffer: &mut Vec<T>,
@@ -126,7 +128,8 @@ impl<E: Executor> Engine for CpuEngine<E> {
         timed(&mut timings.scan, || executor.scan(plan, points, rolls, chunks.yarns()))
     }
 
-    /// Does nothing else: a chunk's tables are read where they lie.
+    /// Makes room for the slot. Nothing else is needed: the stages read the tables of the chunk
+    /// itself.
     fn load(&mut self, slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
         self.memory.resize_with(self.memory.len().max(slot.index() + 1), ChunkMemory::default);
         Ok(())

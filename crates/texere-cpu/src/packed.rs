@@ -6,8 +6,8 @@ use texere_core::backend::Chunk;
 use crate::caps::end_normal;
 use crate::engine::Work;
 
-/// Writes the packed vertices of caps: the positions of the end ring again, with the end's own
-/// normal. The packed vertices of tubes must be there already.
+/// Writes the packed vertices of caps. A cap has the positions of the end ring and the normal of
+/// the yarn's end. The packed vertices of tubes must be in `out` already.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: &mut [PackedVertex]) {
     let sides = work.plan.settings().sides as usize;
     for cap in chunk.caps() {

@@ -1,4 +1,4 @@
-//! Rolls at block starts: all that a block needs to know of the yarn before it.
+//! Rolls at the starts of blocks: all that a block needs to know of the yarn before it.
 
 use texere_core::backend::{BLOCK_RINGS, Block, Plan};
 use texere_core::definitions::Turn;
@@ -6,13 +6,15 @@ use texere_core::definitions::Turn;
 /// The result of a scan.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rolls {
-    /// The roll at each block's first ring, before a closed yarn's whole turn is spread. Empty
-    /// where no yarn turns.
+    /// The roll at the first ring of each block. For a closed yarn, `closed_up` still has to take
+    /// away the block's share of the yarn's total turn. Empty if no yarn turns.
     pub(crate) at_block: Vec<Turn>,
-    /// The steps from a block's first ring to each ring, added up, yarn after yarn. Empty where no
-    /// yarn turns, and where the stages add them up again.
+    /// For each ring, the sum of the steps to it from the first ring of its block. The rings of a
+    /// yarn follow those of the yarn before. Empty if no yarn turns, and where serial functions
+    /// make the rings, which add the steps up themselves.
     pub(crate) in_block: Vec<Turn>,
-    /// The whole turn of each yarn. Empty where no yarn turns.
+    /// For each yarn, the sum of all its steps: the turn of its section from the first ring to the
+    /// last. Empty if no yarn turns.
     pub(crate) whole: Vec<Turn>,
 }
 
@@ -22,8 +24,9 @@ impl Rolls {
         self.at_block.get(block as usize).copied().unwrap_or(Turn::ZERO)
     }
 
-    /// The roll of ring `ring` of `yarn`, where steps up to it add up to `sum`. Along a closed yarn
-    /// the whole turn is taken away bit by bit, so that its last ring meets its first.
+    /// The roll of ring `ring` of `yarn`, if the steps up to it add up to `sum`. In a closed yarn
+    /// each ring loses its share of the yarn's total turn, so that the last ring has the roll of
+    /// the first.
     pub(crate) fn closed_up(&self, plan: &Plan, yarn: usize, ring: u32, sum: Turn) -> Turn {
         if !plan.yarn(yarn).closed {
             return sum;

@@ -1,4 +1,4 @@
-//! Yarns that flatten, in lanes: the same bits as the reference, whatever instructions the
+//! Flattened yarns in lanes have the same bits as in the reference, whatever instructions the
 //! processor has.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -6,7 +6,7 @@ use texere_core::definitions::Ring;
 use texere_core::{ControlPoint, Frame, Pipeline, Section, Settings, Topology, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Numbers from 0 to `below`, the same ones every time.
+/// Numbers from 0 to just below `below`. Equal seeds give equal numbers.
 struct Dice(u64);
 
 impl Dice {
@@ -15,29 +15,30 @@ impl Dice {
         (self.0 >> 33) % below
     }
 
-    /// From 0 to 1.
+    /// A number from 0 to 1.
     fn share(&mut self) -> f32 {
         self.roll(1 << 20) as f32 / (1 << 20) as f32
     }
 }
 
-/// How a yarn's sizes go along it.
+/// How the half widths and half heights of a yarn change along it.
 #[derive(Debug, Clone, Copy)]
 enum Sizes {
     Round,
     Ribbon,
-    /// Each point has its own.
+    /// Each point has sizes of its own.
     Changing,
-    /// Round for a while, then flattened, and so on: vectors of rings have both.
+    /// Round for a while, then flattened, and so on, so that vectors hold both kinds of rings.
     HereAndThere,
-    /// From the least to the most: the spline dips below zero, and virtual ends are negative.
+    /// From the least allowed size to the greatest, so that the spline dips below zero and virtual
+    /// ends are negative.
     Wild,
 }
 
 const ALL_SIZES: [Sizes; 5] =
     [Sizes::Round, Sizes::Ribbon, Sizes::Changing, Sizes::HereAndThere, Sizes::Wild];
 
-/// A yarn of `count` points that wanders, climbs and now and then stands still.
+/// A yarn of `count` points that winds, climbs and now and then repeats a point.
 fn wander(dice: &mut Dice, count: usize, sizes: Sizes) -> Vec<ControlPoint> {
     let (mut at, mut flat) = ([0.0f32, -0.0, -0.0], false);
     let points = (0..count).map(|_| {
@@ -131,8 +132,8 @@ fn flattened_yarns_have_the_bits_of_the_reference() {
 
 #[test]
 fn a_yarn_may_flatten_right_after_a_run_of_rings_ends() {
-    // A run has 2,048 rings: with one inserted, the last lies half-way from point 1,023 on, and
-    // depends on point 1,025.
+    // A run has 2,048 rings. With one ring inserted between points, the last ring of the run lies
+    // half-way between points 1,023 and 1,024, and depends on point 1,025.
     for last_round in 1020..1028 {
         let points = (0..1100u16).map(|k| {
             let point = ControlPoint::new(k.into(), 0.0, 0.0, 0.25);

@@ -1,12 +1,12 @@
-//! Yarns in planes of constant x or y, for which the scan has a short way: the same bits as the
-//! reference.
+//! Yarns in planes of constant x or y, whose steps the scan does not work out, have the same bits
+//! as in the reference.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 use texere_core::{Backend, ControlPoint, Frame, Mesh, Pipeline, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Numbers from 0 to `below`, the same ones every time.
+/// Numbers from 0 to just below `below`. Equal seeds give equal numbers.
 struct Dice(u64);
 
 impl Dice {
@@ -16,9 +16,8 @@ impl Dice {
     }
 }
 
-/// A yarn of `count` points in the plane, on a coarse grid: it goes straight on for a while, and
-/// here and there it turns back, climbs straight up or stays where it is. Where `bulges`, it leaves
-/// the plane once.
+/// A yarn of `count` points in a plane, on a coarse grid. It goes straight on for a while, and here
+/// and there it turns back, climbs or repeats a point. If `bulges`, it leaves the plane once.
 fn walk(dice: &mut Dice, count: usize, swapped: bool, bulges: bool) -> Vec<ControlPoint> {
     let (mut along, mut z) = (0.0, 0.0);
     let mut forward = 1.0;
@@ -41,9 +40,9 @@ fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn Backend) -> Mesh {
 
 #[test]
 fn the_last_ring_of_a_closed_yarn_stands_still_where_what_follows_is_far_away() {
-    // All goes on along y from ring 64, where a block starts, to the last ring, which is ring 0
-    // again. But the point after the next one is so far out that by its measure the first ring, and
-    // the last, have no velocity.
+    // From ring 64, where a block starts, the yarn goes on along y to the last ring, which is ring
+    // 0 again. But the point after the next one is very far away. By the measure of that distance
+    // the velocity of the first ring, and of the last, counts as zero.
     let mut points: Vec<_> = (0..80).map(|k| [0.0, 0.001 * (k as f32 - 80.0), 0.0]).collect();
     (points[0], points[1], points[2]) = ([0.0; 3], [0.0, 0.001, 0.0], [2000.0, 0.0, 2000.0]);
     for (k, point) in points.iter_mut().enumerate().take(63).skip(3) {

@@ -1,5 +1,5 @@
-//! Outputs too large for the caches go past them, in whole lines: the same bits, wherever they
-//! start in a line.
+//! Outputs too large for the caches are written past them in whole lines. They have the same bits,
+//! wherever they start in a line.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::sync::Arc;
@@ -8,8 +8,8 @@ use texere_core::backend::{MeshMut, Plan, Session};
 use texere_core::{Backend, ControlPoint, Frame, Limits, Pipeline, Settings, Topology, Vertex, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Two short coils, a long one, one with a growing radius and a closed one: 60,000 rings with one
-/// point inserted.
+/// Two short coils, a long one, one with a growing radius and a closed one. With one ring inserted
+/// between points, they have 60,000 rings.
 fn yarns() -> Yarns {
     let coil = |count: usize, growth: f32| -> Vec<_> {
         let point = |k: usize| {
@@ -19,7 +19,7 @@ fn yarns() -> Yarns {
         (0..count).map(point).collect()
     };
     let mut yarns = Yarns::builder();
-    // Rings that are fewer than any vector has.
+    // These have fewer rings than any vector has lanes.
     yarns.yarn(Yarn::default(), &coil(2, 0.0));
     yarns.yarn(Yarn::default(), &coil(3, 0.0));
     yarns.yarn(Yarn::default(), &coil(25_003, 0.0));
@@ -28,8 +28,8 @@ fn yarns() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Vertices and indices written from place `skew` of larger buffers on, which must stay as they
-/// were elsewhere.
+/// Vertices and indices, written from position `skew` of larger buffers on. The rest of the buffers
+/// must stay as it was.
 fn mesh(device: &ParallelBackend, yarns: &Yarns, settings: Settings, skew: usize) -> (Vec<u32>, Vec<u32>) {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
     let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();

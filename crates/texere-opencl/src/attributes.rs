@@ -14,19 +14,19 @@ use crate::kernel::{Arg, Kernel, in_memory};
 use crate::opened::Opened;
 use crate::work::{Launches, Work};
 
-/// The kernels and memory that an engine takes once attributes are asked for.
+/// The kernels and the memory that an engine needs if attributes are asked for.
 #[derive(Debug)]
 pub(crate) struct Attributes {
     block_lengths: Kernel,
     yarn_lengths: Kernel,
     of_tubes: Kernel,
     of_caps: Kernel,
-    /// The length of its yarn up to each block's start.
+    /// For each block, the length of its yarn up to the block's first ring.
     pub(crate) lengths: Buffer,
 }
 
 impl Attributes {
-    /// Takes memory, and compiles the kernels unless an engine has done so before.
+    /// Allocates memory, and compiles the kernels unless an engine has done so before.
     ///
     /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn,
     /// [`BackendError::OutOfMemory`], [`BackendError::Compile`].
@@ -54,9 +54,9 @@ impl Attributes {
     ) -> Result<Launches, BackendError> {
         let (params, window) = (Params::new(work.plan, chunk), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&self.lengths)]].concat();
-        // SAFETY: the arguments are those of `block_lengths`; a group reads its row of the chunk's
-        // table and what that names, and writes its block's length: the plan counted all blocks. A
-        // repeated ring's is the next chunk's first.
+        // SAFETY: the arguments are those of `block_lengths`. A group reads its row of the chunk's
+        // table and what the row names, and writes its block's length. There is a length for each
+        // block of the plan. The block of a repeated ring is the next chunk's first.
         unsafe { self.block_lengths.run(work.opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
@@ -67,12 +67,13 @@ impl Attributes {
         yarns: Range<usize>,
     ) -> Result<Launches, BackendError> {
         let args = in_memory([&work.tables.yarns, &self.lengths]);
-        // SAFETY: the arguments are those of `yarn_lengths`; a group reads its yarn's row, and
-        // reads and writes the lengths of the yarn's blocks: the plan counted all of them.
+        // SAFETY: the arguments are those of `yarn_lengths`. A group reads its yarn's row, and
+        // reads and writes the lengths of the yarn's blocks. There is a length for each block of
+        // the plan.
         unsafe { self.yarn_lengths.run(work.opened, &args, yarns, None) }
     }
 
-    /// Makes the attributes of the chunk's vertices. `memory` has room for all.
+    /// Makes the attributes of the chunk's vertices. `memory` has room for all of them.
     pub(crate) fn make(
         &mut self,
         work: Work<'_>,
@@ -83,16 +84,16 @@ impl Attributes {
         let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let outputs = in_memory([&self.lengths, &memory.attributes]);
         let args = [&work.inputs(&params, &window, memory)[..5], &outputs].concat();
-        // SAFETY: the arguments are those of `attributes`; a group reads its row of the chunk's
-        // table and what that names, and writes the attributes of the row's vertices, for all of
+        // SAFETY: the arguments are those of `attributes`. A group reads its row of the chunk's
+        // table and what the row names, and writes the attributes of the row's vertices, for all of
         // which there is room.
         let tubes = unsafe { self.of_tubes.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let caps = in_memory([&memory.caps, &memory.attributes]);
         let args = [&[Arg::Value(bytes_of(&params))][..], &caps].concat();
         let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `cap_attributes`; a lane reads its cap's row and an
-        // attribute of the ring that this names, and writes one, for all of which there is room.
-        // Lanes past the last do nothing.
+        // SAFETY: the arguments are those of `cap_attributes`. A lane reads its cap's row and an
+        // attribute of the ring that the row names, and writes one attribute, for all of which
+        // there is room. Lanes past the last do nothing.
         let caps = unsafe { self.of_caps.run(opened, &args, 0..lanes.div_ceil(self.of_caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

@@ -45,7 +45,7 @@ pub struct OpenClBackend {
     pub(crate) opened: Arc<Opened>,
 }
 
-/// Lanes of the largest workgroup of any kernel.
+/// The number of lanes of the largest workgroup of any kernel.
 const LARGEST_GROUP: usize = 256;
 
 impl OpenClBackend {
@@ -53,7 +53,7 @@ impl OpenClBackend {
     /// [`OpenClBackend::open`] takes. Nothing is opened.
     ///
     /// **Errors**: [`BackendError::Driver`] with an [`OpenClError`](crate::OpenClError) as its
-    /// source where there is no loader or no platform.
+    /// source if there is no loader or no platform.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
         Ok(listed(Schedule::PerRing)?.into_iter().map(|device| device.info).collect())
     }
@@ -63,7 +63,7 @@ impl OpenClBackend {
     ///
     /// **Errors**: the errors of [`OpenClBackend::devices`]; [`BackendError::NoDevice`] past the
     /// last device; [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`]
-    /// for a device without workgroups of 256, and for [`Schedule::Serial`].
+    /// for a device without workgroups of 256 lanes, and for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let mut devices = listed(schedule)?;
         if index >= devices.len() {
@@ -87,8 +87,8 @@ impl OpenClBackend {
     /// backend or a session of it lives. Kernels and uploads go to the queue in the order of the
     /// calls; results are read through another queue.
     ///
-    /// A queue without profiling does not time its commands. Then each stage is waited for, and
-    /// timed by the host's clock.
+    /// A queue without profiling does not time its commands. The host then waits for each stage,
+    /// and times it by its own clock.
     ///
     /// **Errors**: [`BackendError::Unsupported`] for a queue that runs out of order; the errors of
     /// [`OpenClBackend::open`].
@@ -112,7 +112,7 @@ impl OpenClBackend {
         let retained = unsafe { retain_context(context) };
         let context =
             Handle::context(retained.map(|()| context)).map_err(failed(&name, "clRetainContext"))?;
-        // SAFETY: as above.
+        // SAFETY: the queue is valid by this function's contract.
         let retained = unsafe { retain_command_queue(queue) };
         let queue = Handle::queue(retained.map(|()| queue)).map_err(failed(&name, "clRetainCommandQueue"))?;
 
@@ -154,7 +154,7 @@ impl OpenClBackend {
         Ok(Self { info, opened: Arc::new(opened) })
     }
 
-    /// This device with `limits`, where its own are wider.
+    /// This device with `limits`, if its own are wider.
     #[must_use]
     pub fn with_limits(mut self, limits: Limits) -> Self {
         self.info.limits = self.info.limits.min(&limits);
@@ -163,8 +163,8 @@ impl OpenClBackend {
 
     /// Starts a session of `plan` that lends its device memory: see [`OpenClSession::device_mesh`].
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also where the control points exceed one buffer;
-    /// [`BackendError::Unsupported`] for a plan that [`Schedule::PerYarn`] can't do.
+    /// **Errors**: [`BackendError::OutOfMemory`], also if the control points exceed one buffer;
+    /// [`BackendError::Unsupported`] for a plan that [`Schedule::PerYarn`] can't make.
     pub fn lending_session(&self, plan: Arc<Plan>) -> Result<OpenClSession, BackendError> {
         let engine = OpenClEngine::new(self.opened.clone(), &self.info.limits, plan.clone())?;
         Ok(OpenClSession(Session::with_engine(Box::new(engine), self.info.limits, plan)))

@@ -16,7 +16,7 @@ use crate::faults::not_allocated;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// A buffer in device memory. An empty one takes none.
+/// A buffer in device memory. An empty buffer has no memory.
 #[derive(Debug, Default)]
 pub(crate) struct Buffer {
     memory: Option<Handle>,
@@ -24,7 +24,7 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// Takes `bytes` of memory for `what`. The first word is 0, the rest undefined.
+    /// A buffer of `bytes` for `what`. Its first word is 0, and the rest is undefined.
     pub(crate) fn new(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
         if bytes == 0 {
             return Ok(Self::default());
@@ -37,8 +37,9 @@ impl Buffer {
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
         // Some drivers allocate only at the first use. This write makes them report now that there
-        // is no memory. clEnqueueMigrateMemObjects was tried for it: NVIDIA's driver (580) dies
-        // where two threads call that on one queue. SAFETY: a blocking write.
+        // is no memory. clEnqueueMigrateMemObjects was tried for this, but NVIDIA's driver (580)
+        // crashes if two threads call it on one queue.
+        // SAFETY: the write is blocking, so the word is borrowed until it is copied.
         let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
         claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)
@@ -51,12 +52,12 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// Fills it with zeros, after what is in the queue of the kernels.
+    /// Fills the buffer with zeros, after what is in the queue of the kernels.
     pub(crate) fn clear(&mut self, opened: &Opened) -> Result<(), BackendError> {
         if self.bytes > 0 {
             let zero = 0u32;
-            // SAFETY: the pattern is a u32 that the call copies; `bytes`, a multiple of 4, is all
-            // of the buffer.
+            // SAFETY: the pattern is a u32 that the call copies. `bytes`, a multiple of 4, is the
+            // whole length of the buffer.
             let filled = unsafe {
                 let (queue, pattern) = (opened.queue.raw(), (&raw const zero).cast());
                 enqueue_fill_buffer(queue, self.raw(), pattern, 4, 0, self.bytes as usize, 0, ptr::null())
@@ -91,8 +92,8 @@ impl Buffer {
             return Ok(());
         }
         let (offset, bytes, start) = (offset as usize, size_of_val(out), out.as_mut_ptr().cast());
-        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as
-        // long as `bytes` says.
+        // SAFETY: `out` is borrowed during the whole blocking read, may hold any bits, and is
+        // `bytes` long.
         unsafe { self.enqueue_read(opened, &opened.queue, CL_BLOCKING, offset, bytes, start, None) }?;
         Ok(())
     }
@@ -108,8 +109,8 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// Makes it at least `bytes` long. What it held is lost where it has to grow. Commands that
-    /// still use the smaller memory keep that until they end.
+    /// Makes the buffer at least `bytes` long. If it has to grow, its contents are lost. Commands
+    /// that still use the smaller memory keep that memory until they end.
     pub(crate) fn reserve(
         &mut self,
         opened: &Opened,
@@ -117,7 +118,7 @@ impl Buffer {
         bytes: u64,
     ) -> Result<(), BackendError> {
         if bytes > self.bytes {
-            // The old memory goes first, so that the two never need room together.
+            // The old memory is released first, so that both never need room together.
             *self = Self::default();
             *self = Self::new(opened, what, bytes)?;
         }
@@ -128,13 +129,13 @@ impl Buffer {
         self.bytes
     }
 
-    /// The `cl_mem`; null where there is no memory.
+    /// The `cl_mem`, or null if there is no memory.
     pub(crate) fn raw(&self) -> *mut c_void {
         self.memory.as_ref().map_or(ptr::null_mut(), Handle::raw)
     }
 
     /// Sends `data` to byte `offset` through `queue`, after `after`, and waits until `data` may
-    /// change again. Returns the event; none where there is nothing to send.
+    /// change again. Returns the event, or none if there is nothing to send.
     pub(crate) fn write<T: Pod>(
         &mut self,
         opened: &Opened,
@@ -152,8 +153,7 @@ impl Buffer {
         Ok(Some(Arc::new(event.map_err(opened.failed("clEnqueueWriteBuffer"))?)))
     }
 
-    /// [`Buffer::write`], which waits only where `blocking`, and returns OpenCL's status as its
-    /// error.
+    /// [`Buffer::write`], but it waits only if `blocking`, and its error is OpenCL's status.
     ///
     /// # Safety
     ///
@@ -168,8 +168,8 @@ impl Buffer {
     ) -> Result<Handle, i32> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        // SAFETY: the pointer is to `bytes` bytes, and this function's contract keeps them as they
-        // are. A range past the buffer's end comes back as an error.
+        // SAFETY: the pointer is to `bytes` bytes, and by this function's contract they do not
+        // change. A range past the buffer's end comes back as an error.
         Handle::event(unsafe {
             enqueue_write_buffer(
                 queue.raw(),
@@ -184,7 +184,7 @@ impl Buffer {
         })
     }
 
-    /// Reads from the buffer's start into `out`, after `after`, and waits for it.
+    /// Reads from the buffer's start into `out`, after `after`, and waits until it is read.
     pub(crate) fn read_into<T: Pod>(
         &self,
         opened: &Opened,
@@ -195,8 +195,8 @@ impl Buffer {
         if out.is_empty() {
             return Ok(());
         }
-        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as
-        // long as `bytes` says.
+        // SAFETY: `out` is borrowed during the whole blocking read, may hold any bits, and is
+        // `bytes` long.
         let event = unsafe {
             self.enqueue_read(
                 opened,
@@ -214,8 +214,8 @@ impl Buffer {
 
     /// # Safety
     ///
-    /// `out` points at `bytes` bytes of writable memory, which nothing else touches until the
-    /// command has ended.
+    /// `out` points at `bytes` bytes of writable memory, which nothing else uses until the command
+    /// has ended.
     #[allow(clippy::too_many_arguments, reason = "as many as clEnqueueReadBuffer has")]
     pub(crate) unsafe fn enqueue_read(
         &self,
@@ -229,7 +229,8 @@ impl Buffer {
     ) -> Result<Arc<Handle>, BackendError> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        // SAFETY: this function's contract; a range past the buffer's end comes back as an error.
+        // SAFETY: `out` is valid by this function's contract. A range past the buffer's end comes
+        // back as an error.
         let event = unsafe {
             enqueue_read_buffer(queue.raw(), self.raw(), blocking, offset, bytes, out, events, list)
         };

@@ -1,4 +1,4 @@
-//! The device memory of a chunk in flight: its tables and its results.
+//! The device memory of a chunk: its tables and its results.
 
 use std::sync::Arc;
 
@@ -11,39 +11,39 @@ use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// The memory of a chunk in flight. The next chunk but one takes it again.
+/// The memory of one chunk at a time. It is used again for the next chunk but one.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,
     pub(crate) table: Buffer,
-    /// Rows of `table`.
+    /// The number of rows of `table`.
     pub(crate) rows: usize,
     pub(crate) caps: Buffer,
     pub(crate) rings: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
-    /// Empty until attributes are asked for.
+    /// The attributes of the chunk's vertices. Empty until attributes are asked for.
     pub(crate) attributes: Buffer,
-    /// Empty until packed vertices are asked for.
+    /// The packed vertices of the chunk. Empty until packed vertices are asked for.
     pub(crate) packed: Buffer,
-    /// The last command that writes here.
+    /// The last command that writes to this memory.
     pub(crate) ready: Option<Arc<Handle>>,
 }
 
 impl ChunkMemory {
-    /// Bytes of its tables and results.
+    /// The bytes of the chunk's tables and results.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { table, caps, rings, vertices, indices, attributes, packed, .. } = self;
         [table, caps, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
-    /// Sends the tables of `chunk`, one of `plan`'s. They are sent beside the kernels of the other
-    /// chunk in flight, but after those that still use this memory.
+    /// Sends the tables of `chunk`, which is one of `plan`'s. They are sent while the kernels of
+    /// the other chunk run, but after the kernels that still use this memory.
     pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         let Self { loaded, table, caps, ready, .. } = self;
         self.rows = loaded.load(plan, chunk, || {
-            // It is kept until the new tables are sent, for commands that use the old ones may
-            // still run.
+            // The event is kept until the new tables are sent, because commands that use the old
+            // ones may still run.
             let used = ready.clone();
             let parts;
             let rows = match opened.schedule {
@@ -60,7 +60,7 @@ impl ChunkMemory {
                 table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,
                 caps.write(opened, &opened.transfers, 0, &cap_rows, used.as_deref())?,
             ];
-            // They end in order, so the last stands for both.
+            // The two commands end in order, so the last stands for both.
             *ready = sent.into_iter().flatten().last();
             Ok(rows.len())
         })?;

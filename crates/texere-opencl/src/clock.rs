@@ -29,7 +29,7 @@ pub(crate) struct Clock {
     pending: Vec<(Stage, [Arc<Handle>; 2])>,
 }
 
-/// The number of groups that are held before those that have ended are added up.
+/// The number of groups that may be pending before those that have ended are added up.
 const PENDING: usize = 64;
 
 impl Clock {
@@ -51,7 +51,7 @@ impl Clock {
         }
     }
 
-    /// Counts time that the host has taken.
+    /// Counts time that passed on the host.
     pub(crate) fn add(&mut self, stage: Stage, time: Duration) {
         add(&mut self.total, stage, time);
     }

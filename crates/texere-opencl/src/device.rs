@@ -1,4 +1,4 @@
-//! The devices that there are, and what each can hold.
+//! The devices of all platforms, and the limits of each.
 
 use std::ffi::c_void;
 use std::sync::Mutex;
@@ -20,9 +20,9 @@ pub(crate) struct Listed {
 
 /// All devices of all platforms, platform by platform.
 pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
-    // Loader and drivers set themselves up on the first call of each kind, and some fail if a
-    // second thread calls meanwhile. ocl-icd then answers that there is no platform, and PoCL reads
-    // a device that is half made.
+    // The loader and the drivers initialise on the first call of each kind, and some fail if a
+    // second thread calls meanwhile: ocl-icd answers that there is no platform, and PoCL reads a
+    // half-initialised device.
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     let _alone = ONE_AT_A_TIME.lock();
     let mut devices = Vec::new();
@@ -40,7 +40,7 @@ pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
     Ok(devices)
 }
 
-/// All platforms. None is an error.
+/// All platforms. It is an error if there is none.
 fn platforms() -> Result<Vec<Platform>, i32> {
     match get_platforms() {
         Ok(platforms) if platforms.is_empty() => Err(CL_PLATFORM_NOT_FOUND_KHR),
@@ -49,7 +49,7 @@ fn platforms() -> Result<Vec<Platform>, i32> {
     }
 }
 
-/// The information about `device`, which `name` opens.
+/// The information about `device`, whose name is `name`.
 pub(crate) fn info(
     device: &Device,
     platform: &Platform,
@@ -84,13 +84,13 @@ pub(crate) fn info(
         memory_bytes: Some(memory),
         limits: Limits {
             binding_bytes: device.max_mem_alloc_size().map_err(ask("clGetDeviceInfo"))?,
-            // The driver, other programs and small tables need some memory too. Where the memory is
-            // the host's, so does the mesh that is read into it.
+            // The driver, other programs and small tables need some memory, too. If the memory is
+            // the host's, the mesh that is read into it needs as much again.
             memory_bytes: if shared { memory / 2 } else { memory / 8 * 7 },
             ..Limits::NONE
         },
         can: capabilities(schedule, false),
-        // Queues that this crate creates time their commands.
+        // The queues that this crate creates time their commands.
         timed_by_device: true,
         name,
     })

@@ -1,4 +1,4 @@
-//! A mesh where it lies on the device.
+//! A mesh in device memory.
 
 use std::ffi::c_void;
 use std::marker::PhantomData;
@@ -7,19 +7,19 @@ use std::ptr;
 use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
 
-/// A chunk's mesh in device memory. Its handles are valid while it is borrowed: until the session's
-/// next call.
+/// A chunk's mesh in device memory. The handles are valid while this value is borrowed: until the
+/// session's next call.
 #[derive(Debug)]
 pub struct DeviceMesh<'a> {
     /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
     pub vertices: *mut c_void,
-    /// A `cl_mem` with the chunk's `u32` indices from its start; null where it has none.
+    /// A `cl_mem` with the chunk's `u32` indices from its start, or null if the chunk has none.
     pub indices: *mut c_void,
-    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where
+    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices, or null if
     /// none were made.
     pub attributes: *mut c_void,
-    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start;
-    /// null where none were made.
+    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start, or
+    /// null if none were made.
     pub packed: *mut c_void,
     /// The `cl_event` of the last command that writes these buffers. Wait for it, on the host or in
     /// a queue.

@@ -37,10 +37,10 @@ pub struct OpenClEngine {
     kernels: Box<dyn Kernels>,
     /// Whether the kernels are those for all yarns, rather than for round yarns alone.
     flattened: bool,
-    /// None until attributes are asked for.
+    /// The kernels and the memory of attributes. None until attributes are asked for.
     attributes: Option<Box<Attributes>>,
-    /// None until packed vertices are asked for. For round yarns alone, or for all, as `kernels`
-    /// are.
+    /// The kernels of packed vertices: for round yarns alone, or for all yarns if `flattened`. None
+    /// until packed vertices are asked for.
     packed: Option<Packed>,
     /// The memory of each [`Slot`].
     memory: Vec<ChunkMemory>,
@@ -74,15 +74,15 @@ impl OpenClEngine {
         &self.memory[slot.index()]
     }
 
-    /// Checks that `chunk` is of the plan, and that its tables are in `slot`, or else returns
-    /// [`BackendError::NotLoaded`].
+    /// Returns [`BackendError::NotLoaded`] unless `chunk` is one of the plan's and its tables are
+    /// in `slot`.
     fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
     /// The engine behind a [`LiveMesh`](texere_core::backend::LiveMesh), which lends the mesh's
-    /// memory. None where the mesh is not on an OpenCL device.
+    /// memory. None if the mesh is not on an OpenCL device.
     ///
     /// ```no_run
     /// # fn example(mesh: &texere_core::backend::LiveMesh) -> Option<()> {
@@ -98,19 +98,19 @@ impl OpenClEngine {
         (engine as &dyn Any).downcast_ref()
     }
 
-    /// The device memory of the mesh of the chunk in `slot`. None where nothing was made yet.
+    /// The device memory of the mesh of the chunk in `slot`. None if nothing was made yet.
     #[must_use]
     pub fn device_mesh(&self, slot: Slot) -> Option<DeviceMesh<'_>> {
         Some(DeviceMesh::new(self.memory.get(slot.index())?))
     }
 
-    /// Bytes of device memory that the engine holds.
+    /// The bytes of device memory that the engine holds.
     pub(crate) fn device_bytes(&self) -> u64 {
         let lengths = self.attributes.as_ref().map_or(0, |attributes| attributes.lengths.bytes());
         self.tables.bytes() + lengths + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Changes to the kernels for all yarns once a yarn is flattened.
+    /// Changes to the kernels for all yarns if a yarn is flattened.
     fn choose_kernels(&mut self) -> Result<(), BackendError> {
         if self.ends.flattened() && !self.flattened {
             self.kernels = kernels(&self.opened, &self.plan, true)?;
@@ -158,7 +158,7 @@ impl OpenClEngine {
     ) -> Result<(), BackendError> {
         let launches = launches.inspect_err(|_| {
             // Some kernels may be running, and nothing else would wait for them. An error of this
-            // wait adds nothing.
+            // wait adds nothing to the first error.
             let _ = finish(self.opened.queue.raw());
         })?;
         if self.opened.profiled {
@@ -176,7 +176,7 @@ impl OpenClEngine {
 }
 
 impl OpenClEngine {
-    /// Does `work` with each of `chunks`, loaded into its slot.
+    /// Does `work` with each of `chunks`, which is loaded into its slot before.
     fn load_each(
         &mut self,
         chunks: ScanChunks<'_>,
@@ -242,12 +242,12 @@ impl Engine for OpenClEngine {
 
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
         let first = yarns.start * size_of::<YarnRow>();
-        // Sent through the queue of the kernels, so that earlier kernels still read the earlier
-        // rows.
+        // The rows are sent through the queue of the kernels, so that earlier kernels still read
+        // the earlier rows.
         let rows = YarnRow::of(&plan, yarns.clone());
         self.tables.yarns.write(&self.opened, &self.opened.queue, first as u64, &rows, None)?;
         self.tables.reserve_rolls(&self.opened, &plan)?;
-        // Room for leans is taken with the first yarn that leans. It is empty then, so all leans
+        // Room for leans is allocated when the first yarn leans. It is empty at first, so all leans
         // are sent.
         let all = 0..plan.layout().yarns().len();
         let leaning = if self.plan.layout().leans() { yarns } else { all };

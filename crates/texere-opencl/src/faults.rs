@@ -21,18 +21,18 @@ pub enum OpenClError {
     /// CPU.
     #[error("no OpenCL platform is installed")]
     NoPlatform,
-    /// Memory was mapped at an address where values can't lie.
+    /// Memory was mapped at an address that is not aligned for its values.
     #[error("memory mapped at an address that is not a multiple of {needed} bytes")]
     Misaligned {
         /// The alignment that the address needs, bytes.
         needed: usize,
     },
-    /// Any other status.
+    /// OpenCL returned any other status.
     #[error("{name} ({code})")]
     Status {
         /// OpenCL's name of the status.
         name: String,
-        /// Its number.
+        /// OpenCL's number of the status.
         code: i32,
     },
 }
@@ -47,10 +47,11 @@ impl OpenClError {
     }
 }
 
-/// NVIDIA's status after a kernel has read or written where it must not. The context is dead then.
+/// NVIDIA's status after a kernel has read or written memory that is not its own. The context can't
+/// be used any more.
 const ILLEGAL_ACCESS: i32 = -9999;
 
-/// The error that `call` on `device` ended in.
+/// The error of `call` on `device`, from OpenCL's status.
 pub(crate) fn failed(device: &str, call: &'static str) -> impl Fn(i32) -> BackendError {
     move |code| {
         let source = Box::new(OpenClError::new(code));
@@ -65,7 +66,7 @@ pub(crate) fn failed(device: &str, call: &'static str) -> impl Fn(i32) -> Backen
     }
 }
 
-/// The error that getting `bytes` for `what` ended in.
+/// The error of allocating `bytes` for `what`, from OpenCL's status.
 pub(crate) fn not_allocated(
     device: &str,
     call: &'static str,

@@ -1,7 +1,7 @@
 //! Owned OpenCL objects.
 //!
 //! opencl3's own types expect every release to succeed, so they panic after a lost device, perhaps
-//! while unwinding. Here a release that fails is ignored: there is nothing left to do about it.
+//! while unwinding. Here a release that fails is ignored, because nothing can be done about it.
 
 use std::ffi::c_void;
 
@@ -17,14 +17,15 @@ pub(crate) struct Handle {
     release: Release,
 }
 
-// SAFETY: OpenCL objects may be used from any thread at any time, but for setting arguments on one
-// kernel from two threads at once; `Kernel::set` takes the kernel by `&mut`.
+// SAFETY: OpenCL objects may be used from any thread at any time. The one exception is setting the
+// arguments of one kernel from two threads at once, and `Kernel::run` takes the kernel by `&mut`.
 unsafe impl Send for Handle {}
-// SAFETY: as above.
+// SAFETY: OpenCL objects may be used from several threads at once, apart from setting a kernel's
+// arguments, for which `Kernel::run` takes the kernel by `&mut`.
 unsafe impl Sync for Handle {}
 
 impl Handle {
-    /// Takes over the reference that `create` gave out.
+    /// Owns the reference that came with `raw`, and releases it by `release`.
     fn created(raw: Result<*mut c_void, i32>, release: Release) -> Result<Self, i32> {
         Ok(Self { raw: raw?, release })
     }
@@ -61,8 +62,8 @@ impl Handle {
 
 impl Drop for Handle {
     fn drop(&mut self) {
-        // SAFETY: `raw` came with one reference, of the kind that `release` gives back, and this is
-        // where it ends.
+        // SAFETY: `raw` came with one reference of the kind that `release` releases, and is not
+        // used after this.
         let _ = unsafe { (self.release)(self.raw) };
     }
 }

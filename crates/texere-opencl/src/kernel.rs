@@ -25,19 +25,19 @@ pub(crate) struct Kernel {
 /// An argument of a kernel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Arg<'a> {
-    /// A `__global` pointer; null where the buffer is empty.
+    /// A `__global` pointer, or null if the buffer is empty.
     Memory(&'a Buffer),
     /// A value, byte for byte.
     Value(&'a [u8]),
 }
 
 /// The most workgroups of one launch: 16 million rings, a few milliseconds on a GPU. Launches of
-/// this size run into no watchdog.
+/// this size end before a watchdog stops them.
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {
-    /// The kernel `entry` of the schedule's program for round yarns, or with `flattened` of the one
-    /// for all yarns.
+    /// The kernel `entry` of the schedule's program for round yarns, or, with `flattened`, of the
+    /// program for all yarns.
     pub(crate) fn new(opened: &Opened, entry: EntryPoint, flattened: bool) -> Result<Self, BackendError> {
         Self::of(opened, opened.program(flattened)?, entry)
     }
@@ -50,19 +50,19 @@ impl Kernel {
         Ok(Self { handle, group: entry.group })
     }
 
-    /// Lanes in a workgroup.
+    /// The number of lanes in a workgroup.
     pub(crate) fn group(&self) -> usize {
         self.group
     }
 
     /// Sets all arguments, in the order of the source, and launches the workgroups `groups` after
-    /// what is in the queue and after `after`. Many workgroups take several launches. Returns the
-    /// launches' events, in order.
+    /// what is in the queue and after `after`. More than [`LAUNCH_GROUPS`] workgroups take several
+    /// launches. Returns the launches' events, in order.
     ///
     /// # Safety
     ///
-    /// `args` are those of the kernel's source, in order, and every buffer among them is as large
-    /// as the kernel's reads and writes of `groups` workgroups need.
+    /// `args` are those of the kernel's source, in order, and every buffer among them is large
+    /// enough for all that the workgroups `groups` read and write.
     pub(crate) unsafe fn run(
         &mut self,
         opened: &Opened,
@@ -79,8 +79,8 @@ impl Kernel {
                 }
                 Arg::Value(value) => (value.len(), value.as_ptr().cast()),
             };
-            // SAFETY: `value` points at `bytes` bytes, which the call copies; that they suit the
-            // parameter is this function's contract.
+            // SAFETY: `value` points at `bytes` bytes, which the call copies. They suit the
+            // parameter by this function's contract.
             unsafe { set_kernel_arg(self.handle.raw(), number as u32, bytes, value) }
                 .map_err(opened.failed("clSetKernelArg"))?;
         }
@@ -90,8 +90,8 @@ impl Kernel {
         for first in groups.clone().step_by(LAUNCH_GROUPS) {
             let offset = first * self.group;
             let lanes = (groups.end - first).min(LAUNCH_GROUPS) * self.group;
-            // SAFETY: one dimension, each pointer to one value; the event is alive; the rest is
-            // this function's contract.
+            // SAFETY: the launch has one dimension, and each pointer is to one value. The event is
+            // alive. The arguments suit the kernel by this function's contract.
             let event = unsafe {
                 enqueue_nd_range_kernel(
                     opened.queue.raw(),
@@ -122,12 +122,12 @@ pub(crate) unsafe fn start(
     lanes: u32,
 ) -> Result<(), BackendError> {
     let groups = (lanes as usize).div_ceil(kernel.group());
-    // SAFETY: this function's contract.
+    // SAFETY: the arguments suit the kernel by this function's contract.
     unsafe { kernel.run(opened, args, 0..groups, None) }?;
     Ok(())
 }
 
-/// Arguments from buffers.
+/// The arguments for `buffers`.
 pub(crate) fn in_memory<'a, const COUNT: usize>(buffers: [&'a Buffer; COUNT]) -> [Arg<'a>; COUNT] {
     buffers.map(Arg::Memory)
 }

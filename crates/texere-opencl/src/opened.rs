@@ -1,4 +1,4 @@
-//! An open device: what all sessions of a backend share.
+//! An open device, which all sessions of a backend share.
 
 use std::ffi::{CString, c_void};
 use std::ptr;
@@ -24,23 +24,26 @@ pub(crate) struct Opened {
     pub(crate) name: String,
     pub(crate) schedule: Schedule,
     pub(crate) context: Handle,
-    /// Kernels, and control points, in the order of the calls.
+    /// The queue of kernels and of control points, which run in the order of the calls.
     pub(crate) queue: Handle,
-    /// Whether the queue takes the time of its commands.
+    /// Whether `queue` times its commands.
     pub(crate) profiled: bool,
-    /// Tables to the device and results to the host, beside the kernels of another chunk.
+    /// The queue that sends tables to the device and results to the host, while the kernels of
+    /// another chunk run.
     pub(crate) transfers: Handle,
     /// The program for round yarns alone.
     round: Handle,
     /// The program for all yarns, compiled at its first use.
     flattened: OnceLock<Handle>,
-    /// The program of attributes, likewise.
+    /// The program of attributes, compiled at its first use.
     attributes: OnceLock<Handle>,
-    /// The programs of packed vertices, for round yarns alone and for all, likewise.
+    /// The programs of packed vertices for round yarns alone and for all yarns, each compiled at
+    /// its first use.
     packing: [OnceLock<Handle>; 2],
-    /// The programs of settlings, for round yarns alone and for all, likewise.
+    /// The programs of settlings for round yarns alone and for all yarns, each compiled at its
+    /// first use.
     settling: [OnceLock<Handle>; 2],
-    /// The program of crossings, likewise.
+    /// The program of crossings, compiled at its first use.
     crossings: OnceLock<Handle>,
 }
 
@@ -71,7 +74,7 @@ impl Opened {
         })
     }
 
-    /// The program for round yarns alone, or the one for all yarns.
+    /// The program for round yarns alone, or, with `flattened`, for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn program(&self, flattened: bool) -> Result<&Handle, BackendError> {
@@ -85,18 +88,18 @@ impl Opened {
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn attributes(&self) -> Result<&Handle, BackendError> {
-        // Attributes do not depend on sizes.
+        // Attributes do not depend on half widths and half heights.
         self.compiled(&self.attributes, ATTRIBUTES, false)
     }
 
-    /// The program of packed vertices, of round yarns alone or of all.
+    /// The program of packed vertices for round yarns alone, or, with `flattened`, for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn packing(&self, flattened: bool) -> Result<&Handle, BackendError> {
         self.compiled(&self.packing[usize::from(flattened)], PACKING, flattened)
     }
 
-    /// The program of settlings, of round yarns alone or of all.
+    /// The program of settlings for round yarns alone, or, with `flattened`, for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn settling(&self, flattened: bool) -> Result<&Handle, BackendError> {
@@ -107,11 +110,12 @@ impl Opened {
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn crossings(&self) -> Result<&Handle, BackendError> {
-        // All yarns of crossings are flattened.
+        // Threads at crossings have half widths and half heights of their own, so the program for
+        // flattened yarns is compiled.
         self.compiled(&self.crossings, CROSSINGS, true)
     }
 
-    /// What `held` holds: `program`, compiled at its first use.
+    /// The compiled `program`, from `held`. It is compiled if `held` is empty.
     fn compiled<'a>(
         &self,
         held: &'a OnceLock<Handle>,
@@ -124,7 +128,7 @@ impl Opened {
         let device = get_command_queue_info(self.queue.raw(), CL_QUEUE_DEVICE);
         let device = device.map_err(self.failed("clGetCommandQueueInfo"))?.to_ptr() as *mut c_void;
         let compiled = build(device, &self.context, &self.name, program, flattened)?;
-        // Another session may have been faster.
+        // Another session may have compiled the program meanwhile.
         Ok(held.get_or_init(|| compiled))
     }
 
@@ -133,13 +137,13 @@ impl Opened {
         wait_for_events(&[event.raw()]).map_err(self.failed("clWaitForEvents"))
     }
 
-    /// The error that `call` ended in.
+    /// The error of `call`, from OpenCL's status.
     pub(crate) fn failed(&self, call: &'static str) -> impl Fn(i32) -> BackendError {
         failed(&self.name, call)
     }
 }
 
-/// The kernels of `schedule`. `name` is the device's, for the error.
+/// The program of `schedule`. `name` is the device's name, for the error.
 fn program(schedule: Schedule, name: &str) -> Result<KernelProgram, BackendError> {
     match schedule {
         Schedule::PerRing => Ok(PER_RING),
@@ -156,7 +160,8 @@ fn build(
     program: KernelProgram,
     flattened: bool,
 ) -> Result<Handle, BackendError> {
-    // One string: cl3 0.13 hands over several as if slices were pointers.
+    // The source is passed as one string, because cl3 0.13 passes several strings as if slices were
+    // pointers.
     let source = prelude(Language::OpenClC, flattened) + &program.sources.concat();
     let built = Handle::program(create_program_with_source(context.raw(), &[&source]))
         .map_err(failed(name, "clCreateProgramWithSource"))?;

@@ -10,7 +10,7 @@ use crate::kernel::{Arg, Kernel};
 use crate::opened::Opened;
 use crate::work::{Launches, Work};
 
-/// The kernels that an engine takes once packed vertices are asked for.
+/// The kernels that an engine needs if packed vertices are asked for.
 #[derive(Debug)]
 pub(crate) struct Packed {
     tubes: Kernel,
@@ -18,7 +18,8 @@ pub(crate) struct Packed {
 }
 
 impl Packed {
-    /// Compiles the kernels for round yarns alone, or for all, unless an engine has done so before.
+    /// Compiles the kernels for round yarns alone, or, with `flattened`, for all yarns, unless an
+    /// engine has done so before.
     ///
     /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
     pub(crate) fn new(opened: &Opened, plan: &Plan, flattened: bool) -> Result<Self, BackendError> {
@@ -33,7 +34,7 @@ impl Packed {
         })
     }
 
-    /// Makes the packed vertices of the chunk. `memory` has room for all.
+    /// Makes the packed vertices of the chunk. `memory` has room for all of them.
     pub(crate) fn make(
         &mut self,
         work: Work<'_>,
@@ -45,15 +46,15 @@ impl Packed {
         let inputs = work.inputs(&params, &window, memory);
         let outputs = [Arg::Memory(&tables.outlines), Arg::Memory(&memory.packed)];
         let args = [&inputs[..], &outputs].concat();
-        // SAFETY: the arguments are those of `packed`; a group reads its row of the chunk's table
-        // and what that names, and writes the row's packed vertices, for all of which there is
+        // SAFETY: the arguments are those of `packed`. A group reads its row of the chunk's table
+        // and what the row names, and writes the row's packed vertices, for all of which there is
         // room.
         let tubes = unsafe { self.tubes.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let args = [&inputs[..3], &[Arg::Memory(&memory.caps), Arg::Memory(&memory.packed)]].concat();
         let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `packed_caps`; a lane reads its cap's row, what that
-        // names and a packed vertex of the ring, and writes one, for all of which there is room.
-        // Lanes past the last do nothing.
+        // SAFETY: the arguments are those of `packed_caps`. A lane reads its cap's row, what the
+        // row names and a packed vertex of the ring, and writes one packed vertex, for all of which
+        // there is room. Lanes past the last do nothing.
         let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

@@ -1,4 +1,4 @@
-//! The schedule per-ring: a lane makes a ring.
+//! The schedule per-ring, in which a lane makes a ring.
 
 use std::ops::Range;
 
@@ -54,17 +54,17 @@ impl Kernels for PerRing {
         let Work { opened, plan, .. } = work;
         let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let args = &work.inputs(&params, &window, memory)[..6];
-        // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's
-        // table and what that names, and writes its block's roll: the plan counted all blocks. A
-        // repeated ring's is the next chunk's first.
+        // SAFETY: the arguments are those of `block_turns`. A group reads its row of the chunk's
+        // table and what the row names, and writes its block's turn. There is a turn for each block
+        // of the plan. The block of a repeated ring is the next chunk's first.
         unsafe { self.block_turns.run(opened, args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
     fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError> {
         let Work { opened, tables, .. } = work;
         let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.yarn_turns)];
-        // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and
-        // writes the yarn's rolls, and writes its whole turn: the plan counted all of them.
+        // SAFETY: the arguments are those of `yarn_rolls`. A group reads its yarn's row, reads and
+        // writes the yarn's rolls, and writes its total turn. There is room for all of the plan's.
         unsafe { self.yarn_rolls.run(opened, &args, yarns, None) }
     }
 
@@ -77,8 +77,8 @@ impl Kernels for PerRing {
         let Work { opened, plan, .. } = work;
         let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..], &[Arg::Memory(&memory.rings)]].concat();
-        // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's
-        // table and what that names, and writes its rings, for all of which there is room.
+        // SAFETY: the arguments are those of `trajectory`. A group reads its row of the chunk's
+        // table and what the row names, and writes its rings, for all of which there is room.
         unsafe { self.trajectory.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
@@ -97,8 +97,8 @@ impl Kernels for PerRing {
             Arg::Memory(&memory.indices),
         ];
         let args = [&work.inputs(&params, &window, memory)[..], &outputs].concat();
-        // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and
-        // what that names, and writes the row's vertices and indices, for all of which there is
+        // SAFETY: the arguments are those of `mesh`. A group reads its row of the chunk's table and
+        // what the row names, and writes the row's vertices and indices, for all of which there is
         // room.
         let tubes = unsafe { self.mesh.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let args = [
@@ -111,7 +111,7 @@ impl Kernels for PerRing {
             Arg::Memory(&memory.indices),
         ];
         let lanes = params.caps as usize * params.sides as usize;
-        // SAFETY: the arguments are those of `caps`; a lane reads its cap's row and what that
+        // SAFETY: the arguments are those of `caps`. A lane reads its cap's row and what the row
         // names, and writes a vertex and a triangle, for all of which there is room. Lanes past the
         // last do nothing.
         let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;

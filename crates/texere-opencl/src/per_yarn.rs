@@ -1,4 +1,4 @@
-//! The schedule per-yarn, the paper's algorithms 2 and 4: a lane makes a part of a yarn.
+//! The schedule per-yarn, the paper's algorithms 2 and 4, in which a lane makes a part of a yarn.
 
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ impl PerYarn {
     }
 }
 
-/// The parameters of a launch whose table has one row a part.
+/// The parameters of a launch whose table has one row for each part.
 fn part_params(plan: &Plan, chunk: &Chunk, memory: &ChunkMemory) -> Params {
     Params { blocks: memory.rows as u32, ..Params::new(plan, chunk) }
 }
@@ -39,7 +39,7 @@ impl Kernels for PerYarn {
         true
     }
 
-    /// Does nothing: plans with rolls are refused.
+    /// Does nothing, because this schedule refuses plans with rolls.
     fn block_turns(&mut self, _: Work<'_>, _: &Chunk, _: &ChunkMemory) -> Result<Launches, BackendError> {
         Ok(Vec::new())
     }
@@ -58,8 +58,8 @@ impl Kernels for PerYarn {
         let (params, window) = (part_params(plan, chunk, memory), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&memory.rings)]].concat();
         let groups = memory.rows.div_ceil(self.trajectory.group());
-        // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what
-        // that names, and writes the part's rings, for which there is room. Lanes past the last
+        // SAFETY: the arguments are those of `trajectory_per_yarn`. A lane reads its part and what
+        // the part names, and writes the part's rings, for which there is room. Lanes past the last
         // part do nothing.
         unsafe { self.trajectory.run(opened, &args, 0..groups, memory.ready.as_deref()) }
     }
@@ -83,9 +83,9 @@ impl Kernels for PerYarn {
             Arg::Memory(&memory.indices),
         ];
         let groups = memory.rows.div_ceil(self.mesh.group());
-        // SAFETY: the arguments are those of `mesh_per_yarn`; a lane reads its part and what that
-        // names, and writes the part's vertices and indices, for which there is room. Lanes past
-        // the last part do nothing.
+        // SAFETY: the arguments are those of `mesh_per_yarn`. A lane reads its part and what the
+        // part names, and writes the part's vertices and indices, for which there is room. Lanes
+        // past the last part do nothing.
         unsafe { self.mesh.run(opened, &args, 0..groups, memory.ready.as_deref()) }
     }
 }

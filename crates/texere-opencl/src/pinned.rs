@@ -1,4 +1,4 @@
-//! Pinned host memory, through which everything crosses the bus.
+//! Pinned host memory, through which large transfers go.
 
 use std::ffi::c_void;
 use std::ptr;
@@ -26,11 +26,11 @@ pub(crate) struct Pinned {
 
 // SAFETY: the mapped memory belongs to this value alone, and OpenCL lets any thread use it.
 unsafe impl Send for Pinned {}
-// SAFETY: shared it tells where it is, and what it holds by unsafe functions alone.
+// SAFETY: a shared value gives its address, and gives its contents only by unsafe functions.
 unsafe impl Sync for Pinned {}
 
 impl Pinned {
-    /// Takes `bytes` for `what`, mapped for the host's `access`.
+    /// Memory of `bytes` for `what`, mapped for the host's `access`.
     pub(crate) fn new(
         opened: &Arc<Opened>,
         what: &'static str,
@@ -45,7 +45,7 @@ impl Pinned {
         };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut start = ptr::null_mut();
-        // SAFETY: the whole of a buffer of this context, and no event.
+        // SAFETY: the whole buffer is mapped. It is of this context, and no event is waited for.
         let mapped = unsafe {
             let (queue, blocking) = (opened.transfers.raw(), CL_BLOCKING);
             enqueue_map_buffer(queue, memory.raw(), blocking, access, 0, bytes, &mut start, 0, ptr::null())
@@ -66,14 +66,15 @@ impl Pinned {
     ///
     /// # Safety
     ///
-    /// No command that writes here is running, and `count` values fit.
+    /// No command that writes to this memory is running, and `count` values fit in it.
     pub(crate) unsafe fn values<T: Pod>(&self, count: usize) -> Result<&[T], BackendError> {
-        // SAFETY: aligned, mapped for as long as `self`, of a type that takes any bits; the rest is
-        // the contract.
+        // SAFETY: the memory is aligned and is mapped for as long as `self` lives, and the type may
+        // hold any bits. The rest is this function's contract.
         Ok(unsafe { std::slice::from_raw_parts(self.aligned()?, count) })
     }
 
-    /// The start as a pointer to values of type `T`, if they may lie there.
+    /// The start as a pointer to values of type `T`, or an error if the memory is not aligned for
+    /// them.
     pub(crate) fn aligned<T>(&self) -> Result<*mut T, BackendError> {
         let start = self.start.cast::<T>();
         if start.is_null() || !start.is_aligned() {
@@ -86,8 +87,9 @@ impl Pinned {
 
 impl Drop for Pinned {
     fn drop(&mut self) {
-        // SAFETY: mapped once, in `new`, and no slice of it is left. In order, so after every read
-        // into it; writes from it have ended, as its users see to.
+        // SAFETY: the memory was mapped once, in `new`, and no slice of it is left. The queue runs
+        // in order, so every read into the memory has ended before. Users wait for writes from it
+        // before they drop it.
         let unmapped = unsafe {
             enqueue_unmap_mem_object(
                 self.opened.transfers.raw(),
@@ -97,7 +99,7 @@ impl Drop for Pinned {
                 ptr::null(),
             )
         };
-        // Where even this fails the device is lost, and the memory with it.
+        // If even this fails, the device is lost, and the memory with it.
         drop(Handle::event(unmapped));
     }
 }

@@ -1,4 +1,4 @@
-//! Results to the host: piece by piece through pinned memory.
+//! Reads results to the host, piece by piece through pinned memory.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -14,17 +14,17 @@ use crate::handles::Handle;
 use crate::opened::Opened;
 use crate::pinned::Pinned;
 
-/// Bytes of a piece that a sink is lent. It holds whole vertices (24 bytes) and rings (48), and is
-/// so large that a transfer's start does not matter.
+/// The bytes of a piece that a sink is lent. A piece holds whole vertices (24 bytes) and rings (48
+/// bytes), and is so large that the start of a transfer takes a negligible part of its time.
 const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
 
-/// Two pieces of pinned memory: while the sink has one, the other is filled.
+/// Two pieces of pinned memory. While the sink reads one, the other is filled.
 #[derive(Debug, Default)]
 pub(crate) struct Readback {
     pieces: [Option<Pinned>; 2],
 }
 
-/// Takes values, with the number of the first.
+/// A function that is lent values, with the number of the first.
 pub(crate) type Sink<'a, T> = &'a mut dyn FnMut(u32, &[T]) -> ControlFlow<()>;
 
 impl Readback {
@@ -50,8 +50,8 @@ impl Readback {
             };
             let start = pinned.start();
             *piece = Some(pinned);
-            // SAFETY: the pinned memory is large enough and, in order on the queue, not written by
-            // another command; it is not looked at before this command has ended.
+            // SAFETY: the pinned memory is large enough. Commands run in order, so no other command
+            // writes it at the time, and the host does not read it before this command has ended.
             let event = unsafe {
                 buffer.enqueue_read(
                     opened,
@@ -74,8 +74,8 @@ impl Readback {
             running = if next < count { Some(launch(&mut self.pieces, next)?) } else { None };
             opened.wait(&event)?;
             if let Some(pinned) = &self.pieces[first / per_piece % 2] {
-                // SAFETY: the command that wrote this piece has ended, and the one that is running
-                // writes the other.
+                // SAFETY: the command that wrote this piece has ended, and the command that is
+                // running writes the other piece.
                 let values = unsafe { pinned.values(per_piece.min(count - first)) }?;
                 if sink(first as u32, values).is_break() {
                     return Ok(ControlFlow::Break(()));

@@ -1,4 +1,4 @@
-//! The memory of a device that may still be taken.
+//! The memory of a device that may still be allocated.
 
 use bytemuck::Pod;
 use texere_core::{BackendError, Limits, OutOfMemory};
@@ -6,7 +6,7 @@ use texere_core::{BackendError, Limits, OutOfMemory};
 use crate::buffer::Buffer;
 use crate::opened::Opened;
 
-/// The memory that a settler may still take of a device.
+/// The memory of a device that a settler may still allocate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Room {
     pub(crate) binding_bytes: u64,
@@ -18,7 +18,7 @@ impl Room {
         Self { binding_bytes: limits.binding_bytes, memory_bytes: limits.memory_bytes }
     }
 
-    /// Subtracts `bytes` for `what`.
+    /// Subtracts `bytes` for `what` from the memory that may still be allocated.
     fn take(&mut self, what: &'static str, bytes: u64) -> Result<u64, BackendError> {
         if bytes > self.binding_bytes || bytes > self.memory_bytes {
             return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
@@ -27,10 +27,10 @@ impl Room {
         Ok(bytes)
     }
 
-    /// Takes `bytes` of zeros for `what`.
+    /// A buffer of `bytes` of zeros for `what`.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
-    /// may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also if one buffer, or all buffers together,
+    /// would have more than the device's limits allow.
     pub(crate) fn zeroed(
         &mut self,
         opened: &Opened,
@@ -40,7 +40,7 @@ impl Room {
         Buffer::zeroed(opened, what, self.take(what, bytes)?)
     }
 
-    /// Takes memory that holds `data`, likewise.
+    /// A buffer that holds `data`, for `what`.
     pub(crate) fn holding<T: Pod>(
         &mut self,
         opened: &Opened,

@@ -35,7 +35,8 @@ use crate::engine::OpenClEngine;
 pub struct OpenClSession(pub(crate) Session<OpenClEngine>);
 
 impl OpenClSession {
-    /// The mesh of `chunk` in device memory, for a caller that draws it or works on with it there.
+    /// The mesh of `chunk` in device memory, for a caller that draws it or processes it further
+    /// there.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
     /// [`Session::mesh`] has been called for this chunk.
@@ -43,7 +44,7 @@ impl OpenClSession {
         let slot = self.0.slot_of_mesh(chunk)?;
         let mut mesh = DeviceMesh::new(self.0.engine().memory(slot));
         if chunk.indices() == 0 {
-            // The memory may hold those of an earlier chunk.
+            // The memory may hold indices of an earlier chunk.
             mesh.indices = ptr::null_mut();
         }
         Ok(mesh)
@@ -59,8 +60,8 @@ impl OpenClSession {
     }
 
     /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
-    /// of [`device_buffers`](texere_gpu::device_buffers), and the rings where
-    /// [`Session::trajectory`] was called.
+    /// of [`device_buffers`](texere_gpu::device_buffers), and the rings if [`Session::trajectory`]
+    /// was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

@@ -17,21 +17,21 @@ pub(crate) struct Tables {
     pub(crate) points: Buffer,
     pub(crate) yarns: Buffer,
     pub(crate) outlines: Buffer,
-    /// Indices of a ring's quads.
+    /// The indices of a ring's quads.
     pub(crate) pattern: Buffer,
     pub(crate) cap_pattern: Buffer,
-    /// The roll at each block's start. Empty where no yarn turns.
+    /// The roll at each block's start, and behind them, if any yarn leans, the leans of all rings.
+    /// Empty if no yarn turns.
     pub(crate) rolls: Buffer,
-    /// The whole turn of each yarn. Empty where no yarn turns.
+    /// The total turn of each yarn. Empty if no yarn turns.
     pub(crate) yarn_turns: Buffer,
 }
 
 impl Tables {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for control points beyond what one buffer
-    /// holds.
+    /// **Errors**: [`BackendError::OutOfMemory`], also if the control points exceed one buffer.
     pub(crate) fn new(opened: &Opened, limits: &Limits, plan: &Plan) -> Result<Self, BackendError> {
         let (what, bytes) = ("control points, all in one buffer", plan.resident_bytes());
-        // The scan numbers points by u32.
+        // Kernels number points by `u32`.
         let points = plan.padded_offsets().last().copied().unwrap_or(0);
         if bytes > limits.binding_bytes || points > u64::from(u32::MAX) {
             return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
@@ -51,7 +51,7 @@ impl Tables {
         Ok(tables)
     }
 
-    /// Makes room for rolls where any yarn turns.
+    /// Makes room for rolls if any yarn turns.
     pub(crate) fn reserve_rolls(&mut self, opened: &Opened, plan: &Plan) -> Result<(), BackendError> {
         if plan.needs_scan() {
             let turns = |count: u64| count * size_of::<Turn>() as u64;
@@ -75,7 +75,7 @@ impl Tables {
         Ok(())
     }
 
-    /// Bytes of all tables.
+    /// The bytes of all tables.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { points, yarns, outlines, pattern, cap_pattern, rolls, yarn_turns } = self;
         [points, yarns, outlines, pattern, cap_pattern, rolls, yarn_turns].map(Buffer::bytes).iter().sum()

@@ -1,5 +1,5 @@
-//! Control points to the device, piece by piece. All cores pad a piece into pinned memory, while
-//! earlier pieces are sent.
+//! Sends control points to the device, piece by piece. All cores pad a piece into pinned memory,
+//! while earlier pieces are sent.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -19,23 +19,24 @@ use crate::pinned::Pinned;
 
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
-/// The most points, such as an edited yarn's, that are sent without pinned memory. For them the
-/// driver's own way is as fast.
+/// The most points, such as an edited yarn's, that are sent without pinned memory. For so few, the
+/// driver's own transfer is as fast.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// The most points that are sent without pinned memory in the first upload. Taking pinned memory
-/// would cost more time than it saves, and it may never be wanted again.
+/// The most points that are sent without pinned memory in the first upload. Allocating pinned
+/// memory would take more time than it saves, and it may never be used again.
 const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 
-/// Points of a piece. It is so large that the overhead of a transfer does not count. The first
-/// pieces are shorter, so that the bus starts early.
+/// The points of a piece. A piece is so large that the overhead of a transfer is negligible. The
+/// first pieces are shorter, so that transfers start early.
 const PIECE_POINTS: u64 = (8 << 20) / POINT_BYTES;
 const FIRST_PIECE_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// Points that a core pads at a time. A piece is a multiple of them.
+/// The number of points that a core pads at a time. A piece is a multiple of it.
 const PART_POINTS: u64 = (32 << 10) / POINT_BYTES;
 
-/// Pieces that have memory at once: one is filled, one is sent, and one keeps both from waiting.
+/// The number of pieces that have memory at once: one is filled, one is sent, and the third keeps
+/// both from waiting.
 const SLOTS: usize = 3;
 
 /// The pinned memory that control points are sent from. It is kept for the next upload.
@@ -50,7 +51,7 @@ pub(crate) struct Outbox {
 
 impl Outbox {
     /// Sends `upload` to `target` through the queue of the kernels, and returns its bytes. It may
-    /// return before they are there.
+    /// return before the points have arrived.
     pub(crate) fn send(
         &mut self,
         opened: &Arc<Opened>,
@@ -78,7 +79,7 @@ impl Outbox {
         Ok(bytes)
     }
 
-    /// Returns the commands in the order in which they run.
+    /// Sends the points of `range` in pieces. Returns the commands in the order in which they run.
     fn send_pieces(
         &mut self,
         opened: &Arc<Opened>,
@@ -121,8 +122,8 @@ impl Outbox {
 impl Drop for Outbox {
     fn drop(&mut self) {
         if let Some(last) = self.last.take() {
-            // The memory must not go before the command has ended. Where the wait fails the device
-            // is lost.
+            // The memory must not be freed before the command has ended. If the wait fails, the
+            // device is lost.
             let _ = opencl3::event::wait_for_events(&[last.raw()]);
         }
     }
@@ -134,9 +135,9 @@ struct Piece {
     range: Range<u64>,
     /// Whether the piece that was in its slot before has been sent.
     free: AtomicBool,
-    /// Parts that are still to be padded.
+    /// The number of the piece's parts that are still to be padded.
     left: AtomicUsize,
-    /// The command that sends it.
+    /// The command that sends the piece.
     sent: OnceLock<Arc<Handle>>,
 }
 
@@ -158,8 +159,8 @@ impl Piece {
     }
 }
 
-/// An upload under way. Cores take parts in order, and the core that ends a piece sends it. There
-/// is no barrier between pieces, at which cores would fall asleep.
+/// An upload in progress. Cores take parts in order, and the core that finishes a piece sends it.
+/// There is no barrier between pieces, at which cores would go to sleep.
 struct Flight<'a> {
     opened: &'a Opened,
     upload: &'a PaddedUpload<'a>,
@@ -170,12 +171,12 @@ struct Flight<'a> {
     end: u64,
     /// The target and the commands so far. One thread at a time calls the driver.
     sent: Mutex<(&'a mut Buffer, Vec<Arc<Handle>>)>,
-    /// The error that ended it early.
+    /// The error that ended the upload early.
     failed: OnceLock<BackendError>,
 }
 
 impl Flight<'_> {
-    /// Takes part after part until none is left.
+    /// Pads and sends part after part, until none is left.
     fn run(&self) {
         loop {
             let first = self.next.fetch_add(PART_POINTS, Ordering::Relaxed);
@@ -199,30 +200,32 @@ impl Flight<'_> {
             return Ok(());
         }
         let part = first..piece.range.end.min(first + PART_POINTS);
-        // SAFETY: a slot has room for any piece, is mapped for as long as it is there, and takes
-        // any bits. What was in it before has been sent, and no other core has this part.
+        // SAFETY: a slot has room for any piece, is mapped for as long as it exists, and may hold
+        // any bits. Its earlier contents have been sent, and no other core has this part.
         let padded: &mut [ControlPoint] = unsafe {
             let start = slot.add((first - piece.range.start) as usize);
             std::slice::from_raw_parts_mut(start, (part.end - part.start) as usize)
         };
-        // The last pieces are written past the caches. Cores that fall asleep after them answer
-        // late for what their caches hold, and the device took up to four times as long to read it.
-        // All pieces past the caches would keep the device from the memory.
+        // The last pieces are written past the caches. If cores go to sleep after these pieces,
+        // reads of what their caches hold are slow: the device took up to four times as long. If
+        // all pieces were written past the caches, they would slow down the device's own reads of
+        // memory.
         pad(self.upload, part, padded, number + self.slots.len() >= self.pieces.len());
         if piece.left.fetch_sub(1, Ordering::AcqRel) == 1 {
             let count = (piece.range.end - piece.range.start) as usize;
-            // SAFETY: as above; all cores are done with it.
+            // SAFETY: the slot has room for the piece and is mapped. All cores have finished their
+            // parts of the piece.
             self.send(piece, unsafe { std::slice::from_raw_parts(slot, count) })?;
         }
         Ok(())
     }
 
     /// Waits until the slot of piece `number` may be written. The core with the piece's first part
-    /// waits for the device. False where another core has failed.
+    /// waits for the device. Returns false if another core has failed.
     fn wait_for_slot(&self, number: usize, first_part: bool) -> Result<bool, BackendError> {
         let piece = &self.pieces[number];
         if let (true, Some(before)) = (first_part, number.checked_sub(self.slots.len())) {
-            // The parts of the piece before were taken earlier, so other cores work on them.
+            // The earlier piece's parts were taken earlier, so other cores are working on them.
             let Some(sent) = self.wait_until(|| self.pieces[before].sent.get()) else { return Ok(false) };
             self.opened.wait(sent)?;
             piece.free.store(true, Ordering::Release);
@@ -230,14 +233,14 @@ impl Flight<'_> {
         Ok(self.wait_until(|| piece.free.load(Ordering::Acquire).then_some(())).is_some())
     }
 
-    /// Asks `answer` until it has one, or until another core has failed.
+    /// Calls `ask` until it returns an answer. None if another core has failed.
     fn wait_until<T>(&self, ask: impl Fn() -> Option<T>) -> Option<T> {
         loop {
             match ask() {
                 Some(answer) => return Some(answer),
                 None if self.failed.get().is_some() => return None,
-                // It takes microseconds, but the core that works on it may share its time with
-                // others.
+                // The answer takes microseconds, but the core that it depends on may be shared with
+                // other threads.
                 None => thread::yield_now(),
             }
         }
@@ -252,14 +255,14 @@ impl Flight<'_> {
         let event = Arc::new(event.map_err(self.opened.failed("clEnqueueWriteBuffer"))?);
         events.push(event.clone());
         flush(queue.raw()).map_err(self.opened.failed("clFlush"))?;
-        // Only this core does so.
+        // Only this core sets the event.
         let _ = piece.sent.set(event);
         Ok(())
     }
 }
 
-/// Writes the padded points of `part`. With `past_caches` they go past the caches, where the
-/// processor can.
+/// Writes the padded points of `part`. With `past_caches` they are written past the caches, if the
+/// processor can do so.
 fn pad(upload: &PaddedUpload<'_>, part: Range<u64>, padded: &mut [ControlPoint], past_caches: bool) {
     let mut rest = padded;
     upload.runs(part, |run| {
@@ -273,7 +276,8 @@ fn pad(upload: &PaddedUpload<'_>, part: Range<u64>, padded: &mut [ControlPoint],
     });
     #[cfg(target_arch = "x86_64")]
     if past_caches {
-        // SAFETY: every x86-64 processor has it. Until here such stores may be seen late.
+        // SAFETY: every x86-64 processor has this instruction. Other threads see stores past the
+        // caches only after it.
         unsafe { std::arch::x86_64::_mm_sfence() };
     }
 }
@@ -284,8 +288,8 @@ fn stream(run: &[ControlPoint], out: &mut [ControlPoint]) {
         use std::arch::x86_64::{__m128, _mm_loadu_ps, _mm_stream_ps};
         if out.as_ptr().cast::<__m128>().is_aligned() {
             for (from, to) in run.iter().zip(out) {
-                // SAFETY: every x86-64 processor has them; a point is four f32, and the first one's
-                // place is aligned.
+                // SAFETY: every x86-64 processor has these instructions. A point is four f32, and
+                // the first point is aligned.
                 unsafe {
                     _mm_stream_ps(
                         std::ptr::from_mut(to).cast(),

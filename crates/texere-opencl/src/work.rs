@@ -28,7 +28,8 @@ pub(crate) struct Work<'a> {
 
 impl<'a> Work<'a> {
     /// The first arguments of all kernels that read a chunk's table, in the order of the sources.
-    /// Kernels without rolls leave out the last two, `block_turns` the last.
+    /// Kernels that read no rolls leave out the last two arguments, and `block_turns` leaves out
+    /// the last.
     pub(crate) fn inputs(
         &self,
         params: &'a Params,
@@ -47,8 +48,8 @@ impl<'a> Work<'a> {
     }
 }
 
-/// The kernels of a schedule. The memory that they are given holds the chunk's tables, and has room
-/// for what the stage writes.
+/// The kernels of a schedule. The memory that is passed to them holds the chunk's tables, and has
+/// room for what the stage writes.
 pub(crate) trait Kernels: Debug + Send {
     /// Whether `mesh` reads the rings of `trajectory`, rather than work them out itself.
     fn mesh_reads_rings(&self) -> bool;

@@ -1,4 +1,4 @@
-//! The conformance suite's pairwise cases on a queue of the caller's, without profiling.
+//! The conformance suite's pairwise cases on a caller's queue without profiling.
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -17,13 +17,14 @@ fn main() -> ExitCode {
 }
 
 fn open() -> Result<Arc<dyn Backend>, BackendError> {
-    // The backend's own list first: it minds that first calls are for one thread alone.
+    // The backend lists the devices first, because the first calls of OpenCL must come from one
+    // thread alone.
     OpenClBackend::devices()?;
     let queue = callers_queue().map_err(|source| BackendError::Driver {
         call: "opening the caller's queue",
         source: source.into(),
     })?;
-    // SAFETY: the queue is valid; the backend retains it.
+    // SAFETY: the queue is valid, and the backend retains it.
     Ok(Arc::new(unsafe { OpenClBackend::on_queue(queue.get(), Schedule::PerRing) }?))
 }
 

@@ -1,4 +1,4 @@
-//! A picture's axes, and its aspect.
+//! The axes and the aspect ratio of a picture.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ pub(crate) fn across(up: Vec3, toward: Vec3) -> [Vec3; 2] {
     [right, toward.cross(right)]
 }
 
-/// Width over height of pictures of `size`.
+/// The width of pictures of `size`, divided by their height.
 pub(crate) fn aspect(size: [u32; 2]) -> f32 {
     // An empty picture is refused later, when it is drawn.
     size[0].max(1) as f32 / size[1].max(1) as f32

@@ -2,10 +2,10 @@
 
 use texere_core::Material;
 
-/// What a picture shows where there is no yarn.
+/// What a picture shows where it shows no yarn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Background {
-    /// Light grey ground that the cloth lies on and casts its shadow on.
+    /// A light grey ground, on which the cloth lies and casts its shadow.
     #[default]
     Ground,
     /// One colour, sRGB.
@@ -15,7 +15,7 @@ pub enum Background {
 }
 
 impl Background {
-    /// Its linear colour and its kind, as `view.wgsl` encodes them.
+    /// The background's linear colour, and its kind as `view.wgsl` encodes it.
     pub(crate) fn encoded(self) -> ([f32; 3], u32) {
         match self {
             Self::Ground => ([0.0; 3], 0),

@@ -5,18 +5,19 @@ use glam::Vec3;
 use crate::axes::{across, aspect};
 use crate::{Extent, RenderError};
 
-/// Room left round the cloth, as a share of it.
+/// The room left round the cloth, as a share of the cloth's size.
 const MARGIN: f32 = 0.05;
 
-/// How high the eye stands over the cloth's plane, radians: in views of the whole cloth, and in
-/// close-ups.
+/// The angle between the line of sight and the cloth's plane in views of the whole cloth, radians.
 const OBLIQUE_HEIGHT: f32 = 0.72;
+
+/// The angle between the line of sight and the cloth's plane in close-ups, radians.
 const CLOSE_HEIGHT: f32 = 0.95;
 
 /// How far the eye stands to the left of the cloth's middle in close-ups, radians.
 const CLOSE_TURN: f32 = -0.35;
 
-/// Which threads a cut goes through.
+/// The threads that a cut goes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Cut {
     /// Across the ends, along a pick.
@@ -27,33 +28,34 @@ pub enum Cut {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Projection {
-    /// All lines of sight parallel.
+    /// All lines of sight are parallel.
     Orthographic {
-        /// What the picture's height shows, mm.
+        /// The length that the picture's height shows, mm.
         height: f32,
     },
-    /// From a point.
+    /// All lines of sight come from the eye.
     Perspective {
-        /// From the target to the eye, mm.
+        /// The distance from the target to the eye, mm.
         distance: f32,
-        /// From the picture's lower to its upper edge, radians.
+        /// The angle from the picture's lower to its upper edge, radians.
         field_of_view: f32,
     },
 }
 
-/// Where an eye is, and where it looks, for [`Camera::perspective`] and [`Camera::orthographic`].
+/// The position of an eye, and the direction in which it looks, for [`Camera::perspective`] and
+/// [`Camera::orthographic`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// The eye, mm.
     pub eye: [f32; 3],
     /// The point in the middle of the picture, mm.
     pub target: [f32; 3],
-    /// What is up in the picture, of any length.
+    /// The direction that is up in the picture, of any length.
     pub up: [f32; 3],
 }
 
 /// A view of a fabric, for pictures of one size. Some constructors show the whole cloth or a place
-/// of it; others take any [`Pose`].
+/// of it. Others take any [`Pose`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -70,7 +72,7 @@ pub struct Pose {
 pub struct Camera {
     size: [u32; 2],
     pub(crate) target: Vec3,
-    /// From the target to the eye.
+    /// The direction from the target to the eye.
     pub(crate) toward: Vec3,
     pub(crate) up: Vec3,
     pub(crate) projection: Projection,
@@ -82,8 +84,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The default field of view, from the picture's lower to its upper edge, radians. It is a
-    /// portrait lens's, in which parallel threads look parallel.
+    /// The default field of view, from the picture's lower to its upper edge, radians. It is that
+    /// of a portrait lens, in which parallel threads look parallel.
     pub const FIELD_OF_VIEW: f32 = 0.42;
 
     /// The whole cloth from straight above its face, its threads along the picture's edges.
@@ -95,7 +97,7 @@ impl Camera {
     }
 
     /// The whole cloth from above at true scale: each pixel shows `mm_per_pixel` each way. The
-    /// picture is as large as the cloth then needs.
+    /// picture is as large as the cloth needs at this scale.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn true_scale(extent: &Extent, mm_per_pixel: f32) -> Result<Self, RenderError> {
@@ -144,7 +146,7 @@ impl Camera {
         })
     }
 
-    /// A cut through the point `at` (x, y), seen straight on, `width` mm of it.
+    /// A cut through the point `at` (x, y), seen straight on. The picture shows `width` mm of it.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn cut(
@@ -167,10 +169,10 @@ impl Camera {
         })
     }
 
-    /// A view from any point, as an eye has it. `field_of_view`: from the picture's lower to its
-    /// upper edge, radians.
+    /// A view in perspective from any point. `field_of_view` is the angle from the picture's lower
+    /// to its upper edge, radians.
     ///
-    /// Light comes from above the cloth where the eye is above the target, else from below it.
+    /// Light comes from above the cloth if the eye is above the target, and else from below.
     ///
     /// ```
     /// # use texere_core::{ControlPoint, Yarn, Yarns};
@@ -201,8 +203,9 @@ impl Camera {
         Self::posed(extent, pose, size, |distance| Projection::Perspective { distance, field_of_view })
     }
 
-    /// A view from any point with parallel lines of sight. `height`: what the picture's height
-    /// shows, mm. The whole depth of the cloth is in the picture, however near the eye is.
+    /// A view from any point with parallel lines of sight. `height` is the length that the
+    /// picture's height shows, mm. The whole depth of the cloth is in the picture, however near the
+    /// eye is.
     ///
     /// **Errors**: [`RenderError::Camera`], as for [`Camera::perspective`].
     pub fn orthographic(
@@ -268,7 +271,7 @@ impl Camera {
         Self { toward: over(self.toward), up: over(self.up), is_over: !self.is_over, ..self }
     }
 
-    /// Width and height of its pictures, pixels.
+    /// Width and height of the camera's pictures, pixels.
     #[must_use]
     pub const fn size(&self) -> [u32; 2] {
         self.size
@@ -279,7 +282,7 @@ impl Camera {
         across(self.up, self.toward)
     }
 
-    /// Width over height of its pictures.
+    /// The width of the camera's pictures, divided by their height.
     pub(crate) fn aspect(&self) -> f32 {
         aspect(self.size)
     }

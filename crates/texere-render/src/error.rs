@@ -4,33 +4,33 @@ use texere_core::backend::SessionError;
 use texere_core::{BackendError, PlanError};
 use thiserror::Error;
 
-/// Why there is no picture.
+/// The reason why a picture can't be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RenderError {
     /// The picture is empty, or larger than the device's textures.
     #[error("a picture of {width} × {height} pixels is not between 1 × 1 and {limit} × {limit}")]
     Size {
-        /// Pixels across.
+        /// The picture's width, pixels.
         width: u32,
-        /// Pixels down.
+        /// The picture's height, pixels.
         height: u32,
         /// The longest side that the device allows.
         limit: u32,
     },
-    /// The picture fits the device's textures, but not with this supersampling.
+    /// The picture fits the device's textures, but its supersampled screen does not.
     #[error(
         "supersampled {supersampling} times, a picture of {width} × {height} pixels is not between 1 × 1 and {limit} × {limit}; \
          {most} times is the most"
     )]
     Supersampling {
-        /// Pixels of the screen for a pixel of the picture, each way.
+        /// The pixels of the screen for each pixel of the picture, each way.
         supersampling: u32,
-        /// The most that a picture of this size may have.
+        /// The largest supersampling that a picture of this size may have.
         most: u32,
-        /// Pixels across.
+        /// The picture's width, pixels.
         width: u32,
-        /// Pixels down.
+        /// The picture's height, pixels.
         height: u32,
         /// The longest side that the device allows.
         limit: u32,
@@ -38,20 +38,20 @@ pub enum RenderError {
     /// A camera's parameter is out of range.
     #[error("{what} of {value} makes no view: it must be {expected}")]
     Camera {
-        /// What the parameter is.
+        /// The name of the parameter.
         what: &'static str,
-        /// Its value.
+        /// The value of the parameter.
         value: f32,
         /// The values that are allowed.
         expected: &'static str,
     },
-    /// The settings can't be planned for.
+    /// No plan can be made for the settings.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The device failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// A wrong call of the session: a fault of this crate.
+    /// The session was called wrongly, which is a fault of this crate.
     #[error(transparent)]
     Session(SessionError),
 }

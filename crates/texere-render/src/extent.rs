@@ -7,20 +7,20 @@ use texere_core::{BackendError, Section, Yarns};
 
 use crate::axes::{across, aspect};
 
-/// The box round a fabric, and how thick its yarns are.
+/// The box round a fabric, and the mean radius of its yarns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
     /// The least x, y and z, mm.
     pub low: [f32; 3],
-    /// The greatest, mm.
+    /// The greatest x, y and z, mm.
     pub high: [f32; 3],
-    /// The mean radius of its yarns, mm. A flattened yarn counts with the radius of a round yarn of
-    /// the same area.
+    /// The mean radius of the fabric's yarns, mm. A flattened yarn counts with the radius of a
+    /// round yarn of the same area.
     pub radius: f32,
 }
 
 impl Extent {
-    /// The box round all control points, each as wide as its yarn.
+    /// The box round all control points. Each point counts as wide as its yarn.
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
         let layout = yarns.layout();
@@ -39,7 +39,7 @@ impl Extent {
                 )
             })
         });
-        // Added up in order, so that the sum is the same every time.
+        // The radii are added up in order, so that the sum is the same every time.
         let (low, high, radii) = each
             .collect::<Vec<_>>()
             .into_iter()
@@ -66,10 +66,10 @@ impl Extent {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
     }
 
-    /// The least distance, mm, from which an eye sees all of the cloth. `toward`: the direction
-    /// from the cloth's middle to the eye. `up`: the direction that is up in pictures of `size`.
-    /// `field_of_view`: from the picture's lower to its upper edge, radians. `margin`: room left
-    /// round the cloth, as a share of it.
+    /// The least distance, mm, from which an eye sees all of the cloth. `toward` is the direction
+    /// from the cloth's middle to the eye, and `up` the direction that is up in pictures of `size`.
+    /// `field_of_view` is the angle from the picture's lower to its upper edge, radians. `margin`
+    /// is the room left round the cloth, as a share of the cloth's size.
     ///
     /// ```
     /// use texere_render::Extent;
@@ -103,13 +103,13 @@ impl Extent {
         (Vec3::from(self.low) + Vec3::from(self.high)) * 0.5
     }
 
-    /// How far yarns may reach out of it, mm. A spline of tension 0 leaves the box of its control
-    /// points by up to an eighth of the box's sides, and sections have corners.
+    /// How far yarns may reach out of the box, mm. A spline of tension 0 leaves the box of its
+    /// control points by up to an eighth of the box's sides, and sections have corners.
     pub(crate) fn spare(&self) -> Vec3 {
         (Vec3::from(self.high) - Vec3::from(self.low)) / 8.0 + self.radius
     }
 
-    /// Its eight corners.
+    /// The eight corners of the box.
     pub(crate) fn corners(&self) -> impl Iterator<Item = Vec3> {
         let (low, high) = (Vec3::from(self.low), Vec3::from(self.high));
         (0..8).map(move |corner| {

@@ -6,9 +6,9 @@
 //!                     normals
 //! ```
 //!
-//! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a
-//! view of the fabric. Compute shaders draw every triangle straight from control points, chunk
-//! after chunk, without a mesh. Then each visible pixel is lit once.
+//! A [`Renderer`] is an open device with its shaders, a [`Scene`] is a fabric on it, and a
+//! [`Camera`] is a view of the fabric. Compute shaders draw every triangle straight from control
+//! points, chunk after chunk, without a mesh. Then each visible pixel is lit once.
 
 mod axes;
 mod background;

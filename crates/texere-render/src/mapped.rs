@@ -1,9 +1,10 @@
-//! A mapped buffer, read by the host.
+//! Reading a mapped buffer on the host.
 
 use texere_core::BackendError;
 use texere_wgpu::WgpuBackend;
 
-/// What `read` makes of `buffer`. The submission that asked for it to be mapped has to be done.
+/// The result of `read` for the contents of `buffer`. The submission after which the buffer is
+/// mapped must be done.
 pub(crate) fn read_mapped<T>(
     device: &WgpuBackend,
     buffer: &wgpu::Buffer,

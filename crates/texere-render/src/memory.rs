@@ -6,7 +6,7 @@ use wgpu::BufferUsages;
 use crate::Renderer;
 
 impl Renderer {
-    /// A buffer that holds `bytes`, and can be written to again.
+    /// A buffer that holds `bytes`, and can be written again.
     pub(crate) fn filled(
         &self,
         what: &'static str,
@@ -18,7 +18,7 @@ impl Renderer {
         Ok(buffer)
     }
 
-    /// A buffer of at least `bytes`, never empty, that can be written.
+    /// A buffer of at least `bytes`, which is never empty and can be written.
     pub(crate) fn buffer(
         &self,
         what: &'static str,
@@ -28,7 +28,7 @@ impl Renderer {
         self.device.buffer(what, bytes, usage | BufferUsages::COPY_DST)
     }
 
-    /// Makes `buffer` at least `bytes` long. A new one does not keep what the old one held.
+    /// Makes `buffer` at least `bytes` long. If it has to grow, its contents are lost.
     pub(crate) fn reserve(&self, buffer: &mut wgpu::Buffer, bytes: u64) -> Result<(), BackendError> {
         if buffer.size() < bytes {
             *buffer = self.buffer("a picture's buffer", bytes, buffer.usage())?;

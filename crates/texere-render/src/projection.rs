@@ -1,5 +1,5 @@
-//! A camera's matrices, which take a place on the cloth to a pixel, and its lines of sight, which
-//! go back.
+//! A camera's matrices, which lead from a place on the cloth to a pixel, and its lines of sight,
+//! which lead back.
 
 use glam::dcamera::rh::proj::directx;
 use glam::dcamera::rh::view;
@@ -9,17 +9,17 @@ use texere_core::Ray;
 use crate::Camera;
 use crate::camera::Projection;
 
-/// The least distance from the eye to the near plane, as a share of the way to the target. A nearer
-/// plane would leave the far end too little depth resolution.
+/// The least distance from the eye to the near plane, as a share of the distance to the target.
+/// With a nearer plane, depths at the far end would be too coarse.
 const NEAREST: f64 = 0.02;
 
 impl Camera {
-    /// The matrix from the cloth's coordinates, mm, to clip space as wgpu has it: x to the right
-    /// and y up from -1 to 1, depth from 0 at the near plane to 1 at the far one, which stand as
-    /// near to the cloth as may be.
+    /// The matrix from the cloth's coordinates, mm, to the clip space of wgpu: x to the right and y
+    /// up from -1 to 1, and depth from 0 at the near plane to 1 at the far plane. Both planes stand
+    /// as near to the cloth as possible.
     ///
-    /// **Shape**: four columns of four. `f64`, since a cloth may be metres wide and a pixel
-    /// micrometres.
+    /// **Shape**: four columns of four. The numbers are `f64`, because a cloth may be metres wide
+    /// and a pixel micrometres.
     ///
     /// ```
     /// # use texere_core::{ControlPoint, Yarn, Yarns};
@@ -38,9 +38,10 @@ impl Camera {
         (self.clip_from_local() * DMat4::from_translation(-self.target.as_dvec3())).to_cols_array_2d()
     }
 
-    /// The line of sight through a point of the picture, in pixels from its left and upper edges: a
-    /// pixel's middle is at a half. It begins at the eye or, where lines of sight are parallel,
-    /// before the cloth; its direction has length 1. A picker says what it hits.
+    /// The line of sight through a point of the picture, in pixels from the picture's left and
+    /// upper edges. The middle of a pixel is at a half. The line begins at the eye or, if lines of
+    /// sight are parallel, before the cloth, and its direction has length 1. A picker finds the
+    /// triangle that it hits.
     #[must_use]
     pub fn ray(&self, [x, y]: [f32; 2]) -> Ray {
         let [width, height] = self.size().map(f64::from);
@@ -62,7 +63,7 @@ impl Camera {
         Ray { origin: origin.to_array(), direction: direction.to_array() }
     }
 
-    /// What the picture's height shows at the target, mm.
+    /// The length that the picture's height shows at the target, mm.
     pub(crate) fn height_at_target(&self) -> f32 {
         self.exact_height_at_target() as f32
     }
@@ -76,7 +77,8 @@ impl Camera {
         }
     }
 
-    /// How far before the target the cloth begins and ends, mm: the nearer first.
+    /// How far before the target the cloth begins and ends, as the eye sees it, mm. The nearer
+    /// distance comes first.
     fn depths(&self) -> [f64; 2] {
         let depths = self.extent.corners().map(|corner| (corner - self.target).dot(self.toward));
         let (far, near) =
@@ -85,16 +87,16 @@ impl Camera {
         [f64::from(near + spare), f64::from(far - spare)]
     }
 
-    /// Whether the inside of yarns can be seen: in cuts, or where the near plane may go through
-    /// yarns. Their ends are closed.
+    /// Whether the inside of yarns can be seen: in cuts, or if the near plane may go through yarns.
+    /// The ends of yarns are closed.
     pub(crate) fn sees_inside(&self) -> bool {
         let Projection::Perspective { distance, field_of_view } = self.projection else { return self.cuts };
         let eye = f64::from(distance);
         if eye - self.depths()[0] >= eye * NEAREST {
-            // All of the cloth lies behind it.
+            // All of the cloth lies behind the near plane.
             return false;
         }
-        // The box round the visible part of the near plane against the cloth's box.
+        // The box round the visible part of the near plane is tested against the cloth's box.
         let [right, above] = self.across().map(|axis| axis.as_dvec3().normalize());
         let (target, toward) = (self.target.as_dvec3(), self.toward.as_dvec3().normalize());
         let middle = target + toward * (eye * (1.0 - NEAREST));
@@ -117,9 +119,10 @@ impl Camera {
             })
     }
 
-    /// Where a point relative to the target lies in clip space.
+    /// The matrix from coordinates relative to the target to clip space.
     pub(crate) fn clip_from_local(&self) -> DMat4 {
-        // The planes enclose the fabric closely, since depth has only 24 bits to tell yarns apart.
+        // The planes enclose the fabric closely, because depth has only 24 bits to distinguish
+        // yarns.
         let [near, far] = self.depths();
         let (toward, up) = (self.toward.as_dvec3(), self.up.as_dvec3());
         let aspect = f64::from(self.aspect());

@@ -1,4 +1,4 @@
-//! A chunk drawn without a mesh, in three steps: list the blocks in view, find the nearest triangle
+//! Draws a chunk without a mesh, in three steps: list the blocks in view, find the nearest triangle
 //! of each sample, and work out what that triangle shows.
 
 use std::ops::Range;
@@ -29,28 +29,34 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own.
-/// Such GPUs take a hundredth of a second for it. Other GPUs get smaller chunks, so that the
-/// desktop does not wait for them. Larger chunks are faster: each costs a look at all samples.
+/// The most blocks of a chunk on CPUs and on GPUs with memory of their own: 67 million rings, which
+/// these GPUs draw in a hundredth of a second. On other GPUs chunks are smaller, so that the
+/// desktop does not wait for them. Few large chunks are faster than many small ones, because after
+/// each chunk all samples are gone through once.
 const BLOCKS_MOST: u64 = 1 << 20;
 
-/// Bytes of a ring's roll.
+/// The bytes of a ring's roll and lean.
 const ROLL_BYTES: u64 = 8;
 
-/// Bytes of a block in the three lists of `Listed`, and of their counts.
+/// The bytes of a block in the three lists of `Listed`. The three counts have as many.
 const LISTED_BYTES: u64 = 12;
 
-/// Bytes of an indirect dispatch's workgroups.
+/// The bytes of the workgroups of one indirect dispatch.
 const GROUPS_BYTES: u64 = 12;
 
-/// Blocks of a workgroup of `cull`: `CULL_GROUP / BLOCK_LANES`; and of `list_all`: `CULL_GROUP`.
+/// The number of blocks that a workgroup of `cull` tests: `CULL_GROUP / BLOCK_LANES` of
+/// `cull.wgsl`.
 const CULLED_BLOCKS: u32 = 8;
+
+/// The number of blocks that a workgroup of `list_all` lists: `CULL_GROUP` of `cull.wgsl`.
 const LISTED_BLOCKS: u32 = 64;
 
-/// The buffers of one chunk at a time, as large as the largest so far.
+/// The buffers with which chunks are drawn, one chunk at a time. They are as large as the largest
+/// chunk so far needed.
 #[derive(Debug)]
 pub(crate) struct Raster {
-    /// One for each round.
+    /// The parameters of each round. With 32-bit atomics the first round finds depths and the
+    /// second finds triangles. With 64-bit atomics there is one round.
     sweeps: [wgpu::Buffer; 2],
     listed: wgpu::Buffer,
     groups: wgpu::Buffer,
@@ -59,9 +65,9 @@ pub(crate) struct Raster {
     reach: f32,
     /// Whether any section turns.
     rolled: bool,
-    /// The hairs per mm of each yarn; none where no yarn has any.
+    /// The number of hairs per mm of each yarn; none if no yarn has hairs.
     hair_densities: Option<wgpu::Buffer>,
-    /// Whether the next picture shows them.
+    /// Whether the next picture shows hairs.
     pub(crate) has_hairs: bool,
     /// Whether the next picture shows all of the fabric.
     pub(crate) sees_all: bool,
@@ -90,30 +96,34 @@ impl Raster {
         self.hair_densities.is_some()
     }
 
-    /// The limits that chunks are cut to. Their tables fit a binding, the numbers of their
-    /// triangles and hairs fit 32 bits, and none takes long to draw.
+    /// The limits by which the fabric is cut into chunks. A chunk's tables fit a binding, the
+    /// numbers of its triangles and hairs fit 32 bits, and it takes only a short time to draw.
     pub(crate) fn chunk_limits(plan: &Plan, yarns: &Yarns, device: &DeviceInfo) -> Limits {
         let settings = plan.settings();
         let triangles = 2 * u64::from(BLOCK_RINGS) * u64::from(settings.sides);
-        // A block has two caps at most, each with as many numbers as a block.
+        // Triangles are numbered. A block has at most two caps, and each cap gets as many numbers
+        // as a block.
         let hairs = if hairs::any(yarns) { hairs::OF_BLOCK } else { 0 };
         let numbered = u64::from(u32::MAX) / (3 * triangles + hairs);
-        // The points that a block's rings read, and at most three more at either end.
+        // The control points for one block: one for each interval of its rings, and three more,
+        // because an interval reads four points.
         let points = u64::from(BLOCK_RINGS.div_ceil(settings.subdivisions + 1)) + 3;
-        // A caller's own limit stands.
+        // If the caller has set a limit other than the default, that limit is kept.
         let kinds = [DeviceKind::DiscreteGpu, DeviceKind::Cpu];
         let is_fast = kinds.contains(&device.kind) && device.limits.blocks == LAUNCH_BLOCKS;
         let blocks = if is_fast { BLOCKS_MOST } else { device.limits.blocks };
         let binding = device.limits.binding_bytes;
-        // A window begins a little before the first point and ends a little behind the last.
+        // A chunk binds a window of the control points. 32 points are reserved, because a window
+        // begins at a multiple of `WINDOW_POINTS` (16), and the last ring reads points behind its
+        // interval.
         let windows = (binding / size_of::<ControlPoint>() as u64).saturating_sub(32) / points;
-        // The rolls of all rings must fit; all other tables are smaller.
+        // The rolls of all rings must fit. All other tables are smaller.
         let tables = (binding / (u64::from(BLOCK_RINGS) * ROLL_BYTES)).saturating_sub(1);
         Limits { blocks: numbered.min(windows).min(tables).min(blocks).max(2), ..Limits::NONE }
     }
 
     /// Draws a chunk on the rows `band` of the screen, over what earlier chunks left there, and
-    /// hands the work to the device.
+    /// submits the work to the device.
     pub(crate) fn draw(
         &mut self,
         renderer: &Renderer,
@@ -159,7 +169,7 @@ impl Raster {
     }
 }
 
-/// What the passes over a chunk bind.
+/// The resources that the passes over a chunk bind.
 struct Binder<'a> {
     raster: &'a Raster,
     device: &'a wgpu::Device,
@@ -169,7 +179,7 @@ struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    /// The sweep of a round, with its binding in group 1.
+    /// The binding of a round's parameters: number 1 in group 1.
     fn sweep(&self, round: usize) -> (u32, BindingResource<'_>) {
         (1, self.raster.sweeps[round].as_entire_binding())
     }
@@ -227,7 +237,7 @@ impl Binder<'_> {
             let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
             let sweep = self.sweep(round);
             let own = [view.clone(), sweep.clone(), listed.clone(), samples.clone(), rolls.clone()];
-            // Where no section turns there are no rolls.
+            // If no section turns, there are no rolls.
             let without = usize::from(!rolled);
             let counts = [Some(count_listed), Some(count_left), None];
             for (number, (count, raster)) in (0..).zip(counts.into_iter().zip(rasters)) {
@@ -253,8 +263,8 @@ impl Binder<'_> {
         }
     }
 
-    /// Records the shader that works out what these triangles show, over `columns` and `rows` of
-    /// the screen.
+    /// Records the shader that works out what the nearest triangle of each sample shows, over
+    /// `columns` and `rows` of the screen.
     fn show(
         &self,
         pass: &mut wgpu::ComputePass<'_>,

@@ -9,7 +9,7 @@ use texere_shaders::picture;
 use texere_wgpu::{LONG_ATOMICS, WgpuBackend};
 use wgpu::{BindGroupEntry, BindingResource};
 
-/// How the nearest triangle of a sample is found.
+/// The kind of atomics that find the nearest triangle of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Keys {
     /// Atomics of 64 bits: depth and triangle at once.
@@ -24,7 +24,7 @@ impl Keys {
         if device.device().features().contains(LONG_ATOMICS) { Self::Whole } else { Self::InRounds }
     }
 
-    /// How many times all triangles are gone through.
+    /// The number of times that all triangles are gone through.
     pub(crate) const fn rounds(self) -> usize {
         match self {
             Self::Whole => 1,
@@ -40,12 +40,12 @@ pub(crate) struct Rasteriser {
     raster: [&'static str; 2],
     hairs: &'static str,
     resolve: Cow<'static, str>,
-    /// By `flattened`, `rolled`, `hairy`.
+    /// The shaders of each kind of fabric, indexed by `flattened`, `rolled` and `hairy`.
     kinds: [[[OnceLock<Arc<Pipelines>>; 2]; 2]; 2],
 }
 
-/// What shaders are specialised for: whether any yarn is flattened, any section turns, any fibre
-/// stands off.
+/// The kind of fabric that shaders are specialised for: whether any yarn is flattened, any section
+/// turns, and any fibre stands off.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kind {
     pub(crate) flattened: bool,
@@ -60,10 +60,11 @@ pub(crate) struct Pipelines {
     pub(crate) list_all: wgpu::ComputePipeline,
     pub(crate) count_listed: wgpu::ComputePipeline,
     pub(crate) count_left: wgpu::ComputePipeline,
-    /// For quads of at most two by two pixels, of a few samples, and of many.
+    /// The pipelines for quads of at most two by two pixels, for quads of a few samples, and for
+    /// quads of many samples.
     pub(crate) rasters: [wgpu::ComputePipeline; 3],
     pub(crate) caps: wgpu::ComputePipeline,
-    /// None where no yarn has hairs.
+    /// The pipeline of hairs; none if no yarn has hairs.
     pub(crate) hairs: Option<wgpu::ComputePipeline>,
     pub(crate) resolve: wgpu::ComputePipeline,
 }
@@ -77,8 +78,8 @@ impl Rasteriser {
         Self { keys, raster, hairs, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
     }
 
-    /// These shaders, but for the one that says what samples show: a broken one, which a test
-    /// must find.
+    /// These shaders with another source for the shader that works out what samples show. Tests
+    /// give a broken one, which must be noticed.
     #[cfg(test)]
     pub(crate) fn with_resolve(self, resolve: String) -> Self {
         Self { resolve: Cow::Owned(resolve), ..self }
@@ -112,7 +113,7 @@ impl Rasteriser {
     }
 }
 
-/// What `place` holds, compiled at its first use.
+/// The compiled value in `place`. It is compiled if `place` is empty.
 ///
 /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
 pub(crate) fn compiled_once<'a, T>(
@@ -124,7 +125,7 @@ pub(crate) fn compiled_once<'a, T>(
         return Ok(compiled);
     }
     let compiled = device.scoped("Device::create_compute_pipeline", || compile(device.device()))?;
-    // Another scene may have been faster.
+    // Another scene may have compiled it meanwhile.
     Ok(place.get_or_init(|| compiled))
 }
 
@@ -135,7 +136,7 @@ pub(crate) fn module(device: &wgpu::Device, source: impl Into<Cow<'static, str>>
     })
 }
 
-/// A compute pipeline whose layout is what its shader uses.
+/// A compute pipeline whose layout follows from its shader.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,

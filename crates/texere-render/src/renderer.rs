@@ -1,4 +1,4 @@
-//! The pipelines: yarns, visibility, light, pixels.
+//! A device with the pipelines of pictures: yarns, visibility, light, pixels.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -32,7 +32,8 @@ pub struct Renderer {
     pub(crate) device: WgpuBackend,
     pub(crate) rasteriser: Arc<Rasteriser>,
     pub(crate) visibility: wgpu::ComputePipeline,
-    /// For near views and for far ones, each compiled at its first use.
+    /// The pipelines that light samples, for near views and for far views. Each is compiled at its
+    /// first use.
     shade: Arc<[OnceLock<wgpu::ComputePipeline>; 2]>,
     pub(crate) gather: wgpu::ComputePipeline,
     /// The screen of the last picture.
@@ -69,15 +70,15 @@ impl Renderer {
         })
     }
 
-    /// A screen for pictures of this size. The last picture's is taken again where it fits and no
-    /// scene holds it any more, since a device takes longer to allocate that much memory than to
-    /// draw.
+    /// A screen for pictures of this size. The screen of the last picture is used again if it fits
+    /// and no scene holds it any more, because a device takes longer to allocate so much memory
+    /// than to draw.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Driver`],
     /// [`BackendError::DeviceLost`].
     pub(crate) fn screen(&self, size: [u32; 2], supersampling: u32) -> Result<Arc<Screen>, BackendError> {
         let mut last = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
-        // A screen that does not fit is freed before another is asked for.
+        // A screen that does not fit is freed before another is allocated.
         let free =
             last.take().filter(|screen| screen.fits(size, supersampling) && Arc::strong_count(screen) == 1);
         let screen = match free {
@@ -87,20 +88,20 @@ impl Renderer {
         Ok(last.insert(screen).clone())
     }
 
-    /// The device.
+    /// The information about the device.
     #[must_use]
     pub fn info(&self) -> &DeviceInfo {
         self.device.info()
     }
 
-    /// The backend that it draws on. Yarns that a settler of this backend has settled stay on the
-    /// device for [`Renderer::settled_scene`].
+    /// The backend that the renderer draws on. Yarns that a settler of this backend has settled
+    /// stay on the device for [`Renderer::settled_scene`].
     #[must_use]
     pub const fn backend(&self) -> &WgpuBackend {
         &self.device
     }
 
-    /// The longest side of a picture, supersampled, in pixels.
+    /// The longest side of a supersampled picture, pixels.
     pub(crate) fn side_limit(&self) -> u32 {
         self.device.device().limits().max_texture_dimension_2d
     }

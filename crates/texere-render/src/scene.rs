@@ -17,35 +17,38 @@ use crate::screen::{SCREEN_GROUP, Screen};
 use crate::uniform::{ViewUniform, YarnLook};
 use crate::{Background, Camera, Extent, RenderError, Renderer};
 
-/// Chunks whose tables a session keeps on the device.
+/// The number of chunks whose tables a session keeps on the device.
 const CHUNKS_KEPT: usize = 2;
 
 /// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quality {
-    /// Pixels of the screen for each pixel of the picture, each way. Each pixel of the screen has
-    /// four samples.
+    /// The pixels of the screen for each pixel of the picture, each way. Each pixel of the screen
+    /// has four samples.
     pub supersampling: u32,
-    /// Whether fibres that stand off yarns are drawn. They are drawn where threads are four pixels
+    /// Whether fibres that stand off yarns are drawn. They are drawn if threads are four pixels
     /// wide or more, and never in cuts.
     pub hairs: bool,
 }
 
 impl Default for Quality {
-    /// Four pixels of the screen, so sixteen samples, for each pixel of the picture; with fibres.
+    /// Four pixels of the screen, and thus sixteen samples, for each pixel of the picture; with
+    /// fibres.
     fn default() -> Self {
         Self { supersampling: 2, hairs: true }
     }
 }
 
-/// Sides of tubes in a picture of woven cloth at rest, and the most control points for which they
-/// are used. Threads of larger cloths are hardly wider than pixels.
+/// The number of sides of tubes in a picture of woven cloth at rest.
 const FINE_SIDES: u32 = 16;
+
+/// The most control points of woven cloth at rest that is drawn with [`FINE_SIDES`]. Threads of
+/// larger cloths are hardly wider than pixels.
 const FINE_POINTS: usize = 4_000_000;
 
-/// The default number of sides of tubes in a picture. Polygons have as many as they have corners.
-/// `lies_close`: whether the yarns are flattened threads of woven cloth at rest, which lie so close
-/// that with fewer sides the ground would show past their corners.
+/// The default number of sides of tubes in a picture. Polygons have as many sides as corners.
+/// `lies_close` is whether the yarns are flattened threads of woven cloth at rest. These lie so
+/// close that with fewer sides the ground would show past their corners.
 ///
 /// **Units**: sides of a section, as in [`Settings::sides`].
 #[must_use]
@@ -63,17 +66,17 @@ pub fn picture_sides(yarns: &Yarns, lies_close: bool) -> u32 {
 pub struct Picture {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Red, green and blue, a byte each, sRGB; rows from the top.
+    /// Red, green and blue, a byte each, sRGB. The rows go from the top down.
     pub rgb: Vec<u8>,
-    /// How much of each pixel shows a yarn or a background, a byte, 255 for all of it. It is less
-    /// only with [`Background::Nothing`]. Colours are not multiplied by it.
+    /// The share of each pixel that shows a yarn or a background, a byte: 255 is all of the pixel.
+    /// It is less only with [`Background::Nothing`]. Colours are not multiplied by it.
     pub alpha: Vec<u8>,
-    /// How long it took.
+    /// The time that each stage of the picture took.
     pub timings: PictureTimings,
 }
 
 impl Picture {
-    /// Red, green, blue and alpha, a byte each.
+    /// The picture's red, green, blue and alpha, a byte each.
     #[must_use]
     pub fn rgba(&self) -> Vec<u8> {
         let pixels = self.rgb.chunks_exact(3).zip(&self.alpha);
@@ -84,18 +87,18 @@ impl Picture {
 /// The time that each stage of a picture took. Stages follow one another.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PictureTimings {
-    /// Taking textures of its size, where the picture before had another.
+    /// The time for allocating textures, if the picture before had another size.
     pub screen: Duration,
-    /// Finding what each sample shows, chunk after chunk.
+    /// The time for finding what each sample shows, chunk after chunk.
     pub draw: Duration,
-    /// Visibility and light.
+    /// The time for visibility and light.
     pub shade: Duration,
-    /// The copy to the host.
+    /// The time for the copy to the host.
     pub copy: Duration,
 }
 
-/// A fabric on a device, as control points and tables. A picture takes no mesh, but memory for its
-/// samples: eight bytes each while they are found, and 25 until pixels are made of them. The
+/// A fabric on a device, as control points and tables. A picture needs no mesh, but memory for its
+/// samples: eight bytes each while they are found, and 25 until pixels are made from them. The
 /// renderer keeps that memory for the next scene.
 #[derive(Debug)]
 pub struct Scene {
@@ -103,7 +106,7 @@ pub struct Scene {
     pub(crate) plan: Arc<Plan>,
     pub(crate) session: WgpuSession,
     limits: Limits,
-    /// All chunks, where they are few enough to stay in the session; otherwise none.
+    /// All chunks, if they are few enough to stay in the session; otherwise none.
     chunks: Vec<Chunk>,
     extent: Extent,
     looks: wgpu::Buffer,
@@ -122,28 +125,28 @@ pub struct Scene {
 pub struct DevicePicture {
     /// Red, green, blue and alpha, a byte each, to be sampled or copied. Values are sRGB, though
     /// the format is [`wgpu::TextureFormat::Rgba8Unorm`]. The texture is lent: the scene's next
-    /// picture of the same size is drawn into it. Once the scene is dropped, another scene of the
-    /// renderer may take it.
+    /// picture of the same size is drawn into it. After the scene is dropped, another scene of the
+    /// renderer may use it.
     pub texture: wgpu::TextureView,
-    /// How long it took. Nothing is copied.
+    /// The time that each stage of the picture took. Nothing is copied.
     pub timings: PictureTimings,
 }
 
 impl Renderer {
-    /// Sends a fabric to the device. Several fabrics make one with [`Yarns::placed`], which says
-    /// where each is, and [`Yarns::merged`]. The settings' topology and caps are ignored: pictures
-    /// list their own triangles, and show yarns solid where they end or are cut.
-    /// [`Settings::following_fibres`] gives enough rings for the yarns' twist.
+    /// Sends a fabric to the device. To show several fabrics, put them into one: [`Yarns::placed`]
+    /// sets where each is, and [`Yarns::merged`] joins them. The settings' topology and caps are
+    /// ignored: pictures list their own triangles, and show yarns as solid where they end or are
+    /// cut. [`Settings::following_fibres`] gives enough rings for the yarns' twist.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
         self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
     }
 
-    /// The scene of `yarns` as `settler` has placed them. A settler of this renderer's device hands
-    /// them over without a way over the host. Which yarns are
+    /// The scene of `yarns` where `settler` has placed them. If the settler is on this renderer's
+    /// device, they do not go through the host. Which yarns are
     /// [steep](texere_core::Layout::is_steep), and how outlines [lean](texere_core::Layout::ups),
-    /// stays as `yarns` say.
+    /// remains as in `yarns`.
     ///
     /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Backend`] for a settler of
     /// other yarns.
@@ -200,7 +203,7 @@ impl Renderer {
 }
 
 impl Scene {
-    /// Bytes sent between host and device so far, without the pictures themselves.
+    /// The bytes sent between host and device so far, without the pictures themselves.
     #[must_use]
     pub fn traffic(&self) -> Traffic {
         self.session.traffic()
@@ -212,30 +215,30 @@ impl Scene {
         &self.extent
     }
 
-    /// The plan that its mesh is made from.
+    /// The plan of the fabric's mesh.
     #[must_use]
     pub const fn plan(&self) -> &Arc<Plan> {
         &self.plan
     }
 
-    /// This scene with chunks cut to `limits`, where the scene's own are wider.
+    /// This scene with chunks cut to `limits`, if the scene's own are wider.
     #[cfg(test)]
     pub(crate) fn with_limits(self, limits: &Limits) -> Self {
         let limits = self.limits.min(limits);
-        // Limits that no block fits are an error when a picture is made.
+        // If no block fits the limits, making a picture is an error.
         Self { chunks: kept_chunks(&self.plan, &limits).unwrap_or_default(), limits, ..self }
     }
 
-    /// Sets the background of pictures from now on; it is [`Background::Ground`] at first.
+    /// Sets the background of pictures from now on. At first it is [`Background::Ground`].
     pub fn set_background(&mut self, background: Background) {
         self.background = background;
     }
 
     /// Makes a picture.
     ///
-    /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device
-    /// has no textures for, [`RenderError::Plan`] where not even one block fits the limits,
-    /// [`RenderError::Backend`].
+    /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for a picture that is
+    /// too large for the device's textures, [`RenderError::Plan`] if not even one block fits the
+    /// limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
         let timings = self.frame(camera, quality)?.timings;
         let start = Instant::now();
@@ -282,7 +285,7 @@ impl Scene {
         self.raster.has_hairs = view.has_hairs();
         self.raster.sees_all = camera.sees_all();
         self.is_far = view.is_far();
-        // A first compilation should not count as drawing.
+        // The shader is compiled here, so that its first compilation does not count as drawing.
         self.renderer.shade(self.is_far)?;
         self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         Ok(texture)
@@ -300,7 +303,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Draws chunk after chunk.
+    /// Draws all chunks, one after the other.
     pub(crate) fn draw(&mut self) -> Result<(), RenderError> {
         if self.chunks.is_empty() {
             let plan = self.plan.clone();
@@ -312,7 +315,7 @@ impl Scene {
         drawn
     }
 
-    /// Draws `chunks`. While one is drawn, the next one's tables are sent.
+    /// Draws `chunks`. While one is drawn, the tables of the next are sent.
     fn draw_chunks(&mut self, chunks: impl Iterator<Item: Borrow<Chunk>>) -> Result<(), RenderError> {
         let Self { renderer, session, raster, view, screen: Some(screen), .. } = self else { return Ok(()) };
         let mut before = None;
@@ -321,8 +324,8 @@ impl Scene {
             let tables = session.chunk_tables(chunk)?;
             for band in screen.bands() {
                 let drawn = raster.draw(renderer, tables, chunk, view, screen, band)?;
-                // No more than two are under way, so that each wait is for one chunk and not for a
-                // whole fabric.
+                // No more than two chunks are in progress, so that each wait is for one chunk and
+                // not for a whole fabric.
                 if let Some(submission) = before.replace(drawn) {
                     renderer.device.wait(submission)?;
                 }
@@ -334,7 +337,7 @@ impl Scene {
         }
     }
 
-    /// Visibility, then light, then pixels from their samples.
+    /// Works out visibility, then light, and then pixels from their samples.
     pub(crate) fn shade(&self) -> Result<(), RenderError> {
         let (renderer, Some(screen)) = (&self.renderer, &self.screen) else { return Ok(()) };
         let texture = BindingResource::TextureView;
@@ -370,7 +373,7 @@ impl Scene {
         Ok(device.wait(submission)?)
     }
 
-    /// Colours and alpha, on the host.
+    /// Copies the picture to the host, and returns its colours and its alpha.
     pub(crate) fn copy(&self) -> Result<[Vec<u8>; 2], RenderError> {
         let Some(screen) = &self.screen else { return Ok([Vec::new(), Vec::new()]) };
         let device = &self.renderer.device;
@@ -386,16 +389,16 @@ impl Scene {
     }
 }
 
-/// All chunks of a plan where they are few enough to stay in a session; otherwise none.
+/// All chunks of a plan, if they are few enough to stay in a session; otherwise none.
 ///
-/// **Errors**: [`PlanError`] where not even one block fits the limits.
+/// **Errors**: [`PlanError`] if not even one block fits the limits.
 fn kept_chunks(plan: &Plan, limits: &Limits) -> Result<Vec<Chunk>, PlanError> {
     let first: Vec<_> = plan.chunks(limits)?.take(CHUNKS_KEPT + 1).collect();
     Ok(if first.len() > CHUNKS_KEPT { Vec::new() } else { first })
 }
 
-/// The mean way from ring to ring of each yarn, mm, estimated from its first control points. It
-/// serves only to scale the fibres' pattern.
+/// The mean distance from ring to ring of each yarn, mm, estimated from its first control points.
+/// It is used only to scale the fibres' pattern.
 fn ring_lengths(yarns: &Yarns, plan: &Plan) -> Vec<f32> {
     const POINTS: usize = 64;
     let per_interval = plan.settings().subdivisions as f32 + 1.0;

@@ -9,33 +9,35 @@ use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 
 use crate::mapped::read_mapped;
 
-/// Samples of a pixel. They lie where rasterisers of every device have four.
+/// The number of samples of a pixel. They lie where the rasterisers of all devices have four
+/// samples.
 pub(crate) const SAMPLES: u32 = 4;
 
 /// `SCREEN_GROUP` of `view.wgsl`.
 pub(crate) const SCREEN_GROUP: u32 = 8;
 
-/// Bytes of a pixel of a picture.
+/// The bytes of a pixel of a picture.
 const COLOR_BYTES: u32 = 4;
 
-/// Bytes of a sample's key.
+/// The bytes of a sample's key.
 const KEY_BYTES: u64 = 8;
 
-/// Most bytes of keys: sixteen samples for each of two million pixels.
+/// The most bytes of keys: sixteen samples for each of two million pixels.
 const KEYS_MOST: u64 = 256 << 20;
 
 /// The memory for pictures of one size. It takes 8 bytes a pixel, and 132 bytes times the square of
-/// the supersampling; fewer where a binding does not hold the keys of all samples.
+/// the supersampling; less if a binding can't hold the keys of all samples.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],
     supersampling: u32,
-    /// A layer for each sample of a pixel.
+    /// The depths of samples. This texture and the next two have a layer for each sample of a
+    /// pixel.
     pub(crate) depths: wgpu::TextureView,
     pub(crate) directions: wgpu::TextureView,
     pub(crate) places: wgpu::TextureView,
     pub(crate) visibility: wgpu::TextureView,
-    /// The four samples of a pixel, in one number each.
+    /// The four lit samples of each pixel, in one number each.
     pub(crate) lit: wgpu::TextureView,
     pub(crate) picture: wgpu::TextureView,
     /// The nearest triangle of each sample of a band.
@@ -88,7 +90,7 @@ impl Screen {
         Ok(Self { size, supersampling, depths, directions, places, visibility, lit, picture, keys, host })
     }
 
-    /// Whether pictures of this size can be drawn into it.
+    /// Whether pictures of this size can be drawn into the screen.
     pub(crate) fn fits(&self, size: [u32; 2], supersampling: u32) -> bool {
         (self.size, self.supersampling) == (size, supersampling)
     }
@@ -103,7 +105,7 @@ impl Screen {
         self.size.map(|pixels| pixels * self.supersampling)
     }
 
-    /// The bands of rows that are drawn one after the other: each has as many rows as there are
+    /// The bands of rows that are drawn one after the other. A band has as many rows as there are
     /// keys for.
     pub(crate) fn bands(&self) -> impl Iterator<Item = Range<u32>> + use<> {
         let height = self.large()[1];
@@ -111,7 +113,7 @@ impl Screen {
         (0..height).step_by(rows).map(move |first| first..height.min(first + rows as u32))
     }
 
-    /// Bytes of the keys of `rows` rows.
+    /// The bytes of the keys of `rows` rows.
     pub(crate) fn key_bytes(&self, rows: u32) -> u64 {
         u64::from(rows) * key_row(self.large())
     }
@@ -159,12 +161,12 @@ impl Screen {
     }
 }
 
-/// Bytes of the keys of one row of a screen.
+/// The bytes of the keys of one row of a screen.
 fn key_row(large: [u32; 2]) -> u64 {
     u64::from(large[0]) * u64::from(SAMPLES) * KEY_BYTES
 }
 
-/// Bytes of a row of the copy: wgpu requires multiples of 256.
+/// The bytes of a row of the copy. wgpu requires multiples of 256.
 fn row_bytes(size: [u32; 2]) -> u32 {
     (size[0] * COLOR_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }

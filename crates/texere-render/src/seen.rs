@@ -6,27 +6,29 @@ use wgpu::{BufferUsages, Extent3d, Origin3d, TexelCopyBufferInfo, TexelCopyBuffe
 use crate::mapped::read_mapped;
 use crate::{RenderError, Scene};
 
-/// What a picture shows at a point: the yarn, and where on its surface.
+/// What a picture shows at a point: the yarn, and the place on its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
-    /// The number of the yarn, from 0.
+    /// The number of the yarn, counted from 0.
     pub yarn: usize,
-    /// The place on its surface, or on a fibre that stands off it, mm. Where a yarn is cut open,
-    /// the place lies on the far wall inside.
+    /// The place on the yarn's surface, or on a fibre that stands off the yarn, mm. If the picture
+    /// shows a yarn that is cut open, the place lies on the far wall inside.
     pub position: [f64; 3],
 }
 
-/// Bytes that are read of a sample: its place on the yarn, and its depth.
+/// The bytes of a sample's place on the yarn.
 const PLACE_BYTES: u64 = 8;
+
+/// The bytes of a sample's depth.
 const DEPTH_BYTES: u64 = 4;
 
 /// `MARKS` of `view.wgsl`.
 const MARKS: u32 = 0xc000_0000;
 
 impl Scene {
-    /// What the last picture shows at a point, in pixels from its left and upper edges. None where
-    /// it shows no yarn, outside the picture, and before the first one. It is read from the
-    /// picture's samples, so its cost does not grow with the fabric.
+    /// What the last picture shows at a point, in pixels from its left and upper edges. None if it
+    /// shows no yarn there, if the point lies outside the picture, and before the first picture.
+    /// The result is read from the picture's samples, so its time does not grow with the fabric.
     ///
     /// ```no_run
     /// # fn example(scene: &texere_render::Scene) -> Result<(), texere_render::RenderError> {

@@ -1,4 +1,4 @@
-//! Pictures held against goldens, and against what geometry says they must show.
+//! Compares pictures with goldens, and with what they must show by geometry.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
@@ -21,12 +21,12 @@ use texere_wgpu::{Schedule, WgpuBackend};
 use crate::rasteriser::{Keys, Rasteriser};
 use crate::{Camera, Cut, Extent, Quality, RenderError, Renderer};
 
-/// The goldens were drawn by lavapipe, whose device this is.
+/// The device of lavapipe, which drew the goldens.
 const DEVICE: &str = "llvmpipe";
 
-/// How far a picture may be from its golden: the mean of FLIP (Andersson et al. 2020), a measure of
-/// the visible difference. It is not 0, since other versions of LLVM round some pixels the other
-/// way.
+/// The most that a picture may differ from its golden, by the mean of FLIP (Andersson et al. 2020),
+/// a measure of the visible difference. It is not 0, because other versions of LLVM round some
+/// pixels differently.
 const TOLERANCE: f32 = 0.02;
 
 const SIZE: [u32; 2] = [240, 180];
@@ -48,15 +48,15 @@ fn open(rasteriser: Rasteriser) -> Renderer {
     Renderer::with_rasteriser(device, rasteriser).unwrap()
 }
 
-/// One device for all tests. Pictures are drawn one at a time: lavapipe has all cores to itself
-/// then.
+/// One device for all tests. Pictures are drawn one at a time, so that lavapipe has all cores to
+/// itself.
 fn renderer() -> &'static Mutex<Renderer> {
     static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
     RENDERER.get_or_init(|| Mutex::new(open(Rasteriser::new(Keys::Whole))))
 }
 
-/// A cloth of the test's own, so that goldens stay what they are when weaves change: 2/2 twill, a
-/// millimetre from thread to thread, warp in two colours and twisted, weft flat.
+/// A cloth of the test's own, so that goldens do not change when weaves do. [`TWILL`] is a 2/2
+/// twill, with a millimetre from thread to thread, a twisted warp in two colours and a flat weft.
 struct Cloth {
     up: fn(usize, usize) -> bool,
     end_color: fn(usize) -> u32,
@@ -133,7 +133,7 @@ fn picture(yarns: &Yarns, camera: &Camera) -> RgbImage {
     draw(&renderer().lock().unwrap(), yarns, camera, &Limits::NONE)
 }
 
-/// 0 for the same picture, 1 for black against white.
+/// The visible difference of two pictures: 0 for equal pictures, 1 for black against white.
 fn difference(one: &RgbImage, other: &RgbImage) -> f32 {
     assert_eq!(one.dimensions(), other.dimensions());
     let [one, other] = [one, other]
@@ -169,7 +169,7 @@ fn pictures_are_their_goldens() {
     assert!(wrong.is_empty(), "look at these, and where they are right put them into goldens/: {wrong:#?}");
 }
 
-/// Each of these must be found to differ from its golden.
+/// Tests that a wrong picture is found to differ from its golden.
 fn assert_seen(what: &str, name: &str, drawn: &RgbImage) {
     let off = difference(drawn, &golden(name));
     assert!(off > TOLERANCE, "{what} is off by {off} only");
@@ -217,7 +217,8 @@ fn a_missing_golden_fails() {
 fn chunks_draw_the_same_picture() {
     let yarns = TWILL.yarns();
     let extent = Extent::of(&yarns);
-    // One block and the ring that it repeats: every yarn of more than 64 rings is cut.
+    // A chunk has one block and the ring that it repeats, so every yarn of more than 64 rings is
+    // cut.
     let long = Settings { subdivisions: 11, ..SETTINGS };
     let renderer = renderer().lock().unwrap();
     for (name, camera) in cameras(&extent) {
@@ -230,12 +231,12 @@ fn chunks_draw_the_same_picture() {
     }
 }
 
-/// Where the samples of a screen are more than a binding holds.
+/// The screen has more samples than a binding holds.
 #[test]
 fn bands_draw_the_same_picture() {
     let yarns = TWILL.yarns();
     let whole = renderer().lock().unwrap();
-    // Eight rows of the screen at a time.
+    // These limits allow eight rows of the screen at a time.
     let limits = Limits { binding_bytes: 1 << 16, ..Limits::NONE };
     let device = whole.backend().clone().with_limits(limits);
     let in_bands = Renderer::with_rasteriser(device, Rasteriser::new(Keys::Whole)).unwrap();
@@ -246,7 +247,7 @@ fn bands_draw_the_same_picture() {
     }
 }
 
-/// From rest to the picture no byte goes over the host but the report.
+/// From rest to the picture no byte goes through the host but the report.
 #[test]
 fn settled_yarns_are_drawn_where_they_rest() {
     let yarns = TWILL.yarns();
@@ -259,8 +260,8 @@ fn settled_yarns_are_drawn_where_they_rest() {
     for _ in 0..8 {
         settler.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 1.0, momentum: 0.8 }).unwrap();
     }
-    // In frames that are carried along a yarn is drawn alike whether it was steep at the start or
-    // is at rest.
+    // In a rotation minimising frame a yarn is drawn in the same way, whether it was steep at the
+    // start or is so at rest.
     let settings = Settings { frame: Frame::RotationMinimizing, ..SETTINGS };
     let mut scene = renderer.settled_scene(&yarns, &settings, settler.as_mut()).unwrap();
     assert_eq!(scene.traffic(), Traffic::default());
@@ -275,7 +276,7 @@ fn settled_yarns_are_drawn_where_they_rest() {
     }
     let (here, there) = (scene.extent(), Extent::of(&moved));
     for axis in 0..3 {
-        // All yarns are taken for as wide as the widest.
+        // All yarns count as wide as the widest.
         let widest = plan.spans().thickest;
         assert!(
             (0.0..2.0 * widest).contains(&(there.low[axis] - here.low[axis] + 1e-4)),
@@ -293,25 +294,26 @@ fn settled_yarns_are_drawn_where_they_rest() {
     };
     let sent = drawn_at(&moved);
     assert!(difference(&drawn, &sent) < 1e-3, "{}", difference(&drawn, &sent));
-    // They have moved so far that the picture shows it.
+    // The yarns have moved so far that the picture shows it.
     let start = drawn_at(&yarns);
     assert!(difference(&start, &sent) > 5e-3, "{}", difference(&start, &sent));
 }
 
-/// What is drawn from control points is what the mesh shows, on the device's own rasteriser.
+/// A picture that is drawn from control points shows what the mesh shows on the device's own
+/// rasteriser.
 #[test]
 fn pictures_are_those_of_the_mesh() {
     let renderer = renderer().lock().unwrap();
     let flat = flattened(&TWILL.yarns());
-    // Bent down to either side, as over an arm.
+    // The cloth is bent down to either side, as over an arm.
     let bent = flat.mapped(|[x, y, z]| {
         let (sin, cos) = ((x - 5.0) / 6.0).sin_cos();
         [5.0 + (6.0 + z) * sin, y, (6.0 + z) * cos - 6.0]
     });
     for (cloth, yarns) in [("twill", TWILL.yarns()), ("flattened", flat), ("bent", bent.unwrap())] {
         let extent = Extent::of(&yarns);
-        // Threads of one and a half pixels, and less: a dozen triangles for each sample. The near
-        // view has triangles of many pixels.
+        // In small pictures threads are one and a half pixels wide and less, with a dozen triangles
+        // for each sample. The near view has triangles of many pixels.
         let small = [0.6, 1.1].map(|scale| ("small", Camera::true_scale(&extent, scale).unwrap()));
         let near = [("near", Camera::close_up(&extent, [5.0, 3.5], 0.4, SIZE).unwrap())];
         for (name, camera) in cameras(&extent).into_iter().chain(small).chain(near) {
@@ -319,8 +321,8 @@ fn pictures_are_those_of_the_mesh() {
             let judged = mesh_path::judge(&mut scene, &camera);
             let off = difference(&judged.pictures[0], &judged.pictures[1]);
             // Samples on an edge may fall to either side of it. Small pictures have edges
-            // everywhere, and all kinds of normals beyond a triangle's edge, as rasterisers have
-            // them in a pixel's middle.
+            // everywhere. Their pixels' middles often lie outside of triangles, where rasterisers
+            // extrapolate all kinds of normals.
             println!("{cloth} {name}: samples {:.5}, picture {off:.4}", judged.off);
             let (most, tolerance) = if name == "small" { (0.01, 0.15) } else { (0.001, TOLERANCE) };
             assert!(judged.off <= most && off <= tolerance, "{cloth} {name}: {} {off}", judged.off);
@@ -339,7 +341,7 @@ fn flattened(yarns: &Yarns) -> Yarns {
     flat
 }
 
-/// Either kind of atomics, any chunks, any number of workgroups a block: the same bytes.
+/// Either kind of atomics, with any chunks, gives the same bytes.
 #[test]
 fn either_kind_of_atomics_gives_the_same_picture() {
     let yarns = TWILL.yarns();
@@ -358,7 +360,7 @@ fn is_red(image: &RgbImage, x: u32, y: u32) -> bool {
     red > green + 25 && red > blue + 25
 }
 
-/// Two red yarns of radius 0.5 along y, at x = 1 and x = 6 mm, the second half as long.
+/// Two red yarns of radius 0.5 mm along y, at x = 1 and x = 6 mm. The second is half as long.
 fn two_yarns() -> Yarns {
     let mut yarns = Yarns::builder();
     yarns.material(Material { srgb: [200, 30, 30], ..Material::default() });
@@ -371,32 +373,34 @@ fn two_yarns() -> Yarns {
 #[test]
 fn true_scale_is_true() {
     let yarns = two_yarns();
-    // The box is 0.5 to 6.5 by -0.5 to 8.5, since it takes each point as wide as its yarn.
+    // The box goes from 0.5 to 6.5 mm in x and from -0.5 to 8.5 mm in y, because each point counts
+    // as wide as its yarn.
     let camera = Camera::true_scale(&Extent::of(&yarns), 0.05).unwrap();
     assert_eq!(camera.size(), [120, 180]);
     let drawn = picture(&yarns, &camera);
     let red_in = |xs: std::ops::Range<u32>, y| xs.filter(|&x| is_red(&drawn, x, y)).count();
-    // A millimetre is twenty pixels; a tube of twelve sides is as wide as its circle.
+    // A millimetre is twenty pixels, and a tube of twelve sides is as wide as its circle.
     for y in [100, 150] {
         assert!(red_in(0..60, y).abs_diff(20) <= 1, "{}", red_in(0..60, y));
         assert!(red_in(60..120, y).abs_diff(20) <= 1, "{}", red_in(60..120, y));
     }
-    // y = 8 is 0.5 mm below the top, y = 4 is 4.5 mm.
+    // The first yarn ends 0.5 mm below the top of the picture (y = 8), the second 4.5 mm (y = 4).
     let top = |x| (0..180).find(|&y| is_red(&drawn, x, y)).unwrap();
     assert!(top(10).abs_diff(10) <= 1 && top(110).abs_diff(90) <= 1, "{} {}", top(10), top(110));
 }
 
-/// Straight tubes, through which one would see to the other side.
+/// The yarns are straight tubes. If they were hollow, one would see through them to the other side.
 #[test]
 fn a_cut_shows_solid_yarns() {
     let yarns = two_yarns();
     let extent = Extent::of(&yarns);
-    // Across both at y = 3: a millimetre is twenty pixels, x = 3.5 mm and z = 0 are in the middle.
+    // The cut goes across both yarns at y = 3. A millimetre is twenty pixels, and x = 3.5 mm and z
+    // = 0 are in the middle.
     let drawn = picture(&yarns, &Camera::cut(&extent, Cut::Warp, [3.5, 3.0], 7.0, [140, 40]).unwrap());
     for x in [20, 120] {
         let section: Vec<_> = (x - 6..=x + 6).flat_map(|x| (14..=26).map(move |y| (x, y))).collect();
         assert!(section.iter().all(|&(x, y)| is_red(&drawn, x, y)), "{x}");
-        // One plane, and one light on it.
+        // The section is one plane in one light.
         let colors: std::collections::HashSet<_> =
             section.iter().map(|&(x, y)| drawn.get_pixel(x, y).0).collect();
         assert_eq!(colors.len(), 1, "{colors:?}");
@@ -431,7 +435,7 @@ fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
             scene.picture(&Camera::face(&extent, size), Quality { supersampling, ..Quality::default() });
         assert!(matches!(refused, Err(RenderError::Size { .. })), "{size:?}");
     }
-    // A picture that fits without supersampling is refused for the supersampling.
+    // A picture that fits without supersampling is refused because of the supersampling.
     let limit = renderer.side_limit();
     for (size, given, most) in [([10, 10], 0, limit / 10), ([limit, 1], 2, 1), ([1, limit / 2], 3, 2)] {
         match scene

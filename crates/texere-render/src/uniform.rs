@@ -7,19 +7,20 @@ use texere_core::Yarns;
 use crate::camera::Projection;
 use crate::{Background, Camera};
 
-/// How far ambient occlusion looks, radii of a yarn: across to the next yarn but one in a close
+/// The reach of ambient occlusion, radii of a yarn: across to the next yarn but one in a close
 /// cloth.
 const REACH_RADII: f32 = 5.0;
 
-/// How far shadows fall, radii of a yarn.
+/// The reach of shadows, radii of a yarn.
 const SHADOW_RADII: f32 = 9.0;
 
-/// The thickness that anything that casts a shadow is taken to have, radii of a yarn: two yarns,
-/// one on the other.
+/// The thickness that is assumed of everything that casts a shadow, radii of a yarn: that of two
+/// yarns, one on the other.
 const THICKNESS_RADII: f32 = 4.0;
 
-/// Least reach of ambient occlusion, pixels. Where everything that could take light from a place
-/// lies closer to it than this, the screen shows nothing of it, and visibility is not looked for.
+/// The least reach of ambient occlusion, pixels. If everything that could take light from a place
+/// lies closer to the place than this, the screen does not show it, and visibility is not worked
+/// out.
 const LEAST_REACH: f32 = 1.5;
 
 /// `View` of `view.wgsl`.
@@ -50,9 +51,9 @@ pub(crate) struct ViewUniform {
 const _: () = assert!(size_of::<ViewUniform>() == 256);
 
 impl ViewUniform {
-    /// `may_have_hairs`: whether fibres stand off the yarns and are wanted. They are shown where
+    /// `may_have_hairs` is whether fibres stand off the yarns and are wanted. They are shown if
     /// threads are four pixels wide or more; on finer threads no fibre could be seen. Cuts show
-    /// none: there the hairs of the whole cloth would lie one before another.
+    /// none, because the hairs of the whole cloth would lie one before another.
     pub(crate) fn new(
         camera: &Camera,
         background: Background,
@@ -98,22 +99,22 @@ impl ViewUniform {
         self.has_hairs != 0
     }
 
-    /// Whether visibility is left out, as [`LEAST_REACH`] says.
+    /// Whether visibility is left out because its reach is below [`LEAST_REACH`].
     pub(crate) fn is_far(&self) -> bool {
         self.reach_pixels < LEAST_REACH
     }
 }
 
-/// How far a pixel reaches for its samples where threads are `thickness` pixels wide, pixels. Below
-/// two pixels the threads' own pattern is finer than pixels can show, and the reach is a whole
-/// pixel. Up to four pixels it fades to 0.
+/// How far a pixel reaches for its samples, pixels, if threads are `thickness` pixels wide. Below
+/// two pixels the pattern of the threads themselves is finer than pixels can show, and the reach is
+/// a whole pixel. Up to four pixels the reach falls to 0.
 fn spread(thickness: f32) -> f32 {
     (2.0 - 0.5 * thickness).clamp(0.0, 1.0)
 }
 
 /// The direction to the key light. It stands high on the left and a little beyond the cloth, so
-/// that threads across and along shine by turns. In a cut, where beyond is up, it stands on the
-/// eye's side.
+/// that threads across and along shine by turns. In a cut, which the eye sees from the side, it
+/// stands above and on the eye's side.
 fn key_light(camera: &Camera, up: Vec3) -> Vec3 {
     let [right, above] = camera.across();
     let (height, beyond) = if camera.cuts {
@@ -139,9 +140,10 @@ pub(crate) struct YarnLook {
 const _: () = assert!(size_of::<YarnLook>() == 32);
 
 impl YarnLook {
-    /// The looks of all yarns of a fabric. `ring_lengths`: the mean way from ring to ring of each
-    /// yarn, mm. A yarn without twist is taken for filament, smooth as silk; a twisted yarn for
-    /// spun staple. Widths are of the order that Sadeghi et al. 2013 measured on silk and on linen.
+    /// The looks of all yarns of a fabric. `ring_lengths` has the mean distance from ring to ring
+    /// of each yarn, mm. A yarn without twist is drawn as filament, smooth as silk, and a twisted
+    /// yarn as spun staple. Widths are of the order that Sadeghi et al. 2013 measured on silk and
+    /// on linen.
     pub(crate) fn all(yarns: &Yarns, ring_lengths: &[f32]) -> Vec<Self> {
         let degrees = f32::to_radians;
         let look = |(yarn, &ring_length): (&texere_core::Yarn, &f32)| {

@@ -1,4 +1,4 @@
-//! Answers: a few numbers that a device returns after its work.
+//! Answers, which are a few numbers that a device returns after its work.
 
 use bytemuck::Pod;
 use texere_core::BackendError;
@@ -14,13 +14,13 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// Takes memory for answers of up to `bytes`.
+    /// A buffer for answers of up to `bytes`.
     pub(crate) fn new(gpu: &Gpu, bytes: u64) -> Result<Self, BackendError> {
         Ok(Self { buffer: gpu.buffer("readback", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)? })
     }
 
-    /// Submits what `record` records, and waits. Returns `count` numbers of `source` from number
-    /// `first` on, as they are after that work.
+    /// Submits what `record` records, and waits until it is done. Returns the `count` numbers of
+    /// `source` from number `first` on, after that work.
     pub(crate) fn after<T: Pod>(
         &self,
         gpu: &Gpu,

@@ -18,7 +18,7 @@ pub(crate) struct AttributeKernels {
 impl AttributeKernels {
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
-        // Attributes do not depend on sizes.
+        // Attributes do not depend on half widths and half heights.
         let kernel = |shader| Kernel::new(gpu, shader, false);
         Ok(Self {
             block_lengths: kernel(&BLOCK_LENGTHS)?,

@@ -41,16 +41,16 @@ pub struct WgpuBackend {
 
 impl WgpuBackend {
     /// All devices. The place in this list is the number that [`WgpuBackend::open`] takes;
-    /// [`DeviceInfo::name`] is `wgpu:0` and so on. Drivers are asked once in a process.
+    /// [`DeviceInfo::name`] is `wgpu:0` and so on. Devices are listed once in a process.
     ///
-    /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
+    /// **Errors**: [`BackendError::NoDevice`] if there is no device or no driver.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
         let described = Self::describe(adapters());
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
     }
 
-    /// The information of [`WgpuBackend::devices`] about a program's own adapters, such as those
-    /// that can draw into its window.
+    /// The information that [`WgpuBackend::devices`] gives, about a program's own adapters, such as
+    /// those that can draw into its window.
     #[must_use]
     pub fn describe(adapters: &[wgpu::Adapter]) -> Vec<DeviceInfo> {
         let describe = |(index, adapter): (usize, &wgpu::Adapter)| {
@@ -62,8 +62,8 @@ impl WgpuBackend {
     }
 
     /// The features and limits that [`WgpuBackend::open`] requests: the adapter's limits, and
-    /// timestamp queries and [`LONG_ATOMICS`] where it offers them. A program that opens a device
-    /// itself uses it before [`WgpuBackend::from_device`].
+    /// timestamp queries and [`LONG_ATOMICS`] if it offers them. A program that opens a device
+    /// itself uses this descriptor before [`WgpuBackend::from_device`].
     #[must_use]
     pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {
@@ -77,8 +77,8 @@ impl WgpuBackend {
     /// Opens device number `index` of [`WgpuBackend::devices`], with timestamp queries and
     /// [`LONG_ATOMICS`] if it has them.
     ///
-    /// **Errors**: [`BackendError::NoDevice`], which lists the devices there are;
-    /// [`BackendError::Driver`] where the device can't be opened; [`BackendError::Compile`];
+    /// **Errors**: [`BackendError::NoDevice`], which lists the devices that exist;
+    /// [`BackendError::Driver`] if the device can't be opened; [`BackendError::Compile`];
     /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
@@ -107,9 +107,9 @@ impl WgpuBackend {
         Self::open(index, schedule)
     }
 
-    /// Works on a caller's device, such as a viewer's. Its name is `wgpu`.
+    /// A backend on a caller's device, such as a viewer's. The backend's name is `wgpu`.
     ///
-    /// All calls are made within error scopes, and the device's callbacks stay the caller's. No
+    /// All calls are made within error scopes, and the device's callbacks remain the caller's. No
     /// feature is needed. `TIMESTAMP_QUERY` makes timings exact, and [`LONG_ATOMICS`] make pictures
     /// faster. With wgpu's default limits a chunk has up to 128 MiB of vertices.
     /// [`Schedule::PerRing`] is the fast and complete schedule; [`Schedule::PerYarn`] is the
@@ -129,7 +129,7 @@ impl WgpuBackend {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`BackendError::Compile`], also where the device's limits are below WebGPU's
+    /// **Errors**: [`BackendError::Compile`], also if the device's limits are below WebGPU's
     /// defaults.
     pub fn from_device(
         device: wgpu::Device,
@@ -145,8 +145,8 @@ impl WgpuBackend {
         Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
     }
 
-    /// This device with `limits`, where its own are wider. Use it for a device with less memory
-    /// than its bindings could hold, or to test with many small chunks.
+    /// This device with `limits`, if its own are wider. Use it for a device with less memory than
+    /// its bindings could hold, or to test with many small chunks.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         let info = DeviceInfo { limits: self.info.limits.min(&limits), ..self.info };
@@ -173,8 +173,8 @@ impl WgpuBackend {
         &self.opened.gpu.queue
     }
 
-    /// Runs `work`, a caller's own calls on the device and its queue, so that a fault in it is an
-    /// error and not a panic. `call` names it in the error.
+    /// Runs `work`, a caller's own calls on the device and its queue, so that a fault in `work`
+    /// becomes an error and not a panic. `call` names it in the error.
     ///
     /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
     pub fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
@@ -194,7 +194,7 @@ impl WgpuBackend {
         self.opened.gpu.buffer(what, bytes, usage)
     }
 
-    /// Waits until `submission` is done, and runs the callbacks of all submissions that are.
+    /// Waits until `submission` is done, and runs the callbacks of all submissions that are done.
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), BackendError> {

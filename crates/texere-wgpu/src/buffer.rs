@@ -11,8 +11,8 @@ pub(crate) struct Buffer {
     what: &'static str,
     usage: BufferUsages,
     buffer: wgpu::Buffer,
-    /// Whether it has ever held anything. There is a `wgpu::Buffer` even before, since wgpu can't
-    /// bind an empty one.
+    /// Whether the buffer has ever held anything. There is a `wgpu::Buffer` even before that,
+    /// because wgpu can't bind an empty buffer.
     used: bool,
 }
 
@@ -21,7 +21,7 @@ impl Buffer {
         Ok(Self { what, usage, buffer: gpu.buffer(what, 0, usage)?, used: false })
     }
 
-    /// Makes it at least `bytes` long. What it held is lost where it has to grow.
+    /// Makes the buffer at least `bytes` long. If it has to grow, its contents are lost.
     pub(crate) fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<&wgpu::Buffer, BackendError> {
         self.used |= bytes > 0;
         if self.buffer.size() < bytes {

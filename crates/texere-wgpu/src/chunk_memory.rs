@@ -1,4 +1,4 @@
-//! The device memory of a chunk in flight: its tables and its results.
+//! The device memory of a chunk: its tables and its results.
 
 use std::ops::Range;
 
@@ -13,15 +13,15 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::tables::Tables;
 
-/// The memory of a chunk in flight. The next chunk but one takes it again.
+/// The memory of one chunk at a time. It is used again for the next chunk but one.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,
     window: Range<u64>,
-    /// Rows of the block table. A row is the work of a workgroup or, in the schedule per-yarn, of a
-    /// lane.
+    /// The number of rows of the block table. A row is the work of a workgroup or, in the schedule
+    /// per-yarn, of a lane.
     pub(crate) rows: u32,
-    /// Vertices of all caps.
+    /// The number of vertices of all caps.
     pub(crate) cap_vertices: u32,
     params: Buffer,
     blocks: Buffer,
@@ -29,9 +29,9 @@ pub(crate) struct ChunkMemory {
     pub(crate) rings: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
-    /// Empty until attributes are asked for.
+    /// The attributes of the chunk's vertices. Empty until attributes are asked for.
     pub(crate) attributes: Buffer,
-    /// Empty until packed vertices are asked for.
+    /// The packed vertices of the chunk. Empty until packed vertices are asked for.
     pub(crate) packed: Buffer,
 }
 
@@ -56,7 +56,7 @@ impl ChunkMemory {
         })
     }
 
-    /// Bytes of its tables and results.
+    /// The bytes of the chunk's tables and results.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { blocks, cap_rows, rings, vertices, indices, attributes, packed, .. } = self;
         [blocks, cap_rows, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
@@ -108,7 +108,7 @@ impl ChunkMemory {
         Ok(())
     }
 
-    /// The binding of `resource` for this chunk. None for a resource that is not of a mesh.
+    /// The binding of `resource` for this chunk. None for a resource that meshes do not use.
     pub(crate) fn resource<'a>(
         &'a self,
         tables: &'a Tables,

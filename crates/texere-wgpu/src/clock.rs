@@ -1,4 +1,4 @@
-//! The time of each stage, by the device's own clock where it can be read.
+//! The time of each stage, by the device's own clock if it can be read.
 
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
@@ -9,9 +9,9 @@ use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, Submissi
 
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
-/// Whether a device with `features` lets its clock be read. Without it the host times a launch,
-/// from its submission to its end as the host sees it. If the launch before ends later than that
-/// submission, the time begins there. Uploads and readbacks are always timed by the host.
+/// Whether the clock of a device with `features` can be read. If not, the host times a launch from
+/// its submission to the moment when the host notices its end. If the launch before ends after that
+/// submission, the time begins at that end. Uploads and readbacks are always timed by the host.
 pub(crate) fn has_clock(features: Features) -> bool {
     features.contains(Features::TIMESTAMP_QUERY)
 }
@@ -24,23 +24,23 @@ pub(crate) enum Timed {
     Mesh,
 }
 
-/// Launches that can be timed at once. One more waits for the first of them.
+/// The number of launches that can be timed at once. A further launch waits for the first of them.
 const STAMPS: u32 = 16;
 
-/// Bytes of a stamp: the two ticks at which a launch began and ended.
+/// The bytes of a stamp: the two ticks at which a launch began and ended.
 const STAMP_BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
 
-/// Adds up times as launches turn out to be done.
+/// Adds up the times of launches that are done.
 #[derive(Debug)]
 pub(crate) struct Clock {
     stamps: Option<Stamps>,
     pending: Vec<Pending>,
-    /// The moment when the host saw the last launch done.
+    /// The moment when the host noticed the end of the last launch.
     seen: Option<Instant>,
     totals: StageTimings,
 }
 
-/// A launch that the host has not yet seen done. `done` brings the moment when it is.
+/// A launch whose end the host has not yet noticed. `done` receives the moment of its end.
 #[derive(Debug)]
 struct Pending {
     timed: Timed,
@@ -54,7 +54,8 @@ struct Pending {
 #[derive(Debug)]
 struct Stamps {
     queries: wgpu::QuerySet,
-    /// Ticks as queries resolve to them, one stamp each [`wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT`].
+    /// The ticks that queries are resolved to, with one stamp for each
+    /// [`wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT`].
     resolved: wgpu::Buffer,
     /// A buffer for each stamp, since a mapped buffer can't be copied to.
     mapped: Vec<wgpu::Buffer>,
@@ -113,7 +114,7 @@ impl Clock {
         Ok(())
     }
 
-    /// Takes the times of launches that have been seen done.
+    /// Adds the times of launches whose end was noticed.
     fn collect(&mut self, gpu: &Gpu) {
         for launch in std::mem::take(&mut self.pending) {
             match launch.done.try_recv() {
@@ -123,16 +124,16 @@ impl Clock {
         }
     }
 
-    /// Waits for a launch, and takes its time.
+    /// Waits for a launch, and adds its time.
     fn finish(&mut self, gpu: &Gpu, launch: Pending) -> Result<(), BackendError> {
         let waited = gpu.wait(launch.submission.clone());
-        // Another thread's poll may have found the work done, and be about to report it.
+        // The poll of another thread may have noticed the end, and may not have reported it yet.
         let done = if waited.is_ok() { launch.done.recv_timeout(WAIT_LIMIT).ok() } else { None };
         self.add(gpu, &launch, done);
         waited
     }
 
-    /// Adds the time of a launch that was seen done, or that never will be.
+    /// Adds the time of a launch whose end was noticed, or never will be.
     fn add(&mut self, gpu: &Gpu, launch: &Pending, done: Option<Instant>) {
         let time = match (&mut self.stamps, launch.stamp, done) {
             (Some(stamps), Some(stamp), _) => stamps.take(gpu, stamp),
@@ -152,8 +153,8 @@ impl Clock {
         *total += time;
     }
 
-    /// Waits for all launches, and returns their times. Where the device is lost, the times of the
-    /// launches before.
+    /// Waits for all launches, and returns their times. If the device is lost, these are the times
+    /// of the launches before.
     pub(crate) fn totals(&mut self, gpu: &Gpu) -> StageTimings {
         for launch in std::mem::take(&mut self.pending) {
             if self.finish(gpu, launch).is_err() {
@@ -205,8 +206,8 @@ impl Stamps {
         }
     }
 
-    /// The time of a stamp whose buffer is mapped; zero where the device is lost. The stamp is free
-    /// again.
+    /// The time of a stamp whose buffer is mapped, or zero if the device is lost. The stamp is then
+    /// free again.
     fn take(&mut self, gpu: &Gpu, stamp: u32) -> Duration {
         self.free.push(stamp);
         let Some(buffer) = self.mapped.get(stamp as usize) else { return Duration::ZERO };
@@ -215,7 +216,7 @@ impl Stamps {
             let tick = |bytes: &[u8]| bytes.try_into().map(u64::from_ne_bytes).ok();
             tick(end)?.checked_sub(tick(start)?)
         });
-        // An error here has no one to go to. Without the scope it would panic.
+        // An error here can't be returned. Without the scope it would panic.
         let _ = gpu.caught(|| buffer.unmap());
         Duration::from_nanos((ticks.unwrap_or(0) as f64 * self.nanoseconds_per_tick) as u64)
     }

@@ -1,4 +1,4 @@
-//! The devices that there are, and what each can hold.
+//! The devices that can compute, and the limits of each.
 
 use std::sync::OnceLock;
 
@@ -7,19 +7,20 @@ use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
 use texere_gpu::capabilities;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
-/// The default limit of the blocks of a launch: some 16 million rings. Launches of this size take
-/// too little time for a watchdog to end them, even on a software device.
+/// The default limit of the blocks of a launch: some 16 million rings. Launches of this size end
+/// before a watchdog stops them, even on a software device.
 pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
 /// Features with which a picture finds the depth and the triangle of a sample at once. Without them
-/// it goes through all triangles twice.
+/// a picture goes through all triangles twice.
 pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
 
-/// All adapters that can compute. Drivers are asked once, and stay loaded until the process ends.
+/// All adapters that can compute. They are listed once, and drivers stay loaded until the process
+/// ends.
 ///
-/// NVIDIA's crashes where adapters are listed, or its libEGL is unloaded, while another thread does
-/// so: devices that `tests/leaning.rs` opened and dropped side by side ended it in four of six
-/// runs.
+/// NVIDIA's driver crashes if adapters are listed, or its libEGL is unloaded, in two threads at
+/// once. When `tests/leaning.rs` opened and dropped devices in several threads, the process crashed
+/// in four of six runs.
 pub(crate) fn adapters() -> &'static [wgpu::Adapter] {
     static ADAPTERS: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
     let (_, adapters) = ADAPTERS.get_or_init(|| {
@@ -64,10 +65,11 @@ pub(crate) fn describe(
             DeviceType::Cpu => DeviceKind::Cpu,
             _ => DeviceKind::Other,
         },
-        // wgpu does not say.
+        // wgpu does not report the memory of a device.
         memory_bytes: None,
         limits: Limits {
-            // Buffers are rounded up to multiples of 16 bytes, and must stay within the limit then.
+            // Buffers are rounded up to multiples of 16 bytes, and must not exceed the limit
+            // afterwards.
             binding_bytes: binding_bytes / 16 * 16,
             blocks: LAUNCH_BLOCKS,
             ..Limits::NONE

@@ -31,11 +31,11 @@ pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferL
 };
 
 /// Draws a whole live mesh in `pass`, with the pipeline that the caller has set. Vertices are
-/// vertex buffer 0 ([`VERTEX_LAYOUT`]), and attributes, where the mesh
+/// vertex buffer 0 ([`VERTEX_LAYOUT`]), and attributes, if the mesh
 /// [keeps](LiveMesh::keep_attributes) any, vertex buffer 1 ([`ATTRIBUTE_LAYOUT`]). Yarns are drawn
 /// one after the other, with the draws of [`texere_core::backend::Plan::chunk_draws`].
 ///
-/// Returns none and draws nothing where the mesh is not on a wgpu device, was never
+/// Returns none and draws nothing if the mesh is not on a wgpu device, was never
 /// [updated](LiveMesh::update), or has a topology other than [`Topology::Indexed`].
 ///
 /// ```no_run

@@ -48,8 +48,8 @@ impl WgpuEngine {
         let gpu = &opened.gpu;
         check_schedule(opened.schedule, &plan, &gpu.name)?;
         gpu.probe()?;
-        // Tables come first: a device that can't hold the points says so before the host takes
-        // memory for them.
+        // The tables come first, so that a device that can't hold the points is noticed before the
+        // host allocates memory for them.
         let tables = Tables::new(gpu, &plan)?;
         Ok(Self {
             ends: YarnEnds::new(&plan)?,
@@ -80,16 +80,16 @@ impl WgpuEngine {
         self.ends.flattened()
     }
 
-    /// Checks that `chunk` is of the plan, and that its tables are in `slot`, or else returns
-    /// [`BackendError::NotLoaded`].
+    /// Returns [`BackendError::NotLoaded`] unless `chunk` is one of the plan's and its tables are
+    /// in `slot`.
     fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
     /// The engine behind a [`LiveMesh`](texere_core::backend::LiveMesh), which lends the mesh's
-    /// buffers. None where the mesh is not on a wgpu device. [`draw`](fn@crate::draw) draws the
-    /// whole mesh.
+    /// buffers. None if the mesh is not on a wgpu device. [`draw`](fn@crate::draw) draws the whole
+    /// mesh.
     ///
     /// A live mesh has room between its yarns, in which triangles of earlier edits may lie. Draw
     /// what [`Plan::chunk_draws`] says of the mesh's current plan, and never a chunk from its first
@@ -117,41 +117,44 @@ impl WgpuEngine {
     }
 
     /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal,
-    /// from the start of the buffer, which may be longer. None where nothing was made yet. Its
-    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// from the start of the buffer, which may be longer. None if nothing was made yet. Its usages
+    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn vertex_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.vertices.buffer())
     }
 
-    /// The indices of the chunk in `slot`, likewise: [`Chunk::indices`] of four bytes. A topology
-    /// other than [`Indexed`](texere_core::Topology::Indexed) has none. Its usages are `INDEX`,
-    /// `STORAGE` and `COPY_SRC`.
+    /// The indices of the chunk in `slot`: [`Chunk::indices`] of four bytes, from the start of the
+    /// buffer, which may be longer. None if nothing was made yet. A topology other than
+    /// [`Indexed`](texere_core::Topology::Indexed) has none. Its usages are `INDEX`, `STORAGE` and
+    /// `COPY_SRC`.
     #[must_use]
     pub fn index_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.indices.buffer())
     }
 
-    /// The attributes of the chunk in `slot`, likewise: one of 24 bytes for each vertex. Its usages
-    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// The attributes of the chunk in `slot`: one of 24 bytes for each vertex, from the start of
+    /// the buffer, which may be longer. None if nothing was made yet. Its usages are `VERTEX`,
+    /// `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn attribute_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.attributes.buffer())
     }
 
-    /// The packed vertices of the chunk in `slot`, likewise: one of 12 bytes for each vertex. Its
-    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// The packed vertices of the chunk in `slot`: one of 12 bytes for each vertex, from the start
+    /// of the buffer, which may be longer. None if nothing was made yet. Its usages are `VERTEX`,
+    /// `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn packed_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.packed.buffer())
     }
 
-    /// Bytes of device memory that the engine holds.
+    /// The bytes of device memory that the engine holds.
     pub(crate) fn device_bytes(&self) -> u64 {
         self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Changes to the kernels for all yarns once a yarn is flattened.
+    /// Changes to the kernels for all yarns if a yarn is flattened.
     fn choose_kernels(&mut self) -> Result<(), BackendError> {
         if self.ends.flattened() {
             self.kernels = self.opened.flattened()?;
@@ -159,8 +162,8 @@ impl WgpuEngine {
         Ok(())
     }
 
-    /// Reads the ends of yarns from the device, where an upload of `count` points needs some that
-    /// the host does not have.
+    /// Reads the ends of yarns from the device, if an upload of `count` points needs some that the
+    /// host does not have.
     fn find_ends(&mut self, first: u64, count: usize) -> Result<(), BackendError> {
         if self.ends.are_missing(&self.plan, first, count) {
             let total = self.plan.padded_offsets().last().copied().unwrap_or(0);
@@ -175,7 +178,7 @@ impl WgpuEngine {
         Ok(())
     }
 
-    /// Runs kernels one after the other on the chunk in `slot`, each with its workgroups.
+    /// Runs kernels one after the other on the chunk in `slot`, each with its number of workgroups.
     fn run(&mut self, slot: Slot, timed: Timed, kernels: &[(&Kernel, u32)]) -> Result<(), BackendError> {
         let (gpu, memory, tables) = (&self.opened.gpu, &self.memory[slot.index()], &self.tables);
         self.clock.run(gpu, timed, |pass| {
@@ -187,8 +190,8 @@ impl WgpuEngine {
         gpu.probe()
     }
 
-    /// Runs `of_blocks` with a workgroup for each block of `chunks`, then `of_yarns` with a
-    /// workgroup for each of their yarns.
+    /// Runs `of_blocks` with one workgroup for each block of `chunks`, and then `of_yarns` with one
+    /// workgroup for each yarn of `chunks`.
     fn run_over(
         &mut self,
         chunks: ScanChunks<'_>,
@@ -201,8 +204,7 @@ impl WgpuEngine {
                 self.load(slot, &chunk)?;
             }
             self.check_loaded(slot, &chunk)?;
-            // A repeated ring has no step. Its block is written by the next chunk, which comes
-            // later.
+            // A repeated ring has no step. The next chunk writes the ring's block later.
             self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
             last = Some((slot, chunk));
         }
@@ -212,8 +214,8 @@ impl WgpuEngine {
         }
     }
 
-    /// Runs `kernel` with a workgroup for each of `yarns`. `chunk`, the one in `slot`, is the last
-    /// with blocks of them.
+    /// Runs `kernel` with one workgroup for each of `yarns`. `chunk`, which is in `slot`, is the
+    /// last chunk with blocks of these yarns.
     fn run_for_yarns(
         &mut self,
         slot: Slot,
@@ -241,7 +243,8 @@ impl Engine for WgpuEngine {
         let upload = self.ends.upload(&self.plan, first, points);
         let gpu = &self.opened.gpu;
         let sent = self.outbox.send(gpu, &self.tables.points, &upload)?;
-        // Submits now, so that wgpu's own copy of the points does not wait until the first launch.
+        // An empty submission now makes wgpu send its copy of the points, which would otherwise
+        // wait until the first launch.
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
         self.ends.keep(&upload);
@@ -326,7 +329,7 @@ impl Engine for WgpuEngine {
         let rows = YarnRow::of(&plan, yarns.clone());
         self.opened.gpu.write(self.tables.yarns.buffer(), first as u64, bytemuck::cast_slice(&rows))?;
         self.tables.reserve_rolls(&self.opened.gpu, &plan)?;
-        // Room for leans is taken with the first yarn that leans. It is empty then, so all leans
+        // Room for leans is allocated when the first yarn leans. It is empty at first, so all leans
         // are sent.
         let all = 0..plan.layout().yarns().len();
         let leaning = if self.plan.layout().leans() { yarns } else { all };

@@ -1,5 +1,5 @@
-//! A device with its queue. All calls into wgpu go through it, with their errors mapped, so that
-//! none can panic or hang.
+//! A device with its queue. All calls of wgpu go through it, and their errors are returned, so that
+//! no call can panic or hang.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,32 +8,33 @@ use std::time::Duration;
 use texere_core::{BackendError, OutOfMemory};
 use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 
-/// The time after which the wait for a submission is given up. A chunk takes milliseconds on a GPU
-/// and seconds on a software device; one that takes two minutes will not come back.
+/// The time after which the wait for a submission ends with an error. A chunk takes milliseconds on
+/// a GPU and seconds on a software device. A chunk that takes two minutes is taken to hang.
 pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
 
-/// Every buffer's length is a multiple of this, bytes: the widest element of a shader's array.
+/// Every buffer's length is a multiple of this, bytes: that of the widest element of a shader's
+/// array.
 const BUFFER_STEP: u64 = 16;
 
 /// A device and its queue.
 #[derive(Debug)]
 pub(crate) struct Gpu {
-    /// Its name in `DeviceInfo`.
+    /// The name of the device in `DeviceInfo`.
     pub(crate) name: String,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    /// Why the device was lost, where it was. On a caller's device it stays empty, for the
-    /// callbacks are the caller's.
+    /// The reason why the device was lost, or none. On a caller's device it stays empty, because
+    /// the callbacks are the caller's.
     lost: Arc<Mutex<Option<String>>>,
 }
 
 impl Gpu {
-    /// Takes a device of the caller's.
+    /// A caller's device.
     pub(crate) fn borrowed(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         Self { name, device, queue, lost: Arc::default() }
     }
 
-    /// Takes a device that this crate has opened. Errors outside a scope no longer panic, and its
+    /// A device that this crate has opened. Errors outside a scope do not panic, and the device's
     /// loss is noted.
     pub(crate) fn owned(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let gpu = Self::borrowed(name, device, queue);
@@ -56,8 +57,8 @@ impl Gpu {
         }
     }
 
-    /// Asks the device whether it is still there. A lost device takes any call of wgpu in silence,
-    /// but it can't map a new buffer.
+    /// Asks the device whether it is still there. Calls of wgpu on a lost device do not fail, but a
+    /// lost device can't map a new buffer.
     ///
     /// **Errors**: [`BackendError::DeviceLost`].
     pub(crate) fn probe(&self) -> Result<(), BackendError> {
@@ -72,7 +73,7 @@ impl Gpu {
         self.check_alive()?;
         match answer {
             Ok(Err(source)) => Err(self.lost(source)),
-            // A device that is short of memory is still there.
+            // A device that has too little memory is not lost.
             Ok(Ok(())) | Err(_) => Ok(()),
         }
     }
@@ -87,13 +88,13 @@ impl Gpu {
         let scopes = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory]
             .map(|filter| self.device.push_error_scope(filter));
         let result = work();
-        // The innermost scope ends first. On every platform but the web its answer is there at
+        // The innermost scope ends first. On every platform but the web its result is available at
         // once.
         let errors = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop()));
         errors.reduce(|first, _| first).map_or(Ok(result), Err)
     }
 
-    /// Runs `work` within error scopes; `call` names it in an error.
+    /// Runs `work` within error scopes. `call` names it in an error.
     ///
     /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
     pub(crate) fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
@@ -110,8 +111,8 @@ impl Gpu {
     /// A buffer of at least `bytes`, rounded up to a multiple of [`BUFFER_STEP`]. It is never
     /// empty, since wgpu can't bind an empty buffer.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`] also for more than the device's largest buffer,
-    /// or, for a storage buffer that is bound whole, its largest binding.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than the device's largest buffer,
+    /// or, if a storage buffer is bound whole, for more than its largest binding.
     pub(crate) fn buffer(
         &self,
         what: &'static str,
@@ -132,7 +133,7 @@ impl Gpu {
         buffer
     }
 
-    /// Sends `bytes` to `buffer`. They are there before any later launch.
+    /// Sends `bytes` to `buffer`. They arrive before any later launch.
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
         if bytes.is_empty() {
             return Ok(());
@@ -146,8 +147,8 @@ impl Gpu {
     pub(crate) fn wait(&self, submission: SubmissionIndex) -> Result<(), BackendError> {
         self.check_alive()?;
         let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(WAIT_LIMIT) };
-        // wgpu 30 panics in `poll` where the driver reports that the device is gone, and there is
-        // no other way to wait.
+        // wgpu 30 panics in `poll` if the driver reports that the device is lost, and there is no
+        // other way to wait.
         let answer = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
         self.check_alive()?;
         match answer {
@@ -155,7 +156,8 @@ impl Gpu {
             Ok(Err(source @ PollError::Timeout)) => {
                 Err(BackendError::Driver { call: "Device::poll", source: source.into() })
             }
-            // The device never took the submission: the submit failed because it was lost.
+            // The device never received the submission: submitting failed because the device was
+            // lost.
             Ok(Err(source)) => Err(self.lost(source)),
             Err(_) => Err(self.lost("the driver reported it while its work was waited for")),
         }

@@ -1,4 +1,4 @@
-//! A shader with its layout: compiled, bound and launched.
+//! Compiling, binding and launching a shader.
 
 use texere_core::BackendError;
 use texere_gpu::{Language, prelude};
@@ -29,8 +29,8 @@ impl Kernel {
         compiled.map_err(|error| BackendError::Compile { kernel: shader.entry_point, log: error.to_string() })
     }
 
-    /// Binds the resources that the shader uses, each as `resource` returns it. Where that returns
-    /// none, wgpu refuses the group.
+    /// Binds the resources that the shader uses, as `resource` returns them. If `resource` returns
+    /// none for one of them, wgpu refuses the group.
     pub(crate) fn bind<'a>(
         &self,
         gpu: &Gpu,
@@ -52,7 +52,7 @@ impl Kernel {
         })
     }
 
-    /// Records a run of `workgroups`.
+    /// Records a run of `workgroups` workgroups.
     pub(crate) fn record(&self, pass: &mut wgpu::ComputePass<'_>, bound: &wgpu::BindGroup, workgroups: u32) {
         if workgroups > 0 {
             pass.set_pipeline(&self.pipeline);
@@ -62,7 +62,7 @@ impl Kernel {
         }
     }
 
-    /// Workgroups for `lanes`.
+    /// The number of workgroups for `lanes` lanes.
     pub(crate) fn workgroups(&self, lanes: u32) -> u32 {
         lanes.div_ceil(self.shader.workgroup)
     }
@@ -119,8 +119,8 @@ fn pipeline(
     })
 }
 
-/// A module without run-time checks. They would cost a comparison for each access, in stages that
-/// do little but access memory.
+/// A module without run-time checks. The checks would add a comparison to each access, in stages
+/// that do little but access memory.
 #[allow(unsafe_code, reason = "trusted shaders are the one thing that this crate needs it for")]
 fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderModule {
     let source = prelude(Language::Wgsl, flattened) + shader.source;
@@ -131,10 +131,10 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // SAFETY: the source is one of texere-shaders' own. It does nothing that a check would stop.
     // In the shaders of meshes, attributes and packed vertices:
     // - Indices into buffers come from the block and cap tables and from the plan's own tables.
-    //   Only a plan makes chunks, and a session takes those of its own plan alone. The plan's
-    //   tables are bound whole, and every output is at least as long as the chunk says. Lengths
-    //   along yarns have one value for each of the plan's blocks, attributes and packed vertices
-    //   one for each of the chunk's vertices.
+    //   Only a plan makes chunks, and a session accepts the chunks of its own plan alone. The
+    //   plan's tables are bound whole, and every output is at least as long as the chunk says.
+    //   Lengths along yarns have one value for each of the plan's blocks, attributes and packed
+    //   vertices one for each of the chunk's vertices.
     // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at
     //   most BLOCK_RINGS rings.
     // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they
@@ -145,17 +145,17 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // In the shaders of settling:
     // - Places, yarns and chords come from the tables of a settling's plan, which are bound whole,
     //   as is every buffer with a value for each of them. An interval's place has one place before
-    //   it and two behind it. A number that a shader has written is below what it numbers, or is
-    //   compared with that before it is used: cells, places in them, neighbours, and where lists
-    //   end.
+    //   it and two behind it. A number that a shader has written (of a cell, of a place in a cell,
+    //   of a neighbour, or of a list's end) is below the length of what it indexes, or is compared
+    //   with that length before it is used.
     // - Loops run up to a count, to a place in a list, which is below its buffer's length, or over
     //   halves of a workgroup.
     // - Divisors of whole numbers are a cell's size and the counts of cells, which the host makes
-    //   at least 1, and a repeat where there is one.
-    // In the shaders of crossings:
-    // - A site beside another is one of the plan's, or is not read: its end is below the ends, its
-    //   pick below the picks. The plan's tables are bound whole, as is every buffer with a value
-    //   for each crossing. There are as many rows of passes as the host counts passes to.
+    //   at least 1, and the repeat, if there is one. In the shaders of crossings:
+    // - A site beside another is one of the plan's, or is not read: its end is less than the number
+    //   of ends, and its pick less than the number of picks. The plan's tables are bound whole, as
+    //   is every buffer with a value for each crossing. There is a row for each pass number that
+    //   the host uses.
     // - Whole numbers are divided by the ends, at least 2, and by constants.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

@@ -11,14 +11,15 @@ use crate::per_yarn::PerYarn;
 /// The shaders of a schedule.
 #[derive(Debug)]
 pub(crate) enum Kernels {
-    /// A lane makes a ring.
+    /// The schedule in which a lane makes a ring.
     PerRing(Box<PerRing>),
-    /// A lane makes a yarn: the paper's schedule.
+    /// The paper's schedule, in which a lane makes a yarn.
     PerYarn(Box<PerYarn>),
 }
 
 impl Kernels {
-    /// Compiles the shaders of `schedule` for round yarns alone, or for all.
+    /// Compiles the shaders of `schedule` for round yarns alone, or, with `flattened`, for all
+    /// yarns.
     ///
     /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for
     /// [`Schedule::Serial`].

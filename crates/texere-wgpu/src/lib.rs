@@ -16,14 +16,14 @@
 //! [`LiveMesh`](texere_core::backend::LiveMesh), which keeps all of its mesh; a
 //! [`WgpuSession`](WgpuBackend::lending_session) lends buffers chunk by chunk.
 //!
-//! Properties of wgpu that show:
+//! Some properties of wgpu affect its users:
 //!
-//! - wgpu clears a fresh buffer before its first use. The first chunks of a session therefore take
-//!   longer than later ones, which take their memory again.
-//! - wgpu does not report a device's memory, so chunks are cut to what one binding may hold. Where
+//! - wgpu clears a new buffer before its first use. The first chunks of a session therefore take
+//!   longer than later ones, which use the same memory again.
+//! - wgpu does not report a device's memory, so chunks are cut to what one binding may hold. If
 //!   that is more than the memory, set stricter limits with [`WgpuBackend::with_limits`].
-//! - A software device such as llvmpipe silently ends a lane that loops for long. On such a device
-//!   [`Schedule::PerYarn`] gives a long yarn to several lanes.
+//! - A software device such as llvmpipe silently ends a lane that loops for a long time. On such a
+//!   device [`Schedule::PerYarn`] gives a long yarn to several lanes.
 //! - Shaders run without bounds checks. Their indices come from a plan and its chunks, and a
 //!   session refuses the chunks of any other plan.
 
@@ -59,6 +59,6 @@ pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};
 pub use texere_core::backend::Schedule;
 pub use texere_shaders::UNPACK;
-/// The wgpu of these devices and buffers, version 30. A program that gives texere its device must
-/// use this one. A new major version of wgpu makes a new minor version of texere.
+/// The crate wgpu of these devices and buffers, version 30. A program that gives texere its device
+/// must use this version. A new major version of wgpu makes a new minor version of texere.
 pub use wgpu;

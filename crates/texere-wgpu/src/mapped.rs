@@ -1,4 +1,5 @@
-//! Mapped buffers: work that fills or empties one, and the wait until the host may use it.
+//! Mapped buffers: the submission of work that fills or empties a buffer, and the wait until the
+//! host may use the buffer.
 
 use std::sync::mpsc::{Receiver, sync_channel};
 
@@ -7,7 +8,7 @@ use wgpu::{BufferAsyncError, CommandEncoder, MapMode, SubmissionIndex};
 
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
-/// A submission under way, after which the start of a buffer is mapped.
+/// A submission in progress, after which the start of a buffer is mapped.
 #[derive(Debug)]
 pub(crate) struct Mapped {
     submission: SubmissionIndex,
@@ -15,8 +16,8 @@ pub(crate) struct Mapped {
 }
 
 impl Mapped {
-    /// Submits what `record` records, and asks for the first `bytes` of `buffer` to be mapped once
-    /// that is done.
+    /// Submits what `record` records, and asks for the first `bytes` of `buffer` to be mapped after
+    /// that work.
     pub(crate) fn submit(
         gpu: &Gpu,
         buffer: &wgpu::Buffer,
@@ -43,7 +44,7 @@ impl Mapped {
         // Another thread's poll may have found the work done, and be about to report it.
         match self.answer.recv_timeout(WAIT_LIMIT) {
             Ok(Ok(())) => Ok(()),
-            // The buffer is sound and its work is done, so the device must be lost.
+            // The buffer is valid and its work is done, so the device must be lost.
             Ok(Err(source)) => Err(gpu.lost(source)),
             Err(source) => {
                 Err(BackendError::Driver { call: "BufferSlice::map_async", source: source.into() })

@@ -1,4 +1,4 @@
-//! An open device: what all sessions of a backend share.
+//! An open device, which all sessions of a backend share.
 
 use std::sync::{Arc, OnceLock};
 
@@ -21,13 +21,15 @@ pub(crate) struct Opened {
     pub(crate) round: Arc<Kernels>,
     /// The schedule's shaders for all yarns, compiled at their first use.
     flattened: OnceLock<Arc<Kernels>>,
-    /// The shaders that make attributes, likewise.
+    /// The shaders that make attributes, compiled at their first use.
     attributes: OnceLock<Arc<AttributeKernels>>,
-    /// The shaders that pack vertices, for round yarns alone and for all yarns, likewise.
+    /// The shaders that pack vertices, for round yarns alone and for all yarns, each compiled at
+    /// their first use.
     packing: [OnceLock<Arc<PackedKernels>>; 2],
-    /// The shaders that bring yarns to rest, for round yarns alone and for all yarns, likewise.
+    /// The shaders that bring yarns to rest, for round yarns alone and for all yarns, each compiled
+    /// at their first use.
     settling: [OnceLock<Arc<SettlingKernels>>; 2],
-    /// The shaders that bring crossings to rest, likewise.
+    /// The shaders that bring crossings to rest, compiled at their first use.
     crossings: OnceLock<Arc<CrossingsKernels>>,
 }
 
@@ -68,7 +70,7 @@ impl Opened {
         compiled(&self.attributes, || AttributeKernels::new(&self.gpu))
     }
 
-    /// The shaders that pack vertices, for all yarns or for round ones alone.
+    /// The shaders that pack vertices, for round yarns alone, or, with `flattened`, for all yarns.
     ///
     /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
     pub(crate) fn packing(&self, flattened: bool) -> Result<Arc<PackedKernels>, BackendError> {
@@ -79,7 +81,8 @@ impl Opened {
         compiled(place, || PackedKernels::new(&self.gpu, flattened))
     }
 
-    /// The shaders that bring yarns to rest, for all yarns or for round ones alone.
+    /// The shaders that bring yarns to rest, for round yarns alone, or, with `flattened`, for all
+    /// yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn settling(&self, flattened: bool) -> Result<Arc<SettlingKernels>, BackendError> {
@@ -95,7 +98,7 @@ impl Opened {
     }
 }
 
-/// What `place` holds, compiled at its first use.
+/// The compiled shaders, from `place`. They are compiled if `place` is empty.
 fn compiled<T>(
     place: &OnceLock<Arc<T>>,
     compile: impl FnOnce() -> Result<T, BackendError>,
@@ -104,6 +107,6 @@ fn compiled<T>(
         return Ok(compiled.clone());
     }
     let compiled = Arc::new(compile()?);
-    // Another session may have been faster.
+    // Another session may have compiled the program meanwhile.
     Ok(place.get_or_init(|| compiled).clone())
 }

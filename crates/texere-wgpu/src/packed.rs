@@ -9,14 +9,14 @@ use crate::kernel::Kernel;
 /// The compiled shaders that pack vertices.
 #[derive(Debug)]
 pub(crate) struct PackedKernels {
-    /// For an even number of sides.
+    /// The shader of tubes with an even number of sides.
     pub(crate) tubes: Kernel,
     pub(crate) tubes_odd: Kernel,
     pub(crate) caps: Kernel,
 }
 
 impl PackedKernels {
-    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {

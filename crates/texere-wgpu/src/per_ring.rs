@@ -1,4 +1,4 @@
-//! The schedule per-ring: a lane makes a ring.
+//! The schedule per-ring, in which a lane makes a ring.
 
 use texere_core::BackendError;
 use texere_shaders::{BLOCK_TURNS, CAPS, MESH, MESH_ODD, TRAJECTORY, YARN_ROLLS};
@@ -12,14 +12,14 @@ pub(crate) struct PerRing {
     pub(crate) block_turns: Kernel,
     pub(crate) yarn_rolls: Kernel,
     pub(crate) trajectory: Kernel,
-    /// For an even number of sides.
+    /// The shader of tubes with an even number of sides.
     pub(crate) mesh: Kernel,
     pub(crate) mesh_odd: Kernel,
     pub(crate) caps: Kernel,
 }
 
 impl PerRing {
-    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {

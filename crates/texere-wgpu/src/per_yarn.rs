@@ -1,4 +1,5 @@
-//! The schedule per-yarn, the paper's: a lane makes a yarn, or as much of it as a device lets it.
+//! The schedule per-yarn, the paper's, in which a lane makes a yarn, or as much of one as a device
+//! allows.
 
 use texere_core::BackendError;
 use texere_shaders::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
@@ -18,7 +19,7 @@ pub(crate) struct PerYarn {
 }
 
 impl PerYarn {
-    /// Compiles the shaders for round yarns alone, or with `flattened` for all.
+    /// Compiles the shaders for round yarns alone, or with `flattened` for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
@@ -29,12 +30,12 @@ impl PerYarn {
     }
 }
 
-/// The most rings that a lane makes. The paper gives a lane a whole yarn, and so does this where
-/// the device lets a lane run that long.
+/// The most rings that a lane makes. The paper gives a lane a whole yarn. This schedule does the
+/// same on devices that let a lane run for so long.
 pub(crate) fn lane_rings(gpu: &Gpu, sides: u32) -> u32 {
     match gpu.device.adapter_info().device_type {
-        // For each ring `mesh_per_yarn` makes a round for each vertex, three for its components,
-        // six for its indices, and one more to leave each loop.
+        // For each ring the loops of `mesh_per_yarn` make a round for each vertex, three for the
+        // vertex's components and six for its indices, and one more to leave each loop.
         wgpu::DeviceType::Cpu => SOFTWARE_ROUNDS / (12 * (sides + 1)),
         _ => u32::MAX,
     }

@@ -1,5 +1,5 @@
-//! Results to the host, piece by piece through two mapped buffers. One is filled while the other is
-//! lent.
+//! Reads results to the host, piece by piece through two mapped buffers. One is filled while the
+//! other is lent.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -11,22 +11,22 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::mapped::Mapped;
 
-/// Most bytes of a piece. It is a multiple of the sizes of a vertex, a ring and an index. Larger
-/// pieces cost host memory; with smaller ones the pause between two submissions counts: at 24 MB
-/// the bus stood still for a fifth of the time.
+/// The most bytes of a piece: a multiple of the sizes of a vertex, a ring and an index. Larger
+/// pieces need more host memory. With smaller pieces the pauses between submissions matter: at 24
+/// MB nothing was transferred for a fifth of the time.
 const PIECE_BYTES: u64 = 96 << 20;
 
-/// The two buffers, and the cost of all copies so far.
+/// The two buffers, and the time and the bytes of all copies so far.
 #[derive(Debug)]
 pub(crate) struct Readback {
     sides: [Buffer; 2],
-    /// Time spent waiting for copies.
+    /// The time spent waiting for copies.
     pub(crate) waited: Duration,
-    /// Bytes copied.
+    /// The number of bytes copied.
     pub(crate) bytes: u64,
 }
 
-/// A copy under way. Its buffer is mapped, or will be, and is unmapped when the copy is dropped.
+/// A copy in progress. Its buffer is mapped, or will be, and is unmapped when the copy is dropped.
 struct Copy<'a> {
     gpu: &'a Gpu,
     buffer: wgpu::Buffer,
@@ -76,7 +76,7 @@ impl Readback {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Starts the copy of the piece at `offset`. The next piece takes the other buffer.
+    /// Starts the copy of the piece at `offset`. The next piece uses the other buffer.
     fn start<'a>(
         &mut self,
         gpu: &'a Gpu,
@@ -106,7 +106,7 @@ impl Copy<'_> {
 
 impl Drop for Copy<'_> {
     fn drop(&mut self) {
-        // An error here has no one to go to. Without the scope it would panic.
+        // An error here can't be returned. Without the scope it would panic.
         let _ = self.gpu.caught(|| self.buffer.unmap());
     }
 }

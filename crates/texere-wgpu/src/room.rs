@@ -1,4 +1,4 @@
-//! The memory of a device that may still be taken.
+//! The memory of a device that may still be allocated.
 
 use bytemuck::Pod;
 use texere_core::{BackendError, Limits, OutOfMemory};
@@ -6,7 +6,7 @@ use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
 
-/// The memory that a settler may still take of a device.
+/// The memory of a device that a settler may still allocate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Room {
     pub(crate) binding_bytes: u64,
@@ -19,10 +19,10 @@ impl Room {
         Self { binding_bytes: limits.binding_bytes.min(binding_bytes), memory_bytes: limits.memory_bytes }
     }
 
-    /// Takes a buffer of `bytes` for `what`.
+    /// A buffer of `bytes` for `what`.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
-    /// may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also if one buffer, or all buffers together,
+    /// would have more than the device's limits allow.
     pub(crate) fn take(
         &mut self,
         gpu: &Gpu,
@@ -36,7 +36,7 @@ impl Room {
         gpu.buffer(what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
     }
 
-    /// Takes a buffer that holds `data`, likewise.
+    /// A buffer that holds `data`, for `what`.
     pub(crate) fn holding<T: Pod>(
         &mut self,
         gpu: &Gpu,

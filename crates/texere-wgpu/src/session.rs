@@ -32,8 +32,8 @@ pub struct WgpuSession(pub(crate) Session<WgpuEngine>);
 
 impl WgpuSession {
     /// The vertices of `chunk`, after [`Session::mesh`]: [`Chunk::vertices`] of 24 bytes, position
-    /// and normal, from the start of the buffer. The buffer may be longer, and the next chunk but
-    /// one takes it again.
+    /// and normal, from the start of the buffer. The buffer may be longer, and is used again for
+    /// the next chunk but one.
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -43,8 +43,9 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).vertices.buffer())
     }
 
-    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. A topology other than
-    /// [`Indexed`](texere_core::Topology::Indexed) has none.
+    /// The indices of `chunk`, after [`Session::mesh`]: [`Chunk::indices`] of four bytes, from the
+    /// start of the buffer. The buffer may be longer, and is used again for the next chunk but one.
+    /// A topology other than [`Indexed`](texere_core::Topology::Indexed) has none.
     ///
     /// Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -80,7 +81,7 @@ impl WgpuSession {
     }
 
     /// The control points and tables of `chunk`, for a caller's own shaders. No stage is run, and
-    /// no memory is taken for results.
+    /// no memory is allocated for results.
     ///
     /// **Errors**: the errors of [`Session::trajectory`].
     pub fn chunk_tables(&mut self, chunk: &Chunk) -> Result<ChunkTables<'_>, SessionError> {
@@ -90,8 +91,8 @@ impl WgpuSession {
 
     /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
     /// of [`device_buffers`](texere_gpu::device_buffers), each rounded up to a multiple of 16
-    /// bytes, and the rings where [`Session::trajectory`] was called. Memory that wgpu maps to send
-    /// and read through is not counted.
+    /// bytes, and the rings if [`Session::trajectory`] was called. The memory that wgpu maps for
+    /// transfers is not counted.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()
@@ -106,7 +107,7 @@ pub struct ChunkTables<'a> {
 }
 
 impl<'a> ChunkTables<'a> {
-    /// The binding of `resource`. None for a resource that is not of a mesh.
+    /// The binding of `resource`. None for a resource that meshes do not use.
     #[must_use]
     pub fn resource(&self, resource: Resource) -> Option<wgpu::BindingResource<'a>> {
         self.engine.resource(self.slot, resource)

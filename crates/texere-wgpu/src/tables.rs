@@ -19,12 +19,13 @@ pub(crate) struct Tables {
     pub(crate) points: wgpu::Buffer,
     pub(crate) yarns: Buffer,
     pub(crate) rolls: Buffer,
-    /// The length of its yarn up to each block's start. Empty until attributes are asked for.
+    /// For each block, the length of its yarn up to the block's first ring. Empty until attributes
+    /// are asked for.
     pub(crate) lengths: Buffer,
     pub(crate) outlines: Buffer,
     pub(crate) pattern: Buffer,
     pub(crate) cap_pattern: Buffer,
-    /// Parameters of the launches over yarns, which make rolls or measure yarns.
+    /// The parameters of the launches over yarns, which make rolls or measure yarns.
     pub(crate) of_yarns: Buffer,
 }
 
@@ -40,7 +41,7 @@ impl Tables {
             Ok::<_, BackendError>(table)
         };
         let mut tables = Self {
-            // It is read where a part of settled points is edited.
+            // The buffer is read back if a part of settled points is edited.
             points: gpu.buffer("control points", plan.resident_bytes(), input | BufferUsages::COPY_SRC)?,
             yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
             rolls: Buffer::new(gpu, "rolls", input)?,
@@ -55,7 +56,7 @@ impl Tables {
         Ok(tables)
     }
 
-    /// Makes room for rolls where any yarn turns.
+    /// Makes room for rolls if any yarn turns.
     pub(crate) fn reserve_rolls(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), BackendError> {
         if plan.needs_scan() {
             // Behind the rolls of blocks lie the leans of rings.
@@ -74,7 +75,7 @@ impl Tables {
         gpu.write(self.rolls.buffer(), place, bytemuck::cast_slice(&leans))
     }
 
-    /// The number of values before the leans: whole turns of yarns and rolls of blocks.
+    /// The number of values before the leans: the total turns of yarns and the rolls of blocks.
     fn rolls_before_leans(plan: &Plan) -> u64 {
         plan.layout().yarns().len() as u64 + plan.block_count()
     }
@@ -92,7 +93,7 @@ impl Tables {
 }
 
 impl Tables {
-    /// Bytes of all tables.
+    /// The bytes of all tables.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { points, yarns, rolls, lengths, outlines, pattern, cap_pattern, of_yarns: _ } = self;
         points.size()

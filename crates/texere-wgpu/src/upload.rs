@@ -1,5 +1,5 @@
-//! Control points to the device, piece by piece. All cores pad a piece into a mapped buffer, while
-//! the device copies the piece before.
+//! Sends control points to the device, piece by piece. All cores pad a piece into a mapped buffer,
+//! while the device copies the piece before.
 
 use std::ops::Range;
 
@@ -18,10 +18,10 @@ const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 /// long as filling and copying it.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// Bytes of a piece. It is small, so that filling and copying overlap from early on.
+/// The bytes of a piece. It is small, so that filling and copying soon overlap.
 const PIECE_BYTES: u64 = 8 << 20;
 
-/// Bytes that a core pads at a time. A piece is a multiple of them.
+/// The number of bytes that a core pads at a time. A piece is a multiple of it.
 const PART_BYTES: usize = 64 << 10;
 
 /// The two mapped buffers that control points are sent from. They are made for the first upload of
@@ -32,7 +32,8 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// Sends `upload` to `target`, where it is before any later launch. Returns its bytes.
+    /// Sends `upload` to `target`, where it arrives before any later launch. Returns the number of
+    /// its bytes.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,
@@ -43,10 +44,10 @@ impl Outbox {
         for range in upload.ranges() {
             let count = range.end - range.start;
             if count > FEW_POINTS {
-                // This runs on one of the pool's threads, which then need not be woken from outside
-                // for each piece.
+                // This runs on a thread of the pool. Threads of the pool then need not be woken
+                // from outside for each piece.
                 let pieces = rayon::scope(|_| self.send_pieces(gpu, target, upload, range));
-                // A buffer that an error left half done must not be used again.
+                // Buffers that an error left half filled must not be used again.
                 pieces.inspect_err(|_| self.sides.clear())?;
             } else {
                 let offset = range.start * POINT_BYTES;
@@ -79,7 +80,7 @@ impl Outbox {
 #[derive(Debug)]
 struct Side {
     buffer: wgpu::Buffer,
-    /// The submission after which it is mapped; none where it is mapped now.
+    /// The submission after which the buffer is mapped; none if it is mapped now.
     mapped: Option<Mapped>,
 }
 
@@ -121,7 +122,7 @@ impl Side {
 /// Writes the padded points of `piece` to the start of `view`, on all cores.
 fn pad(upload: &PaddedUpload<'_>, piece: &Range<u64>, view: &mut BufferViewMut) {
     const PART_POINTS: u64 = PART_BYTES as u64 / POINT_BYTES;
-    // The parts are arrays, since wgpu's slices can't be sent to other threads.
+    // The parts are arrays, because wgpu's slices can't be sent to other threads.
     let parts: Vec<_> = view.slice(..).into_chunks::<PART_BYTES>().0.into_iter().collect();
     parts.into_par_iter().enumerate().for_each(|(number, part)| {
         let first = piece.start + number as u64 * PART_POINTS;

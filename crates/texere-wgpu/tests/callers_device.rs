@@ -1,5 +1,5 @@
-//! The conformance suite's pairwise cases on a device of the caller's, opened as a viewer might:
-//! without any feature.
+//! The conformance suite's pairwise cases on a caller's device, which is opened without any
+//! feature, as a viewer might open it.
 
 use std::process::ExitCode;
 use std::sync::Arc;

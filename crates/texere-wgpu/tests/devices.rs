@@ -1,4 +1,4 @@
-//! Devices: found, named, refused, lost, and the caller's own.
+//! Devices that are found, named, refused or lost, and a caller's own devices.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
@@ -12,7 +12,7 @@ use texere_wgpu::{Schedule, WgpuBackend, WgpuSession};
 
 use support::{INSTALL, backend, plan, waves};
 
-/// A device as a viewer might open it: no features.
+/// A device without any feature, as a viewer might open it.
 fn callers_device(limits: wgpu::Limits) -> (wgpu::Device, wgpu::Queue) {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::PRIMARY,
@@ -67,7 +67,7 @@ fn a_callers_device_does_as_well() {
         assert!(report.is_clean(), "{report}");
     }
 
-    // No timestamp queries were asked for, so the host's clock it is.
+    // No timestamp queries were asked for, so the host's clock is used.
     let yarns = waves(3, 50, Yarn::default());
     let plan = plan(&yarns, Settings::default());
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
@@ -77,7 +77,7 @@ fn a_callers_device_does_as_well() {
     session.mesh(&chunk).unwrap();
     assert!(session.timings().mesh > std::time::Duration::ZERO);
 
-    // The caller's own work sees the mesh without a wait.
+    // The caller's own work on the queue reads the mesh without a wait.
     let vertices = session.vertex_buffer(&chunk).unwrap().clone();
     let indices = session.index_buffer(&chunk).unwrap().clone();
     assert!(vertices.usage().contains(wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_SRC));
@@ -107,7 +107,8 @@ fn a_callers_device_of_too_narrow_limits_is_refused_with_the_drivers_log() {
     assert!(log.contains("max_storage_buffers_per_shader_stage") || log.contains("storage buffers"), "{log}");
 }
 
-/// What every call says once the device is gone; none may panic, nor the drop at the end.
+/// Tests the result of every call after the device is lost. No call may panic, nor may the drop at
+/// the end.
 fn assert_lost(mut session: WgpuSession, yarns: &texere_core::Yarns, chunk: &texere_core::backend::Chunk) {
     let errors = [
         session.upload(0, yarns.points()),
@@ -138,7 +139,8 @@ fn assert_lost(mut session: WgpuSession, yarns: &texere_core::Yarns, chunk: &tex
 
 #[test]
 fn a_lost_device_is_an_error_and_never_a_panic() {
-    // Control points that go through wgpu's own staging, and ones that go in pieces of ours.
+    // The first yarns are so short that their control points go through wgpu's own staging. The
+    // second are sent in pieces.
     for points in [500, 50_000] {
         lose_a_device_with(&waves(3, points, Yarn { twist: 0.5, ..Yarn::default() }));
     }
@@ -159,7 +161,7 @@ fn lose_a_device_with(yarns: &texere_core::Yarns) {
         assert_lost(session, yarns, &chunk);
         assert!(Session::new(&backend, plan.clone()).is_err());
     }
-    // A new one works.
+    // A new device works.
     let mut session =
         WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL).lending_session(plan.clone()).unwrap();
     session.upload(0, yarns.points()).unwrap();

@@ -1,5 +1,5 @@
-//! Output against the oracle and the serial reference, whole and cut. The conformance suite has
-//! more.
+//! Output against the oracle and the serial reference, as a whole and in chunks. The conformance
+//! suite tests more.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -16,7 +16,7 @@ fn assert_matches(backend: &dyn Backend, name: &str, yarns: &texere_core::Yarns,
     assert!(report.is_clean(), "{name}: {report}");
 }
 
-/// Both frames of the suite's cases whose names begin so.
+/// Runs the suite's cases whose names begin with one of `prefixes`, in both frames.
 fn run_cases(prefixes: &[&str]) {
     let chosen = cases::all()
         .into_iter()
@@ -91,7 +91,7 @@ fn the_schedule_per_yarn_does_what_the_paper_does() {
         for subdivisions in [0, 1, 4] {
             let settings = Settings { sides, topology, subdivisions, ..Settings::default() };
             assert_matches(&backend, "short", &support::waves(300, 2, Yarn::default()), settings);
-            // Blocks that end at a yarn's last ring, and such that begin with it.
+            // Some blocks end at a yarn's last ring, and some begin with it.
             for points in [63, 64, 65, 66, 129] {
                 assert_matches(&backend, "waves", &support::waves(3, points, Yarn::default()), settings);
             }

@@ -1,4 +1,4 @@
-//! Device memory against the plan's word, by the count of the allocator that hands it out.
+//! The device memory that a plan announces, against the report of wgpu's allocator.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -9,14 +9,15 @@ use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::{INSTALL, plan, waves};
 
-/// What is no part of the plan: parameters, time stamps, and host memory that results are read
-/// through.
+/// Buffers that the plan does not count: parameters, time stamps, and host memory through which
+/// results are read.
 const BESIDES: [&str; 3] = ["parameters", "timestamps", "readback"];
 
-/// Every buffer is a multiple of this long.
+/// The length of every buffer is a multiple of this, bytes.
 const STEP: u64 = 16;
 
-/// What a driver may add to a buffer to align it; one that holds nothing is no longer, either.
+/// The bytes that a driver may add to a buffer to align it. A buffer that holds nothing is no
+/// longer than this, either.
 const ALIGNED: u64 = 128;
 
 #[test]
@@ -24,7 +25,8 @@ fn buffers_are_those_of_the_plan() {
     let yarns = waves(3, 700, Yarn { twist: 0.3, ..Yarn::default() });
     for (frame, caps, blocks) in [(Frame::Upright, false, u64::MAX), (Frame::RotationMinimizing, true, 5)] {
         for topology in [Topology::Indexed, Topology::Shared] {
-            // A device of its own each time, so that no other test's buffers are counted.
+            // Each case has a device of its own, so that the buffers of other tests are not
+            // counted.
             let backend = WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL);
             let backend = backend.with_limits(Limits { blocks, ..Limits::NONE });
             let plan = plan(&yarns, Settings { frame, caps, topology, sides: 5, ..Settings::default() });
@@ -36,7 +38,8 @@ fn buffers_are_those_of_the_plan() {
                 session.mesh(&chunk).unwrap();
             }
             session.timings();
-            // Twice: what a new buffer took the place of is given back with the first.
+            // The device is polled twice. Buffers that were replaced by new ones are freed by the
+            // first poll.
             for _ in 0..2 {
                 backend.device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
             }

@@ -1,4 +1,4 @@
-//! Packed vertices in a vertex shader of the caller's: their layout, and what unpacks them.
+//! Packed vertices in a caller's vertex shader: their layout, and the functions that unpack them.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
@@ -12,7 +12,8 @@ use wgpu::{TextureFormat::Rgba32Float, TextureUsages};
 
 use support::{backend, plan, waves};
 
-/// Vertices become pixels side by side, in which their position and their normal stand.
+/// Draws each vertex into a pixel of its own, side by side. The pixels hold the positions and the
+/// normals.
 const DRAW: &str = "
 struct Seen {
     @builtin(position) pixel: vec4<f32>,
@@ -29,7 +30,7 @@ struct Written { @location(0) place: vec4<f32>, @location(1) normal: vec4<f32> }
     return Written(vec4(seen.place, 1.0), vec4(seen.normal, 1.0));
 }";
 
-/// Bytes of a row of a texture that is copied are a multiple of this.
+/// The length of a row of a texture that is copied must be a multiple of this, bytes.
 const ROW: u32 = 256;
 
 #[test]

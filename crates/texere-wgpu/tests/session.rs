@@ -1,5 +1,4 @@
-//! Sessions on a device: what is read, what is timed, what is refused. The suite tries misuse and
-//! edits.
+//! Sessions on a device: readback, times and refusals. The suite tests misuse and edits.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -69,8 +68,8 @@ fn reading_moves_the_results_and_no_more() {
 
 #[test]
 fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
-    // 130 MB of vertices and as many of indices, two pieces each: both sides of the readback are
-    // used again.
+    // There are 130 MB of vertices and as much of indices, two pieces of each, so both buffers of
+    // the readback are used again.
     let yarns = waves(45, 2_000, Yarn::default());
     let plan = plan(&yarns, Settings { subdivisions: 9, ..Settings::default() });
     let chunk = whole(&plan);
@@ -88,7 +87,7 @@ fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
     assert!(answer.unwrap().is_break());
     assert!(vertices < chunk.vertices());
 
-    // The session goes on as if nothing had been.
+    // The session still works.
     let mut vertices =
         vec![Vertex { position: [f32::NAN; 3], normal: [f32::NAN; 3] }; chunk.vertices() as usize];
     let mut indices = vec![u32::MAX; chunk.indices() as usize];
@@ -115,7 +114,7 @@ fn stages_are_timed_apart_however_often_they_run() {
     let uploaded = session.timings();
     assert_eq!([uploaded.scan, uploaded.trajectory, uploaded.mesh, uploaded.readback], [Duration::ZERO; 4]);
     session.scan().unwrap();
-    // More launches than can be timed at once.
+    // These are more launches than can be timed at once.
     for _ in 0..40 {
         session.mesh(&chunk).unwrap();
     }

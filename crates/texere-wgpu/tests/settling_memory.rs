@@ -1,4 +1,4 @@
-//! Settling where memory is short.
+//! Settling on devices with little memory.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
@@ -13,7 +13,7 @@ use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::INSTALL;
 
-/// Where everything is after a list and three passes, and how many neighbours there were.
+/// The number of neighbours, and all places after a list and three passes.
 fn course(device: &WgpuBackend, plan: &Arc<SettlingPlan>) -> Result<(u64, Vec<Place>), BackendError> {
     let points = plan.places().iter().zip(plan.tags()).filter(|(_, tags)| *tags & tag::POINT != 0);
     let mut places: Vec<Place> = points.map(|(place, _)| *place).collect();
@@ -27,8 +27,8 @@ fn course(device: &WgpuBackend, plan: &Arc<SettlingPlan>) -> Result<(u64, Vec<Pl
     Ok((neighbours, places))
 }
 
-/// A device with little memory, in each buffer or in all, settles the same or says what is too
-/// large.
+/// If a buffer, or all buffers together, may have only little memory, a device settles to the same
+/// places or says what is too large.
 #[test]
 fn small_memories_settle_the_same_or_are_refused_by_name() {
     let start = starts().into_iter().find(|start| start.name == "jersey-5-piece").unwrap();
@@ -51,7 +51,7 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
         each.extend(refused(&device));
     }
     assert_eq!((each.first(), each.last()), (Some(&"pulls of intervals"), Some(&"the place table")));
-    // Enough for each of them, too little for all.
+    // This is enough for each buffer, and too little for all together.
     let little = 1 << 17;
     let in_each = open().with_limits(Limits { binding_bytes: little, ..Limits::NONE });
     let in_all = open().with_limits(Limits { memory_bytes: little, ..Limits::NONE });

@@ -1,4 +1,4 @@
-// Rings in screen space. After fabric.wgsl and cover.wgsl.
+// Rings in screen space. This file follows fabric.wgsl and cover.wgsl.
 
 // The roll and the lean of each ring of the chunk, for `resolve`.
 @group(1) @binding(5) var<storage, read_write> ring_rolls: array<vec2<u32>>;

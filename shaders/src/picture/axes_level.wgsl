@@ -1,5 +1,5 @@
-// A block's rings in screen space, in workgroup memory, for fabrics in which no section turns.
-// After axes.wgsl; the twin of axes_rolled.wgsl.
+// The rings of a block in screen space, in workgroup memory, for fabrics in which no section turns.
+// This file follows axes.wgsl. axes_rolled.wgsl is used in its place if any section turns.
 
 var<workgroup> held: array<Axes, BLOCK_RINGS + 1u>;
 
@@ -7,8 +7,8 @@ fn held_axes(ring: u32) -> Axes {
     return held[ring];
 }
 
-// Writes the rings of a block: a lane for each ring, which it also returns. A barrier must come
-// before other lanes' rings are read.
+// Writes the rings of a block, with one lane for each ring, and returns the lane's own ring. A
+// barrier must come before the rings of other lanes are read.
 fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     if lane <= block.quads {

@@ -1,12 +1,13 @@
-// A block's rings in screen space, in workgroup memory, in place of their stances. After axes.wgsl
-// and rings.wgsl; the twin of axes_level.wgsl, which takes less memory.
+// The rings of a block in screen space, in workgroup memory, in place of their stances. This file
+// follows axes.wgsl and rings.wgsl. axes_level.wgsl is used in its place if no section turns, and
+// takes less memory.
 
 fn held_axes(ring: u32) -> Axes {
     return Axes(standing.centre[ring], standing.tangent[ring], standing.side[ring]);
 }
 
-// Writes the rings of a block: a lane for each ring, which it also returns. Every lane must call
-// it, and a barrier must come before other lanes' rings are read.
+// Writes the rings of a block, with one lane for each ring, and returns the lane's own ring. Every
+// lane must call this function, and a barrier must come before the rings of other lanes are read.
 fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     block_rings(yarns[block.yarn], block, lane);

@@ -1,5 +1,5 @@
-// Corners on the screen, and the samples that a quad may cover. After fabric.wgsl and one of
-// keys_64.wgsl and keys_32.wgsl.
+// Corners on the screen, and the samples that a quad may cover. This file follows fabric.wgsl and
+// either keys_64.wgsl or keys_32.wgsl.
 
 const SUBPIXELS = 256.0;
 
@@ -7,10 +7,10 @@ const SUBPIXELS = 256.0;
 // there.
 const REACHED = 4194304.0;
 
-// A quad of fewer 1/256 pixels across takes edges of 32 bits.
+// The edges of a quad that is less than this many 1/256 pixels wide and high fit in 32 bits.
 const EXTENT = 32768;
 
-// A quad whose box has more samples is left to the whole workgroup.
+// A quad whose box has more samples than this is left to a whole workgroup.
 const ALONE = 512;
 
 // A corner on the screen.
@@ -18,15 +18,15 @@ struct Corner {
     // 1/256 pixels right of the middle and below it.
     place: vec2<i32>,
     depth: f32,
-    // The sides of the view beyond which it lies, a bit for each, and BEYOND.
+    // A bit for each side of the view beyond which the corner lies, and BEYOND.
     sides: u32,
 }
 
-// Marks a corner without a place, behind the eye or too far aside.
+// Marks a corner without a place: it lies behind the eye or too far aside.
 const BEYOND = 64u;
 
-// A point in screen space is one of clip space whose x and y are 1/256 pixels from the middle, y
-// downwards, before they are divided by w.
+// The point of clip space `clip` in screen space. Divided by w, its x and y are 1/256 pixels from
+// the screen's middle, with y downwards.
 fn screen_of(clip: vec4<f32>) -> vec4<f32> {
     return clip * screen_scale();
 }
@@ -35,8 +35,8 @@ fn screen_scale() -> vec4<f32> {
     return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
-// Near 3 * 2^22 floats lie 1 apart, and their last bits count them. A sum with ROUNDER rounds to
-// whole numbers. A conversion takes a GPU eight times as long.
+// Floats near 3 * 2^22 lie 1 apart, and their last bits count them. A sum with ROUNDER therefore
+// rounds to whole numbers. A GPU takes eight times as long for a conversion.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
 
@@ -45,14 +45,14 @@ fn rounded(place: vec2<f32>) -> vec2<i32> {
     return bitcast<vec2<i32>>(place + ROUNDER) - ROUNDER_BITS;
 }
 
-// The corner of a point in screen space, in whole numbers.
+// The place of a corner in screen space, in whole numbers of 1/256 pixels.
 fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
     // In a parallel view w is 1 everywhere.
     if view.eye.w == 0.0 {
         return (xy + ROUNDER) - ROUNDER;
     }
-    // A compiler might fuse this sum with the product in one place and not in another, and round
-    // differently there.
+    // The sum is not used here: a compiler might fuse it with the product in one place and not in
+    // another, and the results would differ.
     return round(xy * (1.0 / w));
 }
 
@@ -66,41 +66,41 @@ fn corner_of(at: vec4<f32>) -> Corner {
     return Corner(rounded(select(place, vec2(0.0), vec2(is_beyond))), at.z / at.w, sides);
 }
 
-// Offers a triangle, or a part of a hair, in the sample of pixel `x` in row `row`.
+// Offers a triangle, or a part of a hair, to the sample of pixel `x` in row `row`.
 fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     if depth < 0.0 || depth > 1.0 {
         return;
     }
     let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-    // Keys are complements. The greatest belongs to the nearest triangle, and of several as near to
-    // the first.
+    // Keys are complements. The greatest key belongs to the nearest triangle, and if several are
+    // equally near, to the first of them.
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// The size of a quad, a bit for each answer: NONE, no samples; SMALL, those of at most two by two
-// pixels; FEW, those of some pixels more; MANY, any number, also for a quad with a corner beyond
-// REACHED.
+// The sizes of quads, a bit for each. NONE has no samples. SMALL has samples of at most two by two
+// pixels, FEW those of some pixels more, and MANY any number. A quad with a corner beyond REACHED
+// is MANY.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
 const MANY = 4u;
 
-// Whether a triangle shows, from twice its area on the screen: its outside, or its inside where
-// that may be seen. Outsides are counter-clockwise with y up, so their areas are below 0.
+// Whether a triangle shows, from twice its area on the screen. Outsides show, and insides if the
+// view may see them. Outsides are counter-clockwise with y upwards, so their areas are below 0.
 fn is_seen(area: f32) -> bool {
     return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
 }
 
-// Twice the area of a triangle on the screen. Only the sign matters, and rounding does not change
-// it except where edges are as long as the screen.
+// Twice the area of a triangle on the screen. Only its sign matters, which rounding can change only
+// if edges are as long as the screen.
 fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
     return pq.x * pr.y - pq.y * pr.x;
 }
 
-// Whether a triangle of corners less than EXTENT apart may show. Its area is wrong by less than
-// 256, so triangles smaller than that may.
+// Whether a triangle of corners less than EXTENT apart may show. Rounding makes its area wrong by
+// less than 256, so triangles smaller than that count as seen.
 fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
     let pq = q - p;
     let pr = r - p;
@@ -115,7 +115,7 @@ struct Quad {
     s: Corner,
 }
 
-// Whether any of its triangles p q r and q s r may show.
+// Whether one of the quad's triangles p q r and q s r may show.
 fn may_show(quad: Quad) -> bool {
     if (quad.p.sides & quad.q.sides & quad.r.sides & quad.s.sides & ~BEYOND) != 0u {
         return false;
@@ -140,7 +140,7 @@ fn highest(quad: Quad) -> vec2<i32> {
 }
 
 // The box round a quad, 1/256 pixels from the screen's upper left corner, and the band's pixels in
-// it. There are none where the quad does not show.
+// it. If the quad does not show, it has no pixels.
 struct QuadBox {
     least: vec2<i32>,
     most: vec2<i32>,
@@ -153,19 +153,20 @@ fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBo
     if !(near_may_show(p, q, r) | near_may_show(q, s, r) | (view.sees_inside != 0u)) {
         return QuadBox(vec2(0), vec2(0), vec2(0), vec2(-1));
     }
-    // One more each way, for a compiler may round differently where the quad is drawn.
+    // The box is 1/256 pixel larger each way, because a compiler may round differently where the
+    // quad is drawn.
     let least = rounded(min(min(p, q), min(r, s))) + (middle() - 1);
     let most = rounded(max(max(p, q), max(r, s))) + (middle() + 1);
     return QuadBox(least, most, first_pixel(least), last_pixel(most));
 }
 
-// A box with one more each way, for a pass that must find every quad that another pass has left to
-// it. A compiler may round differently there, and drawing a quad twice does no harm.
+// A box that is 1/256 pixel larger each way, for a pass that must find every quad that another pass
+// has left to it. A compiler may round differently there. A quad that is drawn twice does no harm.
 fn wider(box: QuadBox) -> QuadBox {
     return QuadBox(box.least, box.most, first_pixel(box.least - 1), last_pixel(box.most + 1));
 }
 
-// The size of a quad with this box, where up to `alone` samples are FEW.
+// The size of a quad with this box. Quads of up to `alone` samples are FEW.
 fn size_of(box: QuadBox, alone: i32) -> u32 {
     let across = box.last - box.first;
     if min(across.x, across.y) < 0 {
@@ -177,8 +178,8 @@ fn size_of(box: QuadBox, alone: i32) -> u32 {
     return select(MANY, FEW, 4 * (across.x + 1) * (across.y + 1) <= alone);
 }
 
-// The samples in the box of a SMALL quad, a bit for each, four for a pixel, from the pixel of the
-// least x and y on, row by row. Most quads lie between samples.
+// A bit for each sample in the box of a SMALL quad. There are four bits for a pixel, row by row
+// from the pixel of the least x and y on. Most quads lie between samples.
 fn samples_of(box: QuadBox) -> u32 {
     let first = box.first;
     let last = box.last;
@@ -200,12 +201,12 @@ fn first_pixel(least: vec2<i32>) -> vec2<i32> {
     return max(least >> vec2(8u), vec2(0, i32(sweep.first_row)));
 }
 
-// The last pixel of the band up to `most`, likewise.
+// The last pixel of the band up to `most`, 1/256 pixels from the screen's upper left corner.
 fn last_pixel(most: vec2<i32>) -> vec2<i32> {
     return min(most >> vec2(8u), vec2(i32(view.size.x) - 1, i32(sweep.first_row + sweep.rows) - 1));
 }
 
-// The samples of a pixel that lie between `least` and `most`, a bit for each.
+// A bit for each sample of a pixel, set if the sample lies between `least` and `most`.
 fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
     let low = least - pixel * 256;
     let high = most - pixel * 256;

@@ -1,4 +1,4 @@
-// The blocks of a chunk that a picture may show, as a list. After fabric.wgsl.
+// The blocks of a chunk that a picture may show, as a list. This file follows fabric.wgsl.
 
 const CULL_GROUP = 64u;
 
@@ -6,8 +6,8 @@ const CULL_GROUP = 64u;
 const BOX_SLACK = 1e-5;
 
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
-// Workgroups of the three dispatches over blocks: all listed blocks, those with quads of a few
-// samples, and those with quads of many.
+// The workgroups of three dispatches: over all listed blocks, over blocks with FEW quads, and over
+// blocks with MANY quads.
 @group(1) @binding(3) var<storage, read_write> groups: array<array<u32, 3>, 3>;
 
 struct Box {
@@ -15,16 +15,17 @@ struct Box {
     high: vec3<f32>,
 }
 
-// Lanes that share a block, so that they read points side by side.
+// The number of lanes that share a block, so that they read points side by side.
 const BLOCK_LANES = 8u;
 
-// What each lane has found of its block: the box round the Bezier hulls of its intervals, and the
-// largest half width or half height.
+// For each lane, the box round the Bezier hulls of its intervals, and the largest half width or
+// half height.
 var<workgroup> lows: array<vec3<f32>, CULL_GROUP>;
 var<workgroup> highs: array<vec3<f32>, CULL_GROUP>;
 var<workgroup> sizes: array<f32, CULL_GROUP>;
 
-// Finds it, for lane `part` of the block's lanes.
+// Finds the box and the size of the intervals of one lane, which is lane `part` of the block's
+// lanes.
 fn find_hull(block: Block, lane: u32, part: u32) {
     let per_interval = params.subdivisions + 1u;
     let last = block.first_ring % per_interval + block.quads;
@@ -56,8 +57,8 @@ fn find_hull(block: Block, lane: u32, part: u32) {
     sizes[lane] = size;
 }
 
-// A box that holds the tube of the block whose lanes begin at `first`: their hulls, made wider by
-// as much as the section may reach out.
+// A box that holds the tube of the block whose lanes begin at `first`: the box of their hulls, made
+// larger by as much as the section may reach out.
 fn box_of(first: u32) -> Box {
     var low = lows[first];
     var high = highs[first];
@@ -74,7 +75,7 @@ fn box_of(first: u32) -> Box {
 
 // Whether all of the box lies beyond one side of the view.
 fn is_outside(bounds: Box) -> bool {
-    // Slack, pixels: corners are rounded.
+    // The box may lie this far outside, because corners are rounded: two pixels, in clip space.
     let spare = 4.0 / view.size;
     let top = 1.0 - 2.0 * f32(sweep.first_row) / view.size.y + spare.y;
     let bottom = 1.0 - 2.0 * f32(sweep.first_row + sweep.rows) / view.size.y - spare.y;
@@ -97,8 +98,8 @@ fn is_outside(bounds: Box) -> bool {
     return left_of || right_of || above || below || before || behind;
 }
 
-// BLOCK_LANES lanes a row of the chunk's block table. A row without quads only has the roll of a
-// ring that a cap closes.
+// Lists the blocks that the view may show, with BLOCK_LANES lanes for each row of the chunk's block
+// table. A row without quads is listed only for the roll of a ring that a cap closes.
 @compute @workgroup_size(CULL_GROUP)
 fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {
@@ -116,8 +117,8 @@ fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     }
 }
 
-// Lists all blocks, for a view that shows all of the fabric: a lane for each row. Culling would
-// take a tenth of the time of drawing.
+// Lists all blocks, for a view that shows all of the fabric, with one lane for each row. Culling
+// would take a tenth of the time of drawing.
 @compute @workgroup_size(CULL_GROUP)
 fn list_all(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
             @builtin(local_invocation_index) lane: u32) {
@@ -135,7 +136,7 @@ fn groups_of(count: u32) -> array<u32, 3> {
     return array((count + max(rows, 1u) - 1u) / max(rows, 1u), rows, 1u);
 }
 
-// The workgroups for all listed blocks, in columns and rows: a single lane.
+// Writes the workgroups for all listed blocks, in columns and rows. It runs as a single lane.
 @compute @workgroup_size(1)
 fn count_listed() {
     atomicStore(&listed.few_count, 0u);
@@ -143,7 +144,8 @@ fn count_listed() {
     groups[0] = groups_of(atomicLoad(&listed.count));
 }
 
-// The workgroups for blocks that were left for later, likewise.
+// Writes the workgroups for the blocks that were left to later passes, in columns and rows. It runs
+// as a single lane.
 @compute @workgroup_size(1)
 fn count_left() {
     groups[1] = groups_of(atomicLoad(&listed.few_count));

@@ -1,4 +1,4 @@
-// Draws quads and triangles into their samples. After cover.wgsl and weights.wgsl.
+// Draws quads and triangles into their samples. This file follows cover.wgsl and weights.wgsl.
 //
 // The rules are those of any rasteriser: corners are rounded to 1/256 of a pixel, edges are tested
 // in whole numbers, and a sample on an edge belongs to the triangle whose top or left edge it is.
@@ -8,8 +8,8 @@ fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;
 }
 
-// The samples in a triangle's box, as rows of samples and columns of pixels. Where pixels have
-// shifts there may be some more.
+// The samples in a triangle's box, as rows of samples and columns of pixels. If pixels have shifts,
+// the span has some samples more.
 struct Span {
     first: vec2<i32>,
     last: vec2<i32>,
@@ -27,7 +27,7 @@ fn span_of(low: vec2<i32>, high: vec2<i32>) -> Span {
     return Span(vec2(first_x, first_row), vec2(last_x, last_row));
 }
 
-// A triangle in the order in which edges go round it clockwise as seen on the screen.
+// A triangle, with its corners in clockwise order as seen on the screen.
 struct Turned {
     p: Corner,
     q: Corner,
@@ -43,7 +43,7 @@ fn turned(p: Corner, q: Corner, r: Corner) -> Turned {
     return Turned(p, q, r, is_seen(area));
 }
 
-// 0 for an edge that its samples belong to, a top or a left one, else -1.
+// 0 for a top or left edge, to which the samples on it belong, else -1.
 fn edge_bias(edge: vec2<i32>) -> i32 {
     return select(-1, 0, edge.y < 0 || (edge.y == 0 && edge.x > 0));
 }
@@ -67,14 +67,14 @@ fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     let over_r = cross_of(pq, place - turned.p.place);
     let over_p = cross_of(qr, place - turned.q.place);
     let over_q = cross_of(rp, place - turned.r.place);
-    // A sample is inside all three only where the edges go round clockwise.
+    // A sample can be inside of all three edges only if they go round clockwise.
     let is_covered =
         (over_r + edge_bias(pq) >= 0) & (over_p + edge_bias(qr) >= 0) & (over_q + edge_bias(rp) >= 0);
     return Coverage(is_covered, depth_of(turned, f32(over_q), f32(over_r), f32(over_r + over_p + over_q)));
 }
 
 // Twice the area between `edge` and `to`, with its sign. It is exact for differences of 24 bits,
-// since it is worked out in parts of 12 bits.
+// because it is worked out in parts of 12 bits.
 struct Area {
     sign: i32,
     value: f32,
@@ -107,7 +107,7 @@ fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
 
 // Draws a SMALL quad into the samples that it covers. Its first triangle is number `triangle`.
 fn draw_small(quad: Quad, samples: u32, triangle: u32) {
-    // The pixel that `samples_of` has begun at.
+    // The pixel at which `samples_of` began.
     let first = first_pixel(lowest(quad) + (middle() - 1));
     for (var rest = samples; rest != 0u; rest &= rest - 1u) {
         let sample = i32(firstTrailingBit(rest));
@@ -123,8 +123,8 @@ fn edge_of(start: vec2<i32>, end: vec2<i32>, origin: vec2<i32>) -> vec3<i32> {
     return vec3(edge, edge_bias(edge) - cross_of(edge, start - origin));
 }
 
-// The sum of an edge at four places. Parts of it may wrap, but the sum is exact, since places lie
-// within a box of ALONE samples.
+// The sum of an edge at four places. Parts of the sum may wrap, but the sum is exact, because
+// places lie within a box of ALONE samples.
 fn sums_at(edge: vec3<i32>, places: Four) -> vec4<i32> {
     return edge.x * places.y - edge.y * places.x + edge.z;
 }
@@ -156,7 +156,7 @@ fn draw_few(quad: Quad, triangle: u32) {
                     let corner = vec2(x, y) * 256 - middle() - origin;
                     let own = samples_in(vec2(x, y));
                     let places = Four(own.x + corner.x, own.y + corner.y);
-                    // Negative where either sum is.
+                    // Negative if either sum is.
                     let in_first = sums_at(pr, places) | sums_at(qp, places);
                     let in_second = sums_at(sq, places) | sums_at(rs, places);
                     let inside = select(in_second, in_first, sums_at(diagonal, places) >= vec4(0)) >= vec4(0);
@@ -171,7 +171,8 @@ fn draw_few(quad: Quad, triangle: u32) {
     }
 }
 
-// Draws a quad into a sample: the triangle on the sample's side of the diagonal between q and r.
+// Draws a quad into a sample: that triangle of the quad that lies on the sample's side of the
+// diagonal between q and r.
 fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     let place = sample_place(x, row);
     if view.sees_inside != 0u {
@@ -189,7 +190,7 @@ fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     offer_covered(seen, place, x, row, select(triangle + 1u, triangle, is_first));
 }
 
-// Offers a triangle in the sample at `place`, if it covers that.
+// Offers a triangle to the sample at `place`, if it covers the sample.
 fn offer_covered(turned: Turned, place: vec2<i32>, x: i32, row: i32, triangle: u32) {
     let coverage = coverage_of(turned, place);
     if turned.is_seen && coverage.is_covered {
@@ -208,7 +209,7 @@ struct Lanes {
 // The part of a row of samples that may lie inside a triangle: from `x` to `y`, 1/256 pixels right
 // of the screen's middle.
 fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
-    // Samples that have shifts lie anywhere in the row.
+    // Samples with shifts lie anywhere in the row.
     let is_shifted = view.spread > 0.0;
     let upper = f32(row * SAMPLE_ROW + select(FIRST_SAMPLE_Y, 0, is_shifted) - middle().y);
     let lower = upper + select(0.0, f32(SAMPLE_ROW), is_shifted);
@@ -221,8 +222,8 @@ fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     return clamp(reach + vec2(-16.0, 16.0), vec2(-REACHED), vec2(REACHED));
 }
 
-// The part of a reach that an edge leaves. An edge that leads down has the triangle on its left,
-// one that leads up on its right.
+// The part of a reach that an edge leaves. The triangle lies on the left of an edge that leads
+// down, and on the right of an edge that leads up.
 fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f32>) -> vec2<f32> {
     let edge = end - start;
     let at = start.x + edge.x / edge.y * (rows - start.y);
@@ -230,7 +231,7 @@ fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f
                 select(reach.y, min(reach.y, max(at.x, at.y)), edge.y > 0.0));
 }
 
-// Draws a triangle: each lane draws its share of the samples.
+// Draws a triangle with several lanes, each of which draws its share of the samples.
 fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
     let turned = turned(p, q, r);
     let low = min(p.place, min(q.place, r.place));
@@ -269,8 +270,8 @@ fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u3
         let weights = weights_at(p, q, r, sample_place(x, sample_row));
         let determinant = dot(weights, vec3(p.w, q.w, r.w));
         let is_front = determinant > 0.0;
-        // All must have one sign. Otherwise the place lies outside, or the line of sight meets the
-        // triangle behind the eye.
+        // All weights must have one sign. Otherwise the place lies outside, or the line of sight
+        // meets the triangle behind the eye.
         let inside = select(-weights, weights, is_front);
         if determinant != 0.0 && (is_front || view.sees_inside != 0u) && all(inside >= vec3(0.0)) {
             let clip = p * weights.x + q * weights.y + r * weights.z;

@@ -1,26 +1,27 @@
-// A chunk of the fabric, drawn from control points without a mesh. After common.wgsl and view.wgsl.
+// A chunk of the fabric, drawn from control points without a mesh. This file follows common.wgsl
+// and view.wgsl.
 //
 // Group 0 holds the session's tables of the chunk, each resource at its own number. Group 1 holds
 // what pictures add.
 
-// Rust: texere_render's Sweep, 32 bytes: one go through the chunk's blocks.
+// Rust: texere_render's Sweep, 32 bytes. A sweep goes through the chunk's blocks once.
 struct Sweep {
-    // Rows of the screen that have keys: the first, and how many.
+    // The first row of the screen that has keys, and the number of rows that have.
     first_row: u32,
     rows: u32,
-    // Where keys have 32 bits, 0 finds depths and 1 finds triangles.
+    // If keys have 32 bits, sweep 0 finds depths and sweep 1 finds triangles.
     number: u32,
     // How far a section reaches from its centre, in half widths or half heights.
     reach: f32,
-    // 1 where nothing was drawn before, else 0.
+    // 1 if nothing was drawn before, else 0.
     is_first: u32,
-    // How far fibres stand off, mm: 0 where none are drawn.
+    // How far fibres stand off, mm; 0 if none are drawn.
     hair_reach: f32,
 }
 
-// Three lists of row numbers. First the blocks that the view may show; from params.blocks on,
-// blocks with quads of a few samples; from twice params.blocks on, blocks with quads of many. The
-// latter two are left for later passes.
+// Three lists of row numbers. First come the blocks that the view may show, from params.blocks on
+// the blocks with FEW quads, and from twice params.blocks on the blocks with MANY quads. The second
+// and third lists are for later passes.
 struct Listed {
     count: atomic<u32>,
     few_count: atomic<u32>,
@@ -31,7 +32,7 @@ struct Listed {
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 @group(1) @binding(1) var<uniform> sweep: Sweep;
 
-// Triangles that a block of the table has numbers for. A cap has as many.
+// The number of triangles that a block of the table, or a cap, has numbers for.
 fn numbers_of_block() -> u32 {
     return 2u * BLOCK_RINGS * params.sides;
 }
@@ -63,7 +64,7 @@ fn key_at(x: u32, row: u32, sample: u32) -> u32 {
     return (row * u32(view.size.x) + x) * 4u + sample;
 }
 
-// How the section stands at the end that `cap` closes, with the roll and the lean of the ring
+// How the section stands at the end that `cap` closes. `roll` is the roll and the lean of the ring
 // there.
 fn cap_stance(cap: CapRow, roll: vec2<u32>) -> Stance {
     let segment = segment_new(cap.first_point, params.s);
@@ -71,7 +72,8 @@ fn cap_stance(cap: CapRow, roll: vec2<u32>) -> Stance {
     return stance_of_sample(sample, roll);
 }
 
-// `roll` is the roll of its ring and the lean.
+// How the section stands at a sample of the spline. `roll` is the roll and the lean of the ring
+// there.
 fn stance_of_sample(sample: Sample, roll: vec2<u32>) -> Stance {
     let centre = vec4(sample.centre, sample.half_width);
     let tangent = vec4(sample.tangent, sample.width_growth);

@@ -1,16 +1,17 @@
-// The pixels of the picture, from the samples in and about each. After view.wgsl and lit.wgsl.
+// The pixels of the picture, from the samples in and about each. This file follows view.wgsl and
+// lit.wgsl.
 //
-// The plain mean of the samples in a pixel shows false waves where threads are finer than pixels:
-// threads of two thirds of a pixel come out as waves of two pixels, a fifth as strong as the
-// threads. More samples don't help, for the mean itself does it. On such threads each pixel is
-// therefore a mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines:
-// a perfect fit for signal and image processing"). It leaves a tenth of those waves.
+// If threads are finer than pixels, the plain mean of the samples in a pixel shows false waves.
+// Threads of two thirds of a pixel come out as waves of two pixels, a fifth as strong as the
+// threads. More samples don't help, because the mean itself makes the waves. For fine threads each
+// pixel is therefore a mean that falls off over three pixels, the quadratic B-spline (Unser 1999,
+// "Splines: a perfect fit for signal and image processing"). It leaves a tenth of the waves.
 
 @group(1) @binding(1) var lit_samples: texture_2d<u32>;
 // Red, green, blue and alpha, sRGB.
 @group(1) @binding(2) var picture: texture_storage_2d<rgba8unorm, write>;
 
-// Where a pixel of the screen has its samples, pixels right of its corner or below it.
+// The places of the samples of a pixel of the screen, in pixels right of its corner or below it.
 struct Places {
     right: vec4<f32>,
     down: vec4<f32>,
@@ -23,12 +24,12 @@ fn places_of(pixel: vec2<i32>) -> Places {
     return Places(vec4<f32>(right) / 256.0, vec4<f32>(down) / 256.0);
 }
 
-// The mean within half a pixel.
+// The weights of the plain mean: 1 within half a pixel.
 fn near(off: vec4<f32>) -> vec4<f32> {
     return select(vec4(0.0), vec4(1.0), abs(off) < vec4(0.5));
 }
 
-// The quadratic B-spline.
+// The weights of the quadratic B-spline.
 fn wide(off: vec4<f32>) -> vec4<f32> {
     let away = abs(off);
     let rest = max(1.5 - away, vec4(0.0));
@@ -40,7 +41,7 @@ fn srgb(light: vec3<f32>) -> vec3<f32> {
     return select(curved, light * 12.92, light <= vec3(0.0031308));
 }
 
-// A lane a pixel of the picture.
+// Works out the picture, with one lane for each of its pixels.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn gather(@builtin(global_invocation_id) place: vec3<u32>) {
     let factor = i32(view.supersampling);
@@ -49,7 +50,7 @@ fn gather(@builtin(global_invocation_id) place: vec3<u32>) {
     if any(corner > last) {
         return;
     }
-    // One pixel more each way, where the wide mean counts at all.
+    // One pixel of the picture more each way, if the wide mean counts at all.
     let margin = select(0, factor, view.spread > 0.0);
     let low = max(corner - margin, vec2(0));
     let high = min(corner + factor + margin - 1, last);
@@ -63,7 +64,8 @@ fn gather(@builtin(global_invocation_id) place: vec3<u32>) {
             let weight = mix(near(right) * near(down), wide(right) * wide(down), view.spread);
             let lit = textureLoad(lit_samples, vec2(x, y), 0);
             for (var sample = 0; sample < SAMPLES; sample++) {
-                // A sample without alpha has no colour either, so it takes no part in the pixel's.
+                // A sample without alpha has no colour either, so it takes no part in the colour of
+                // the pixel.
                 let color = color_of(lit[sample]);
                 sum += weight[sample] * color.a * vec4(color.rgb, 1.0);
             }

@@ -1,10 +1,11 @@
-// Hairs: fibres that stand off their yarns. After fabric.wgsl.
+// Hairs: fibres that stand off their yarns. This file follows fabric.wgsl.
 //
-// Each gap between two rings has its own hairs, from a hash of its yarn, its ring and the hair's
-// number. The hairs are the same however the fabric is cut into chunks, and in every shader.
+// Each gap between two rings has its own hairs. They come from a hash of the yarn's number, the
+// ring's and the hair's. The hairs are the same however the fabric is cut into chunks, and in every
+// shader.
 
-// Hairs of a gap at most, and straight parts of each. Rust: texere_render's hairs.rs, with the next
-// one.
+// The most hairs of a gap, and the number of straight parts of each hair. In Rust these two numbers
+// and the next are in texere_render's hairs.rs.
 const HAIRS_OF_GAP = 16u;
 const HAIR_PARTS = 16u;
 
@@ -13,7 +14,7 @@ const HAIR_LONGEST = 4.0;
 
 // Lengths are distributed exponentially (Barella and Manich 1993, "The hair-length distribution of
 // yarns, measured by means of the Zweigle G565 hairiness meter", for hairs up to 3 mm), with this
-// scale, mm. It is chosen: a fifth of the hairs of 1 mm reach 2 mm.
+// scale, mm. The scale is chosen, not measured: with it a fifth of the hairs of 1 mm reach 2 mm.
 const HAIR_SCALE = 0.6;
 
 // A fibre's width, mm: cotton is a ribbon of 12 to 20 micrometres, thinner the other way (Morton
@@ -22,13 +23,13 @@ const HAIR_WIDTH = 0.012;
 
 struct Hair {
     root: vec3<f32>,
-    // Length of each of its parts, mm.
+    // The length of each of the hair's parts, mm.
     part: f32,
-    // The surface's at the root, and the direction of its fibres there.
+    // The normal of the surface at the root, and the direction of the surface's fibres there.
     normal: vec3<f32>,
     along: vec3<f32>,
-    // At its root, on its way and at its tip: the sine of its direction against that surface, and
-    // how far it is turned from those fibres, in turns.
+    // At the hair's root, on its way and at its tip: the sine of its direction against the surface,
+    // and its angle to the surface's fibres, in turns.
     rises: vec3<f32>,
     turns: vec3<f32>,
 }
@@ -40,19 +41,19 @@ fn scrambled(x: u32) -> u32 {
     return mixed ^ (mixed >> 16u);
 }
 
-// Draw number `draw` of a hair, 0 to 1 without it.
+// Draw number `draw` of a hair: a number from 0 to just below 1.
 fn drawn(seed: u32, draw: u32) -> f32 {
     return f32(scrambled(seed + draw * 2654435769u) >> 8u) / 16777216.0;
 }
 
-// The seed of a hair's draws. `ring`: the ring before the gap, counted in the whole yarn.
+// The seed of a hair's draws. `ring` is the number in the yarn of the ring before the gap.
 fn seed_of(yarn: u32, ring: u32, hair: u32) -> u32 {
     return scrambled(scrambled(yarn * 2246822519u + ring) + hair * 3266489917u);
 }
 
-// The hair of a seed, between two rings. It starts on the drawn surface, and leaves it along the
-// direction of its fibres, which has the twist, forward or backward. Then it bends at random and
-// lies down. It never leads back through the plane that it left.
+// The hair of a seed, between two rings. The hair starts on the drawn surface, and leaves it
+// forward or backward along the direction of the surface's fibres, which has the twist. Then it
+// bends at random and lies down. It never leads back through the plane that it left.
 fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     let side = min(u32(drawn(seed, 0u) * f32(params.sides)), params.sides - 1u);
     let beside = side_beside(side);
@@ -64,7 +65,7 @@ fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     let level = facet - normal * dot(facet, normal);
     let along = level * inverseSqrt(max(dot(level, level), 1e-30));
     let scales = -log(1.0 - drawn(seed, 2u) * (1.0 - exp(-HAIR_LONGEST)));
-    // Short ends are stiff.
+    // Short hairs are stiff.
     let limp = min(scales, 1.0);
     let turn = 0.16 * (drawn(seed, 3u) - 0.5) + select(0.0, 0.5, drawn(seed, 4u) < 0.5);
     let turns = turn + limp * vec3(0.0, drawn(seed, 5u) - 0.5, 1.6 * (drawn(seed, 6u) - 0.5));
@@ -73,8 +74,8 @@ fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     return Hair(mix(start, end, drawn(seed, 10u)), HAIR_SCALE * scales / f32(HAIR_PARTS), normal, along, rises, turns);
 }
 
-// The direction of part number `part`. Rise and turn are quadratic Bezier curves of the way to the
-// tip.
+// The direction of part number `part`. Rise and turn are quadratic Bezier curves along the way to
+// the tip.
 fn hair_direction(hair: Hair, part: u32) -> vec3<f32> {
     let share = (f32(part) + 0.5) / f32(HAIR_PARTS);
     let rest = 1.0 - share;
@@ -85,12 +86,12 @@ fn hair_direction(hair: Hair, part: u32) -> vec3<f32> {
     return hair.normal * rise + level * sqrt(1.0 - rise * rise);
 }
 
-// Parts of hairs that a block of the table has numbers for.
+// The number of parts of hairs that a block of the table has numbers for.
 fn hairs_of_block() -> u32 {
     return BLOCK_RINGS * HAIRS_OF_GAP * HAIR_PARTS;
 }
 
-// Hairs are numbered after all triangles.
+// The number of the first part of a hair. Hairs are numbered after all triangles.
 fn first_hair() -> u32 {
     return (params.blocks + params.caps) * numbers_of_block();
 }

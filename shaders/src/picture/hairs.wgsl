@@ -1,8 +1,8 @@
-// Draws the fibres that stand off the yarns of a chunk. After rings.wgsl, fabric.wgsl, cover.wgsl
-// and hair.wgsl.
+// Draws the fibres that stand off the yarns of a chunk. This file follows rings.wgsl, fabric.wgsl,
+// cover.wgsl and hair.wgsl.
 //
-// A fibre is drawn as a ribbon that faces the eye, at its true width. Where that is less than the
-// distance of samples, it covers as few samples as its area does. Thin fibres thus come out
+// A fibre is drawn as a ribbon that faces the eye, at its true width. If the width is less than the
+// distance of samples, the ribbon covers as few samples as its area does. Thin fibres thus come out
 // fainter, not thicker.
 
 const HAIR_GROUP = 128u;
@@ -11,15 +11,15 @@ const HAIR_GROUP = 128u;
 const DEEPEST = 0.99999994;
 
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
-// Hairs a mm of each yarn.
+// The number of hairs on each mm of each yarn.
 @group(1) @binding(6) var<storage, read> hair_density: array<f32>;
 
-// The hairs of a block: its gap, and its number there.
+// The hairs of a block: the gap of each, and its number there.
 var<workgroup> block_hairs: array<u32, BLOCK_RINGS * HAIRS_OF_GAP>;
 var<workgroup> hair_count: atomic<u32>;
 
 // Notes the hairs of the gap behind ring `ring` of the block. Their number follows from the gap's
-// length; its fraction is left to chance.
+// length. It is rounded up or down by chance.
 fn note_hairs(block: Block, ring: u32) {
     let length = distance(standing.centre[ring].xyz, standing.centre[ring + 1u].xyz);
     let chance = drawn(seed_of(block.yarn, block.first_ring + ring, HAIRS_OF_GAP), 0u);
@@ -37,7 +37,8 @@ fn half_width_at(w: f32) -> f32 {
     return 0.5 * HAIR_WIDTH * SUBPIXELS * pixels_of_mm;
 }
 
-// The part of a hair between two places of the fabric, with round ends, so that parts join up.
+// Draws the part of a hair between two places of the fabric. Its ends are round, so that parts join
+// up.
 fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     let start_clip = clip_of(start);
     let end_clip = clip_of(end);
@@ -51,7 +52,8 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     if min(start_clip.w, end_clip.w) < 0.5 * plane {
         return;
     }
-    // The view's depth is that of the yarns. Parts of hairs beyond its ends are drawn at the ends.
+    // The range of depths is that of the yarns. Parts of hairs beyond its ends are drawn at the
+    // ends.
     let depths = clamp(vec2(p.depth, q.depth), vec2(0.0), vec2(DEEPEST));
     let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));
     let base = vec2<f32>(p.place);
@@ -63,7 +65,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     let first_row = max(i32(ceil((low - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * sweep.first_row));
     let end_row = min(i32(floor((high - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * (sweep.first_row + sweep.rows)) - 1);
     for (var row = first_row; row <= end_row; row++) {
-        // The stretch of the part that lies near the row.
+        // The shares of the part between which it lies near the row.
         let down = f32(sample_place(0, row).y) - base.y;
         let shares = select(vec2(0.0, 1.0), (vec2(down) + vec2(-reach, reach)) / way.y, abs(way.y) > 1.0);
         let ends = way.x * clamp(shares, vec2(0.0), vec2(1.0));
@@ -82,7 +84,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     }
 }
 
-// A workgroup of HAIR_GROUP a listed block.
+// Draws the hairs of all listed blocks, with one workgroup of HAIR_GROUP lanes for each block.
 @compute @workgroup_size(HAIR_GROUP)
 fn hairs(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
          @builtin(local_invocation_index) lane: u32) {

@@ -1,23 +1,24 @@
-// The encoding of a sample until it is lit. After view.wgsl.
+// The encoding of a sample until it is lit. This file follows view.wgsl.
 
 const TAU = 6.2831853;
 
-// A vector of 16-bit numbers in one of 32.
+// Two numbers of 16 bits in one of 32 bits.
 fn pair_of(both: vec2<u32>) -> u32 {
     return both.x | both.y << 16u;
 }
 
-// Four numbers: normal and fibre direction, each as an octahedron; the yarn's number; the angle
-// round the yarn, 65,536 a turn, and 1/8 rings along it.
+// Four numbers: the normal and the direction of fibres, each as an octahedron; the yarn's number;
+// and the place on the yarn. That is the angle round it, 65,536 to a turn, and the distance along
+// it, in eighths of rings.
 //
-// `fibre` is the direction along the facet, `angle` the one round the yarn in turns, `along` in
-// rings, `yarn` the yarn's number, marked CUT on a cap.
+// `fibre` is the direction along the facet, `angle` the angle round the yarn in turns, and `along`
+// the distance along it in rings. `yarn` is the yarn's number, marked CUT on a cap.
 fn kept_of(normal: vec3<f32>, fibre: vec3<f32>, angle: f32, along: f32, yarn: u32, is_front: bool) -> vec4<u32> {
     var facing = normalize(normal);
     var number = yarn;
     if !is_front {
-        // The inside shows only where the yarn is cut: it is filled with fibre that ends there, and
-        // faces the eye.
+        // The inside shows only where the yarn is cut. It is drawn as if filled with fibres that
+        // end there, and it faces the eye.
         facing = normalize(view.eye.xyz);
         number |= CUT;
     }

@@ -1,5 +1,5 @@
-// The nearest triangle in each sample, in two numbers of 32 bits, which take two rounds. Before
-// cover.wgsl. In memory they are the number of keys_64.wgsl.
+// The nearest triangle in each sample, in two numbers of 32 bits, which take two rounds. This file
+// comes before cover.wgsl. In memory both numbers together equal the number of keys_64.wgsl.
 
 struct Key {
     triangle: atomic<u32>,

@@ -1,45 +1,45 @@
-//! The shaders that make pictures; `texere-render` runs them.
+//! The shaders that make pictures. `texere-render` runs them.
 //!
 //! | file | entry points | work |
 //! |---|---|---|
-//! | `view.wgsl` | | the view: stands before each of the others |
-//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before all down to `resolve.wgsl` |
+//! | `view.wgsl` | | the view: stands before each of the files below |
+//! | `fabric.wgsl` | | a chunk that is drawn without a mesh: stands before all files down to `resolve.wgsl` |
 //! | `cull.wgsl` | `cull`, `list_all`, `count_listed`, `count_left` | the blocks that the view may show |
-//! | `weights.wgsl` | | shares of a triangle's corners |
+//! | `weights.wgsl` | | how much each corner of a triangle counts |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
-//! | `cover.wgsl` | | where corners lie on the screen, and the samples that a quad may have |
+//! | `cover.wgsl` | | the places of corners on the screen, and the samples that a quad may cover |
 //! | `draw.wgsl` | | draws quads and triangles in their samples |
-//! | `axes.wgsl`, `axes_level.wgsl`, `axes_rolled.wgsl` | | a block's rings on the screen, where nothing turns and where something does |
-//! | `hair.wgsl` | | what a fibre that stands off its yarn is like |
-//! | `hairs.wgsl` | `hairs` | draws those of a chunk |
+//! | `axes.wgsl`, `axes_level.wgsl`, `axes_rolled.wgsl` | | a block's rings on the screen, for fabrics in which no section turns and for all |
+//! | `hair.wgsl` | | the fibres that stand off their yarns |
+//! | `hairs.wgsl` | `hairs` | draws the fibres that stand off the yarns of a chunk |
 //! | `raster.wgsl` | `raster`, `raster_few`, `raster_many`, `raster_caps` | draws a chunk from its control points |
-//! | `kept.wgsl` | | what is kept of a sample until it is lit |
-//! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
-//! | `screen.wgsl` | | reads back what is kept: stands before the two that follow |
+//! | `kept.wgsl` | | the encoding of a sample until it is lit |
+//! | `resolve.wgsl` | `resolve` | works out what each sample shows, from the number of its nearest triangle |
+//! | `screen.wgsl` | | reads that back: stands before `visibility.wgsl` and `shade.wgsl` |
 //! | `visibility.wgsl` | `visibility` | ambient occlusion and shadow, on the screen |
 //! | `shade.wgsl` | `shade` | light and tone mapping, sample by sample |
-//! | `lit.wgsl` | | what is kept of a sample that is lit |
-//! | `gather.wgsl` | `gather` | the picture's own pixels, from the samples in and about each |
+//! | `lit.wgsl` | | the encoding of a lit sample |
+//! | `gather.wgsl` | `gather` | the pixels of the picture, from the samples in and about each |
 
-/// Source before all shaders that write samples: the view, and the encoding of samples.
+/// The view, and the encoding of samples. This source stands before all shaders that write samples.
 pub const KEPT: &str = concat!(include_str!("view.wgsl"), include_str!("kept.wgsl"));
 
-/// Source before all shaders that draw without a mesh.
+/// The source that stands before all shaders that draw without a mesh.
 macro_rules! fabric {
     () => {
         concat!(include_str!("../common.wgsl"), include_str!("view.wgsl"), include_str!("fabric.wgsl"))
     };
 }
 
-/// Source that draws with one kind of keys.
+/// The source that draws with one kind of keys.
 macro_rules! drawing {
     ($keys:literal, $($own:expr),+) => {
         concat!(fabric!(), include_str!($keys), include_str!("cover.wgsl"), $($own),+)
     };
 }
 
-/// `raster`, `raster_few`, `raster_many` and `raster_caps` with one kind of keys: first for fabrics
-/// in which no section turns, then for all.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps` with one kind of keys. The first source
+/// is for fabrics in which no section turns, the second for all fabrics.
 macro_rules! raster {
     ($keys:literal) => {
         [
@@ -64,19 +64,20 @@ macro_rules! raster {
     };
 }
 
-/// A block's rings, and the ring after them.
+/// `rings.wgsl` for stages that make a block's rings and the ring after them.
 macro_rules! rings {
     () => {
         concat!("const RINGS_BEYOND = 1u;\n", include_str!("../rings.wgsl"))
     };
 }
 
-/// `cull`, `list_all`, `count_listed` and `count_left`. Like the next five, it needs
-/// `texere_gpu::prelude` before it.
+/// `cull`, `list_all`, `count_listed` and `count_left`. This source, [`RASTER`],
+/// [`RASTER_IN_ROUNDS`], [`HAIRS`], [`HAIRS_IN_ROUNDS`] and [`RESOLVE`] need `texere_gpu::prelude`
+/// before them.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
-/// `raster`, `raster_few`, `raster_many` and `raster_caps` for devices with atomics of 64 bits:
-/// first for fabrics in which no section turns, then for all.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps` for devices with atomics of 64 bits. The
+/// first source is for fabrics in which no section turns, the second for all fabrics.
 pub const RASTER: [&str; 2] = raster!("keys_64.wgsl");
 
 /// [`RASTER`] for any device.
@@ -90,7 +91,7 @@ pub const HAIRS: &str =
 pub const HAIRS_IN_ROUNDS: &str =
     drawing!("keys_32.wgsl", rings!(), include_str!("hair.wgsl"), include_str!("hairs.wgsl"));
 
-/// `resolve`, behind [`hairy`].
+/// `resolve`. The constant of [`hairy`] must come before it.
 pub const RESOLVE: &str = concat!(
     fabric!(),
     include_str!("weights.wgsl"),
@@ -99,7 +100,7 @@ pub const RESOLVE: &str = concat!(
     include_str!("resolve.wgsl")
 );
 
-/// Source before [`RESOLVE`]: whether any yarn has fibres that stand off.
+/// The constant that must come before [`RESOLVE`]: whether any yarn has fibres that stand off.
 #[must_use]
 pub const fn hairy(hairs: bool) -> &'static str {
     if hairs { "const HAIRY = true;\n" } else { "const HAIRY = false;\n" }
@@ -109,7 +110,7 @@ pub const fn hairy(hairs: bool) -> &'static str {
 pub const VISIBILITY: &str =
     concat!(include_str!("view.wgsl"), include_str!("screen.wgsl"), include_str!("visibility.wgsl"));
 
-/// `shade`, behind [`far`].
+/// `shade`. The constant of [`far`] must come before it.
 pub const SHADE: &str = concat!(
     include_str!("view.wgsl"),
     include_str!("screen.wgsl"),
@@ -117,8 +118,8 @@ pub const SHADE: &str = concat!(
     include_str!("shade.wgsl")
 );
 
-/// Source before [`SHADE`]: whether the picture has no `visibility`, since everything that could
-/// take light from a place lies too close to it on the screen.
+/// The constant that must come before [`SHADE`]: whether the picture has no `visibility`, because
+/// everything that could take light from a place lies too close to it on the screen.
 #[must_use]
 pub const fn far(far: bool) -> &'static str {
     if far { "const FAR = true;\n" } else { "const FAR = false;\n" }

@@ -1,36 +1,38 @@
-// Draws a chunk of the fabric from its control points: no mesh is written. After draw.wgsl, and
-// axes_level.wgsl or axes_rolled.wgsl.
+// Draws a chunk of the fabric from its control points, without writing a mesh. This file follows
+// draw.wgsl, and axes_level.wgsl or axes_rolled.wgsl.
 //
 // Compute shaders draw (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute
-// shaders and vertex order optimization"; Karis et al. 2021, "Nanite"), since yarns have several
+// shaders and vertex order optimization"; Karis et al. 2021, "Nanite"), because yarns have several
 // triangles for each sample, and rasterisers are made for large triangles. Here a triangle without
-// samples costs only the test for it, and one with samples an atomic maximum in each.
+// samples takes only the time of one test. A triangle with samples takes an atomic maximum for
+// each.
 
-// A lane for each ring of a block and for the ring after it, in whole eights for the scan of rolls.
-// The less memory a workgroup takes, the more workgroups run at a time.
+// The lanes of a workgroup: one for each ring of a block and for the ring after it, rounded up to a
+// multiple of eight for the scan of rolls. The less memory a workgroup takes, the more workgroups
+// run at a time.
 const RASTER_GROUP = BLOCK_RINGS + 8u;
-// Lanes of the workgroup that draw the quads found. GPUs run 32 lanes in step, and the few beyond
-// would keep others waiting in each round.
+// The number of lanes that draw the quads found. GPUs run 32 lanes in step, and all would wait in
+// each round for the few lanes beyond 64.
 const DRAWING_LANES = 64u;
 const MANY_GROUP = 128u;
 const CAP_GROUP = 64u;
 
-// Sides that a lane looks at before what it has found is drawn.
+// The number of sides that a lane tests before the quads found are drawn.
 const SIDES_LOOKED = 6u;
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// Quads of the block to draw: their numbers, and above FOUND_SHIFT the samples that SMALL quads may
-// have. In `raster_many` sides of the ring.
+// The quads of the block to draw: their numbers, and above FOUND_SHIFT the samples that SMALL quads
+// may have. In `raster_many`, the sides of the ring whose quads are to draw.
 const FOUND_SHIFT = 16u;
 const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
 var<workgroup> found: array<u32, FOUND_MOST>;
 var<workgroup> found_count: atomic<u32>;
 // Sections have up to 256 sides.
 const_assert BLOCK_RINGS * 256u <= 1u << FOUND_SHIFT && FOUND_MOST >= 256u && SIDES_LOOKED <= 6u;
-// Sizes of the quads that `raster` leaves to other passes.
+// The sizes of the quads that `raster` leaves to other passes.
 var<workgroup> other_sizes: atomic<u32>;
 
 // The corner at a section's `point`, in screen space.
@@ -70,7 +72,7 @@ fn are_near(one: Disc, other: Disc) -> bool {
     return max(farthest.x, farthest.y) + reach < REACHED && max(apart.x, apart.y) + reach < f32(EXTENT) - 2.0;
 }
 
-// A corner in whole numbers.
+// The place of a corner in whole numbers of 1/256 pixels.
 fn near_place(axes: Axes, point: vec2<f32>) -> vec2<f32> {
     let xyw = axes.centre.xyw + (axes.x.xyw * point.x + axes.y.xyw * point.y);
     return place_of(xyw.xy, xyw.z);
@@ -85,8 +87,9 @@ fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {
                 corner_of(tube_at(next, other)));
 }
 
-// Notes the quads of some sides of a ring that are SMALL and have samples, or those that are FEW,
-// and the sizes of all others. `here` are the ring's axes.
+// Notes quads of some sides of a ring in `found`: if `size` is SMALL, those that are SMALL and have
+// samples, and else those that are FEW. The sizes of all others go into `other_sizes`. `here` are
+// the ring's axes.
 fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axes, size: u32) {
     if first_side >= end_side {
         return;
@@ -96,8 +99,8 @@ fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axe
         atomicOr(&other_sizes, MANY);
         return;
     }
-    // The samples found, 16 bits for each side, two sides in a number; and a bit for each side that
-    // is noted.
+    // The samples found, 16 bits for each side, two sides in a number. `noted` has a bit for each
+    // side that is noted.
     var samples = vec3(0u);
     var noted = 0u;
     var sizes = 0u;
@@ -136,7 +139,8 @@ fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axe
     }
 }
 
-// Whether a quad may have MANY samples. Where its rings are not near, the number is unknown.
+// Whether a quad may have MANY samples. If its rings are not near one another, the number is
+// unknown.
 fn may_have_many(outline: u32, ring: u32, side: u32) -> bool {
     let here = held_axes(ring);
     let next = held_axes(ring + 1u);
@@ -150,7 +154,7 @@ fn may_have_many(outline: u32, ring: u32, side: u32) -> bool {
     return size_of(box, ALONE - 128) == MANY;
 }
 
-// Every lane must call it once it no longer needs the quads in `found`.
+// Empties `found`. Every lane must call this function when it no longer needs the quads in `found`.
 fn empty_found(lane: u32) {
     workgroupBarrier();
     if lane == 0u {
@@ -160,7 +164,7 @@ fn empty_found(lane: u32) {
 }
 
 // Draws the SMALL quads of a block and returns the other sizes that it has, or draws its FEW quads.
-// For a workgroup of RASTER_GROUP.
+// A workgroup of RASTER_GROUP lanes calls this function.
 fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     let own = project_block(blocks[row], lane);
     if lane == 0u {
@@ -170,7 +174,7 @@ fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     workgroupBarrier();
     let outline = yarns[blocks[row].yarn].section * params.sides;
     let base = row * numbers_of_block();
-    // Lanes that have no ring look at no sides.
+    // Lanes that have no ring test no sides.
     let sides = select(0u, params.sides, lane < blocks[row].quads);
     for (var first_side = 0u; first_side < params.sides; first_side += SIDES_LOOKED) {
         let end_side = min(sides, first_side + SIDES_LOOKED);
@@ -194,8 +198,8 @@ fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     return atomicLoad(&other_sizes);
 }
 
-// Draws the SMALL quads of listed blocks: a workgroup for each block. Blocks with other quads are
-// left for later passes.
+// Draws the SMALL quads of listed blocks, with one workgroup for each block. Blocks with other
+// quads are left for later passes.
 @compute @workgroup_size(RASTER_GROUP)
 fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
           @builtin(local_invocation_index) lane: u32) {
@@ -213,7 +217,7 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     }
 }
 
-// Draws the FEW quads of blocks that have some: a workgroup for each block.
+// Draws the FEW quads of blocks that have some, with one workgroup for each block.
 @compute @workgroup_size(RASTER_GROUP)
 fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
@@ -223,8 +227,8 @@ fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// Draws the MANY quads: a workgroup of MANY_GROUP for each ring of a block that has some. All lanes
-// draw each quad together.
+// Draws the MANY quads, with one workgroup of MANY_GROUP lanes for each ring of a block that has
+// some. All lanes draw each quad together.
 @compute @workgroup_size(MANY_GROUP)
 fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
@@ -269,7 +273,7 @@ fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     }
 }
 
-// Corner `corner` of a cap.
+// Corner `corner` of a cap in clip space.
 fn cap_clip(cap: CapRow, stance: Stance, corner: u32) -> vec4<f32> {
     return clip_of(position_at(stance, outlines[yarns[cap.yarn].section * params.sides + corner]));
 }
@@ -278,7 +282,7 @@ fn cap_corner(cap: CapRow, stance: Stance, corner: u32) -> Corner {
     return corner_of(screen_of(cap_clip(cap, stance, corner)));
 }
 
-// Draws caps: a workgroup of CAP_GROUP for each.
+// Draws caps, with one workgroup of CAP_GROUP lanes for each cap.
 @compute @workgroup_size(CAP_GROUP)
 fn raster_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {

@@ -1,10 +1,10 @@
-// Works out what each sample shows, from the number of its triangle or of its part of a hair. After
-// fabric.wgsl, weights.wgsl, kept.wgsl and hair.wgsl, and after HAIRY: false where no yarn has
-// hairs.
+// Works out what each sample shows, from the number of its triangle or of its part of a hair. This
+// file follows fabric.wgsl, weights.wgsl, kept.wgsl and hair.wgsl, and the constant HAIRY, which is
+// false if no yarn has hairs.
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
-// The triangle and the nearness of each sample, as complements; 0 where there is none.
+// The triangle and the nearness of each sample, as complements; 0 if the sample has no triangle.
 @group(1) @binding(4) var<storage, read> keys: array<vec2<u32>>;
 @group(1) @binding(5) var<storage, read> ring_rolls: array<vec2<u32>>;
 @group(1) @binding(6) var depths: texture_storage_2d_array<r32float, read_write>;
@@ -36,8 +36,9 @@ struct Stances {
     next: Stance,
 }
 
-// Both rings lie in one interval or at its ends. At its end the spline is the same as at the next
-// interval's start, except where it comes to rest and turns round.
+// How the section stands on ring `ring` of a block, and on the ring after it. Both rings lie in one
+// interval or at its ends. At an interval's end the spline is the same as at the next interval's
+// start, unless it comes to rest there and turns round.
 fn stances_at(yarn: YarnRow, block: Block, ring: u32) -> Stances {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + ring;
@@ -90,7 +91,7 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let own = outlines[outline + side];
     let other = outlines[outline + beside];
     let is_second = (number & 1u) != 0u;
-    // A facet's first corner, the corner beside it or on the next ring, and the corner over its
+    // A triangle's first corner, the corner beside it or on the next ring, and the corner over its
     // own.
     let first = select(side, beside, is_second);
     let p = vertex_at(stances.here, select(own, other, is_second));
@@ -103,8 +104,8 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let r = vertex_at(stances.next, own);
     let shares = shares_of(p.clip, q.clip, r.clip, place);
     let normal = mat3x3(p.normal, q.normal, r.normal) * shares.corners;
-    // The direction along the facet at its first corner. It is the fibres', since a twisted yarn's
-    // corners turn with its twist.
+    // The direction along the facet at its first corner. It is the direction of the fibres, because
+    // a twisted yarn's corners turn with its twist.
     var fibre = r.position - p.position;
     if is_second {
         fibre = q.position - p.position;
@@ -129,7 +130,7 @@ fn cap_at(number: u32, triangle: u32, place: vec2<i32>) -> vec4<u32> {
     return kept_of(normal, normal, 0.0, 0.0, cap.yarn | CUT, is_front);
 }
 
-// The side of hair part number `number` of the chunk that faces the eye.
+// Part number `number` of the chunk's hairs, on the side that faces the eye.
 fn hair_at(number: u32) -> vec4<u32> {
     let block = blocks[number / hairs_of_block()];
     let part = number % HAIR_PARTS;
@@ -158,9 +159,10 @@ fn kept_of_number(number: u32, place: vec2<i32>) -> vec4<u32> {
     return cap_at(row - params.blocks, triangle, place);
 }
 
-// The samples that a workgroup works out, each for itself and for those of its pixel that show the
-// same. An entry has fields of bits, from the lowest on: the pixel's lane (6), the sample (2), a
-// bit for each sample of the pixel that shows anything (4), a bit for each that is listed (4).
+// The samples that a workgroup works out, each for itself and for the samples of its pixel that
+// show the same. An entry has fields of bits. From the lowest on they are the pixel's lane (6
+// bits), the sample (2), a bit for each sample of the pixel that shows anything (4), and a bit for
+// each sample that is listed (4).
 const RESOLVE_GROUP = SCREEN_GROUP * SCREEN_GROUP;
 const SAMPLE_SHIFT = 6u;
 const SHOWN_SHIFT = 8u;
@@ -169,13 +171,13 @@ const_assert RESOLVE_GROUP == 1u << SAMPLE_SHIFT && SAMPLES == 4;
 var<workgroup> wanted: array<u32, RESOLVE_GROUP * 4u>;
 var<workgroup> wanted_count: atomic<u32>;
 
-// The pixel of a lane, from the first row that has keys on.
+// The pixel of a lane, counted from the first row that has keys.
 fn place_of_lane(group: vec3<u32>, lane: u32) -> vec2<u32> {
     return group.xy * SCREEN_GROUP + vec2(lane % SCREEN_GROUP, lane / SCREEN_GROUP);
 }
 
-// Lists the samples of a lane's pixel where they are nearer than what earlier chunks left, and
-// keeps their depths.
+// Lists the samples of a lane's pixel that are nearer than those of earlier chunks, and keeps their
+// depths.
 fn list_wanted(place: vec2<u32>, lane: u32) {
     let pixel = vec2(place.x, place.y + sweep.first_row);
     var shown = 0u;
@@ -193,7 +195,8 @@ fn list_wanted(place: vec2<u32>, lane: u32) {
         }
         if depth < nearest {
             shown |= 1u << sample;
-            // Samples of one triangle in a pixel are alike, but where each has its own place.
+            // Samples of one triangle in a pixel show the same, unless each is worked out at its
+            // own place.
             if view.spread > 0.0 || key.x != last {
                 own |= 1u << sample;
                 last = key.x;
@@ -207,7 +210,8 @@ fn list_wanted(place: vec2<u32>, lane: u32) {
     }
 }
 
-// The samples that an entry stands for, a bit for each: from its own to the next that is listed.
+// A bit for each sample that an entry stands for: from its own sample to the one before the next
+// that is listed.
 fn alike_of(sample: u32, entry: u32) -> u32 {
     let shown = (entry >> SHOWN_SHIFT) & 15u;
     let later = (entry >> LISTED_SHIFT) & (30u << sample);
@@ -215,8 +219,8 @@ fn alike_of(sample: u32, entry: u32) -> u32 {
     return shown & before_next & (15u << sample);
 }
 
-// First a lane for each pixel, then a lane for each sample that is worked out: many samples show
-// the same as the one before.
+// Works out the samples of a square of pixels. At first each lane takes a pixel, and then each
+// takes a sample that is worked out: many samples show the same as the one before.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if lane == 0u {
@@ -234,9 +238,9 @@ fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_in
         let place = place_of_lane(group, entry & (RESOLVE_GROUP - 1u));
         let sample = (entry >> SAMPLE_SHIFT) & 3u;
         let pixel = vec2<i32>(vec2(place.x, place.y + sweep.first_row));
-        // In the pixel's middle, as rasterisers do. Where triangles are finer than pixels each
-        // sample has its own place, for the middle lies far outside, and the pattern of middles
-        // would beat with them.
+        // The samples are worked out in the pixel's middle, as rasterisers do. If triangles are
+        // finer than pixels, each sample is worked out at its own place: the middle may lie far
+        // outside, and the pattern of middles would beat with the triangles.
         let middle_of_pixel = pixel * 256 + 128 - middle();
         let at = select(middle_of_pixel, sample_place(pixel.x, 4 * pixel.y + i32(sample)), view.spread > 0.0);
         let kept = kept_of_number(~keys[key_at(place.x, place.y, sample)].x, at);

@@ -1,8 +1,8 @@
-// Reads back what each sample of the screen shows. After view.wgsl.
+// Reads back what each sample of the screen shows. This file follows view.wgsl.
 
-// Textures have a layer for each sample of a pixel: its depth, which is 1 where there is no yarn;
-// its normal and fibre; and the yarn's number and the place on it. All but the depth are encoded by
-// kept.wgsl.
+// The textures have a layer for each sample of a pixel. They hold its depth, which is 1 if there is
+// no yarn; its normal and the direction of fibres; and the yarn's number with the place on the
+// yarn. kept.wgsl encodes all but the depth.
 @group(1) @binding(1) var depths: texture_2d_array<f32>;
 @group(1) @binding(2) var directions: texture_2d_array<u32>;
 @group(1) @binding(3) var places: texture_2d_array<u32>;
@@ -21,7 +21,7 @@ fn local_at(pixel: vec2<f32>, depth: f32) -> vec3<f32> {
     return local.xyz / local.w;
 }
 
-// From `local` towards the eye.
+// The direction from `local` towards the eye.
 fn to_eye(local: vec3<f32>) -> vec3<f32> {
     return normalize(view.eye.xyz - local * view.eye.w);
 }

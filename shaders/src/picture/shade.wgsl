@@ -1,12 +1,13 @@
-// Lights samples, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl, and after FAR. That is
-// true where everything that could take light from a place lies within one and a half pixels of it,
-// so that the screen shows nothing of it.
+// Lights samples, and maps tones. This file follows view.wgsl, screen.wgsl and lit.wgsl, and the
+// constant FAR. FAR is true if everything that could take light from a place lies within one and a
+// half pixels of it, so that the screen does not show it.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
     // Linear light.
     color: vec3<f32>,
-    // Width of the highlight on a fibre's surface, and of the highlight from within, radians.
+    // The width of the highlight on a fibre's surface, and of the highlight from within the fibre,
+    // radians.
     surface_width: f32,
     volume_width: f32,
     // How much single fibres stand out.
@@ -23,14 +24,15 @@ struct YarnLook {
 
 const PI = 3.14159265;
 
-// The key light, the fill light, and light from all round: from above and from the ground.
+// The colours of the key light, of the fill light, of the light from above and of the light from
+// the ground, and then the colour of the ground itself.
 const KEY = vec3(1.78, 1.72, 1.64);
 const FILL = vec3(0.5, 0.54, 0.6);
 const SKY = vec3(0.46, 0.48, 0.52);
 const FLOOR = vec3(0.24, 0.23, 0.21);
 const GROUND_COLOR = vec3(0.62, 0.61, 0.59);
 
-// A fibre's refraction.
+// The refractive index of a fibre.
 const ETA = 1.46;
 
 fn gaussian(width: f32, x: f32) -> f32 {
@@ -43,10 +45,10 @@ fn fresnel(cosine: f32) -> f32 {
     return straight + (1.0 - straight) * pow(1.0 - cosine, 5.0);
 }
 
-// The light from `light` that a fibre along `fibre` sends to `eye`, with the cosine: Sadeghi,
-// Bisker, De Deken and Jensen 2013, "A practical microcylinder appearance model for cloth
-// rendering", the surface and volume terms of its section 3; a highlight along the fibre as Kajiya
-// and Kay 1989 had it, of the two lobes of Marschner et al. 2003.
+// The light from `light` that a fibre along `fibre` sends to `eye`, times the cosine of its fall:
+// Sadeghi, Bisker, De Deken and Jensen 2013, "A practical microcylinder appearance model for cloth
+// rendering", the surface and volume terms of its section 3; the highlight along the fibre goes
+// back to Kajiya and Kay 1989, and its two lobes to Marschner et al. 2003.
 fn microcylinder(look: YarnLook, color: vec3<f32>, fibre: vec3<f32>, light: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
     let sine_in = clamp(dot(fibre, light), -1.0, 1.0);
     let sine_out = clamp(dot(fibre, eye), -1.0, 1.0);
@@ -106,9 +108,8 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let fibre = from_octahedron(halves(textureLoad(directions, pixel, sample, 0).y));
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
-        // Fibres seen end on absorb the light that falls between them. Nothing stands before a
-        // cut's plane, and the depth kept is that of the yarn's far side, so occlusion does not
-        // apply.
+        // Fibres seen end on absorb the light that falls between them. Nothing lies in front of a
+        // cut's plane, and the depth kept is that of the yarn's far side, so there is no occlusion.
         let open = select(seen.x, 1.0, view.has_ground == 0u);
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }
@@ -118,7 +119,7 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let color = look.color * select(share, 1.0, is_hair);
     let fill = fill_direction();
     // The yarn's body shades its own far side, softly, since light passes its outer fibres. A fibre
-    // that stands off it is lit all round.
+    // that stands off the yarn is lit all round.
     let facing = select(clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0), 1.0, is_hair);
     let fill_facing = select(clamp((dot(here.normal, fill) + 0.4) / 1.4, 0.0, 1.0), 1.0, is_hair);
     var light = KEY * microcylinder(look, color, fibre, view.light, eye) * (facing * seen.y);
@@ -158,8 +159,8 @@ fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
 // The mean visibility on yarns: of the light from all round, and of the key light.
 const AVERAGE = vec2(0.8, 0.85);
 
-// Both visibilities, as means over those of the four by four pixels about that lie in or near the
-// surface's plane.
+// Both visibilities: means over the four by four pixels about, in which pixels count that lie in or
+// near the surface's plane.
 fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     if FAR {
         return select(vec2(1.0), AVERAGE, here.is_yarn);
@@ -200,15 +201,15 @@ fn sample_color(pixel: vec2<i32>, sample: i32) -> vec4<f32> {
     return vec4(tone_mapped(shade_ground(here.normal, seen)), 1.0);
 }
 
-// What a sample shows: a yarn's number, or NO_YARN.
+// The number of the yarn that a sample shows, or NO_YARN.
 const NO_YARN = 0xffffffffu;
 
 fn yarn_at(pixel: vec2<i32>, sample: i32) -> u32 {
     return select(textureLoad(places, pixel, sample, 0).x, NO_YARN, depth_at(pixel, sample) >= 1.0);
 }
 
-// A lane a pixel of the screen: its four samples, or one for all where they are of one yarn that is
-// wider than pixels.
+// Lights the screen, with one lane for each pixel. A lane lights the pixel's four samples, or one
+// for all four if they show one yarn that is wider than pixels.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn shade(@builtin(global_invocation_id) place: vec3<u32>) {
     let pixel = vec2<i32>(place.xy);

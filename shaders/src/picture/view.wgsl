@@ -1,7 +1,7 @@
-// What all picture shaders share: the view, the places of samples, and encodings.
+// The code that all picture shaders share: the view, the places of samples, and encodings.
 
 // Rust: texere_render's ViewUniform, 256 bytes. All positions are relative to the camera's target,
-// since f32 has no tenth of a millimetre left at ten kilometres.
+// because at ten kilometres from the origin f32 can't resolve a tenth of a millimetre.
 struct View {
     clip_from_local: mat4x4<f32>,
     local_from_clip: mat4x4<f32>,
@@ -9,7 +9,7 @@ struct View {
     target_point: vec3<f32>,
     // How far ambient occlusion looks, mm.
     reach: f32,
-    // The eye's position; with w = 0 the direction to it.
+    // The eye's position, or with w = 0 the direction to the eye.
     eye: vec4<f32>,
     // The direction to the key light, and how far its shadows fall, mm.
     light: vec3<f32>,
@@ -22,44 +22,45 @@ struct View {
     supersampling: u32,
     // The length of `reach` at the target, pixels.
     reach_pixels: f32,
-    // The thickness that anything that casts a shadow is taken to have, mm.
+    // The thickness that is assumed of everything that casts a shadow, mm.
     thickness: f32,
-    // 1 where there is a ground, else 0.
+    // 1 if there is a ground, else 0.
     has_ground: u32,
-    // 1 where yarns may be seen from inside, else 0.
+    // 1 if yarns may be seen from inside, else 0.
     sees_inside: u32,
     // The background: its kind, and its colour in linear light.
     background_kind: u32,
     background: vec3<f32>,
-    // How far pixels of the picture reach for their samples: 0 for samples in them alone, 1 for
-    // samples of a pixel about them as well.
+    // How far pixels of the picture reach for their samples: 0 if only for the samples in them, 1
+    // if one pixel further each way.
     spread: f32,
-    // 1 where fibres that stand off yarns are drawn, else 0.
+    // 1 if fibres that stand off yarns are drawn, else 0.
     has_hairs: u32,
 }
 
-// Kinds of background. Rust: texere_render's Background.
+// Kinds of background. In Rust they are texere_render's Background.
 const GROUND = 0u;
 const COLOR = 1u;
 
 @group(1) @binding(0) var<uniform> view: View;
 
-// Side of the squares of pixels that are workgroups over the screen.
+// The side of the squares of pixels that a workgroup works on, pixels.
 const SCREEN_GROUP = 8u;
 
-// Samples of a pixel of the screen. Rust: texere_render's SAMPLES.
+// The number of samples of a pixel of the screen. In Rust it is texere_render's SAMPLES.
 const SAMPLES = 4;
 
 // The place of the sample in each of a pixel's four rows: the pattern that WebGPU prescribes for
-// four samples, in 1/256 pixels, a byte for each from the lowest on: 96, 224, 32, 160.
+// four samples, in 1/256 pixels. The lowest byte belongs to the first row: 96, 224, 32, 160.
 const SAMPLE_X = 0xa020e060u;
 const SAMPLE_ROW = 64;
 const FIRST_SAMPLE_Y = 32;
 
 // The cyclic shift of the pattern in this pixel, and the further shift in each of its rows of
 // samples, 1/256 pixels. Threads finer than pixels would beat with a pattern that is the same
-// everywhere. On such threads each pixel has its own shift, by a hash of its place, and what is
-// finer than samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
+// everywhere. For fine threads each pixel therefore has its own shift, a hash of its place, and
+// detail finer than samples comes out as fine grain (Cook 1986, "Stochastic sampling in computer
+// graphics").
 fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     if view.spread == 0.0 {
         return vec2(0);
@@ -86,13 +87,14 @@ fn clip_of(position: vec3<f32>) -> vec4<f32> {
     return view.clip_from_local * vec4(position - view.target_point, 1.0);
 }
 
-// Marks the inside of a yarn, seen where the yarn is cut, in the number of a yarn.
+// The bit of a yarn's number that marks the inside of the yarn, which is seen where the yarn is
+// cut.
 const CUT = 0x80000000u;
 
-// Marks a fibre that stands off a yarn, in the number of a yarn.
+// The bit of a yarn's number that marks a fibre that stands off the yarn.
 const HAIR = 0x40000000u;
 
-// The bits of a yarn's number.
+// The bits of a yarn's number that are marks.
 const MARKS = CUT | HAIR;
 
 // A unit vector as two numbers of 16 bits (Meyer et al. 2010, "On floating-point normal vectors":

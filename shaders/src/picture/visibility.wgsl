@@ -1,19 +1,20 @@
-// Ambient occlusion and the key light's shadow at each pixel, both found on the screen. After
-// view.wgsl and screen.wgsl.
+// Ambient occlusion and the key light's shadow at each pixel, both found on the screen. This file
+// follows view.wgsl and screen.wgsl.
 
 @group(1) @binding(4) var seen: texture_storage_2d<rgba8unorm, write>;
 
 const OCCLUSION_TAPS = 14u;
 const SHADOW_STEPS = 18u;
 
-// The key light's radius, as seen from the cloth: a soft box's.
+// The radius of the key light as seen from the cloth, radians: that of a soft box.
 const LIGHT_RADIUS = 0.13;
 
-// Turns of the spiral on which the taps lie; coprime to their number.
+// The number of turns of the spiral on which the taps lie. It has no common factor with the number
+// of taps.
 const SPIRAL_TURNS = 9.0;
 
-// The depth of a yarn's body in a pixel; 1 where there is none. Single fibres don't count: they are
-// far thinner than what is taken to block light.
+// The depth of a yarn's body in a pixel; 1 if there is none. Single fibres don't count, because
+// they are far thinner than the thickness that is assumed of what blocks light.
 fn body_depth_at(pixel: vec2<i32>) -> f32 {
     let is_hair = view.has_hairs != 0u && (textureLoad(places, pixel, 0, 0).x & HAIR) != 0u;
     return select(depth_at(pixel, 0), 1.0, is_hair);
@@ -43,8 +44,8 @@ fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
     return max(1.0 - 2.6 * sum / f32(OCCLUSION_TAPS), 0.0);
 }
 
-// Whether the key light is visible: steps towards one of its sixteen points until something on the
-// screen is in the way.
+// Whether the key light is visible: 1 if it is, 0 if not. Steps go towards one of its sixteen
+// points until something on the screen is in the way.
 fn lit(here: Surface, phase: f32) -> f32 {
     // The points lie as seeds in a sunflower (Vogel 1979).
     let side = normalize(cross(view.light, vec3(0.31, 0.23, 0.92)));
@@ -74,7 +75,7 @@ fn lit(here: Surface, phase: f32) -> f32 {
     return 1.0;
 }
 
-// A lane a pixel.
+// Writes the visibilities, with one lane for each pixel.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn visibility(@builtin(global_invocation_id) place: vec3<u32>) {
     let pixel = vec2<i32>(place.xy);

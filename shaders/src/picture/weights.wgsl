@@ -1,4 +1,5 @@
-// How much each corner of a triangle counts at a place on the screen. After fabric.wgsl.
+// How much each corner of a triangle counts at a place on the screen. This file follows
+// fabric.wgsl.
 
 // Weights that are right in perspective, up to a factor: for corners in clip space, and a place in
 // 1/256 pixels from the screen's middle.

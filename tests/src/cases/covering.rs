@@ -20,7 +20,7 @@ pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
             let gain = |value: &usize| {
                 levels.iter().filter(|&&level| open.contains(&pair(level, (factor, *value)))).count()
             };
-            // Equally good values are taken in turn, so that values are used evenly.
+            // Each row prefers another one of equally good values, so that values are used evenly.
             let values = (0..sizes[factor]).map(|value| (value + rows.len()) % sizes[factor]);
             let best = values.max_by_key(gain).unwrap_or_default();
             levels.push((factor, best));

@@ -14,8 +14,8 @@ const THREADS: usize = 20;
 /// The most control points of a yarn in a cut knit.
 const POINTS: usize = 240;
 
-/// `designs/` of this workspace. A suite that runs on another machine than it was built on takes
-/// `designs/` of the working folder.
+/// `designs/` of this workspace. A suite that runs on another machine than the one that built it
+/// uses `designs/` in the working folder.
 fn folder() -> PathBuf {
     let ours = Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs");
     if ours.is_dir() { ours } else { PathBuf::from("designs") }
@@ -41,7 +41,7 @@ fn paths() -> Vec<PathBuf> {
     let mut paths = Vec::new();
     gather(&folder(), Path::new(""), &mut paths);
     paths.sort();
-    // The suite has to fail if no design is found, and a case for a missing design does so.
+    // If no design is found, the suite has to fail. A case with a missing design fails.
     if paths.is_empty() { vec!["missing.toml".into()] } else { paths }
 }
 

@@ -21,7 +21,7 @@ pub(super) fn sections() -> Vec<(&'static str, Section)> {
     ]
 }
 
-/// Polygons, which bring their own number of sides.
+/// Polygons, which set the number of sides themselves.
 pub(super) fn polygons() -> Vec<(&'static str, Vec<[f32; 2]>)> {
     vec![
         ("triangle", vec![[1.0, -0.5], [0.0, 1.0], [-1.0, -0.5]]),
@@ -70,7 +70,7 @@ pub(super) fn standing() -> Yarns {
 }
 
 /// Two yarns like `yarn` with another section: a thick one of more than a block, and a thin one of
-/// less. `flatten` gives width over height of each control point by its number.
+/// less. `flatten` gives the width of each control point, by its number, divided by its height.
 pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Yarns {
     let mut yarns = Yarns::builder();
     let yarn = Yarn { section: yarns.section(section), ..yarn };

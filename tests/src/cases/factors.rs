@@ -28,7 +28,7 @@ const TOPOLOGIES: [(&str, Topology); 3] =
 
 const TWISTS: [(&str, f32); 3] = [("untwisted", 0.0), ("twist-z", 0.6), ("twist-s", -3.0)];
 
-/// Width over height of each control point, by its number.
+/// The width of each control point, by its number, divided by its height.
 type Flattened = (&'static str, fn(u8) -> f32);
 
 const FLATTENINGS: [Flattened; 3] =

@@ -20,11 +20,11 @@ use crate::limits::Tight;
 /// A case: yarns, settings and limits, with a name.
 #[derive(Clone)]
 pub struct Case {
-    /// Its subject and its frame: `helix-closed::rotation-minimizing`.
+    /// The case's subject and its frame, such as `helix-closed::rotation-minimizing`.
     pub name: String,
-    /// The settings of its plan.
+    /// The settings of the case's plan.
     pub settings: Settings,
-    /// The limit that its chunks are cut to.
+    /// The limit that the case's chunks are cut to.
     pub tight: Tight,
     build: Arc<dyn Fn() -> Yarns + Send + Sync>,
 }
@@ -54,12 +54,12 @@ const USUAL: Settings = Settings {
 };
 
 impl Case {
-    /// One cut to a few blocks.
+    /// A case whose chunks are cut to a few blocks.
     fn new(name: String, settings: Settings, build: impl Fn() -> Yarns + Send + Sync + 'static) -> Self {
         Self { name, settings, tight: Tight::Blocks, build: Arc::new(build) }
     }
 
-    /// One for each frame.
+    /// A case for each frame.
     fn framed(
         name: impl fmt::Display,
         settings: Settings,
@@ -73,7 +73,7 @@ impl Case {
         })
     }
 
-    /// The yarns. They are built on each call, so that listing cases costs nothing.
+    /// The yarns. They are built on each call, so that listing cases takes no time.
     #[must_use]
     pub fn yarns(&self) -> Yarns {
         (self.build)()
@@ -253,8 +253,8 @@ mod tests {
         assert_eq!(names.len(), cases.len());
     }
 
-    /// Near half a turn, rounding decides in which direction a closed yarn's turn is spread.
-    /// Backends would disagree.
+    /// If a closed yarn's turn were near half a turn, rounding would decide in which direction it
+    /// is spread, and backends would disagree.
     #[test]
     fn no_closed_yarn_is_near_half_a_turn_off() {
         for case in all() {

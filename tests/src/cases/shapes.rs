@@ -114,8 +114,8 @@ fn straight() -> Vec<Shape> {
         open("straight-oblique", along(5, |k| [k, 2.0 * k, -2.0 * k])),
         open("straight-up", along(5, |k| [0.5, 0.25, k])),
         open("straight-down", along(5, |k| [0.5, 0.25, -k])),
-        // Less than a milliradian off z: the frame is sensitive to rounding there, but its rule for
-        // the vertical does not apply.
+        // The yarn is less than a milliradian off z. There the frame is sensitive to rounding, but
+        // its rule for the vertical does not apply.
         open("nearly-up", along(5, |k| [k * 1e-4, k * 8e-4, k])),
         open("one-interval", listed(&[[0.0, 0.0, 0.0], [1.0, 2.0, 0.5]])),
         open("one-interval-up", listed(&[[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])),
@@ -150,7 +150,7 @@ fn turning_back() -> Vec<Shape> {
     vec![
         open("hairpin", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]])),
         open("hairpin-oblique", listed(&[[0.0; 3], [1.0, 2.0, 1.0], [3.0, 6.0, 3.0], [1.0, 2.0, 1.0]])),
-        // Coordinates are not exact in f32. Derivatives that should vanish are rounding noise.
+        // Coordinates are not exact in f32. Derivatives that should be zero are rounding errors.
         open("hairpin-askew", listed(&[[0.1, 0.2, 0.3], [0.7, 1.6, -0.1], [0.1, 0.2, 0.3]])),
         open("hairpin-up", listed(&[[0.0; 3], [0.0, 0.0, 2.0], [0.0; 3]])),
         closed("hairpin-closed", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]])),
@@ -158,8 +158,8 @@ fn turning_back() -> Vec<Shape> {
         open("cusp-flat", listed(&[[1.0, 0.5, 0.0], [0.0; 3], [1.0, 0.5, 0.0], [6.0, 3.0, 0.0]])),
         // At tension 0 the velocity vanishes half way between the middle points.
         open("cusp", listed(&[[-5.0, 2.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [6.0, 2.0, 0.0]])),
-        // In a plane of constant x. Each point lies further on, yet the spline goes back for a
-        // while between the middle points.
+        // The yarn lies in a plane of constant x. Each point lies further on, but between the
+        // middle points the spline goes back for a while.
         open(
             "back-stitch",
             listed(&[[0.5, 0.0, 0.0], [0.5, 1.0, 0.1], [0.5, 1.01, -0.1], [0.5, 2.01, 0.2], [0.5, 3.0, 0.0]]),
@@ -190,7 +190,8 @@ fn far() -> Vec<Shape> {
         moved(open("far-wave", along(20, wave)), [1e4, -1e4]),
         moved(open("far-loops", along(37, loops)), [1e4, 1e4]),
         moved(closed("far-helix-closed", along(48, |k| torus_knot(k, 48.0))), [-1e4, 1e4]),
-        // Far from the origin, where neighbouring f32 values are a sixteenth of a mm apart.
+        // The yarn lies far from the origin, where neighbouring f32 values are a sixteenth of a mm
+        // apart.
         moved(open("farthest-wave", along(20, |k| wave(k).map(|value| value * 4.0))), [1e6, -1e6]),
         open("long-interval", listed(&[[-5e3, 0.0, 0.0], [5e3, 10.0, 0.0], [5e3, 5e3, 0.0]])),
     ]
@@ -219,7 +220,7 @@ fn uneven() -> Vec<Shape> {
 
 fn flat() -> Vec<Shape> {
     let ribbon = |name| flattened(name, &[[0.5, 0.125]; 8]);
-    // Flat where it crosses, nearly round where it floats, and at one place as high as wide.
+    // The yarn is flat at crossings, nearly round in floats, and at one place as high as wide.
     let changing = [
         [0.3, 0.2],
         [0.35, 0.15],

@@ -1,4 +1,4 @@
-//! Joins chunks to a whole output: every ring once, in order, for any cut.
+//! Joins chunks into a whole output: every ring once, in order, for any chunks.
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 pub struct Assembled {
     /// Rings of all yarns, in order.
     pub rings: Vec<Ring>,
-    /// Their vertices, in order.
+    /// The vertices of all rings, in order.
     pub vertices: Vec<Vertex>,
     /// The start and the finish cap of each open yarn, in order. Empty if the settings have no
     /// caps.
@@ -28,11 +28,11 @@ pub struct Assembled {
 /// The cap of an end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssembledCap {
-    /// The yarn.
+    /// The number of the yarn.
     pub yarn: usize,
-    /// Which end.
+    /// The end of the yarn.
     pub end: End,
-    /// One for each point of the section.
+    /// The vertices, one for each point of the section.
     pub vertices: Vec<Vertex>,
     /// Triangles as points of the section. Empty if the output has no indices, or they were never
     /// written.
@@ -205,7 +205,8 @@ impl Assembled {
     }
 }
 
-/// Appends `from` to `to`. The first `shared` of them are already there, and have to be equal.
+/// Appends `from` to `to`. The first `shared` values of `from` are in `to` already, and have to be
+/// equal.
 fn merge<T: bytemuck::Pod + std::fmt::Debug>(
     to: &mut [T],
     from: Option<&[T]>,

@@ -27,6 +27,6 @@ pub const INTERVAL_TWIST: f64 = 5e-7;
 /// not compared.
 pub const NEAR_VERTICAL: f64 = 1e-3;
 
-/// Angle to z, rad, below which every backend takes the tangent for vertical. The frame is defined
-/// there again.
+/// Angle to z, rad, below which every backend treats the tangent as vertical. There the frame is
+/// defined by the rule for the vertical.
 pub const SURELY_VERTICAL: f64 = 1e-7;

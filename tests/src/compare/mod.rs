@@ -162,7 +162,7 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
     }
 }
 
-/// Reports NaN and infinity, and tells memory that was never written from wrong results.
+/// Reports NaN and infinity, and distinguishes memory that was never written from wrong results.
 fn is_finite(values: &[f32], place: RingPlace, report: &mut Report) -> bool {
     let finite = values.iter().all(|value| value.is_finite());
     if !finite {
@@ -208,10 +208,10 @@ fn compare_ring(
         // Rolls about different tangents can't be compared.
         return;
     }
-    // Between two rings near the vertical, the upright frame may turn in either direction, and a
-    // roll or a lean against it does, too. Only the direction that frame and turn make together is
-    // defined, and is compared. The roll of an upright yarn is compared by itself, except where it
-    // leans.
+    // Between two rings near the vertical, the upright frame may turn in either direction, and so
+    // may a roll or a lean that is measured against it. Only the direction that frame and turn make
+    // together is defined, and is compared. The roll of an upright yarn is compared by itself,
+    // except where it leans.
     let roll = turns(actual.roll);
     let off = |turn: f64, [level, rising]: [DVec3; 2]| {
         let side = side(tangent, turn);

@@ -37,9 +37,9 @@ pub enum Fault {
 /// A place in a fabric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RingPlace {
-    /// The yarn, from 0.
+    /// The number of the yarn, counted from 0.
     pub yarn: u64,
-    /// The ring, from the yarn's start.
+    /// The number of the ring, counted from the yarn's start.
     pub ring: u64,
     /// The point of the section, if the fault is one of a vertex or an index.
     pub point: Option<u64>,
@@ -57,11 +57,11 @@ impl fmt::Display for RingPlace {
 pub struct Mismatch {
     /// The kind of fault.
     pub fault: Fault,
-    /// Its place.
+    /// The place of the fault.
     pub place: RingPlace,
     /// The expected value.
     pub expected: String,
-    /// The value found.
+    /// The value that was found.
     pub actual: String,
 }
 
@@ -80,7 +80,7 @@ pub enum Quantity {
     Centre,
     /// Half widths and half heights, relative.
     Half,
-    /// Their growth, relative beside 1.
+    /// The growth of half widths and half heights, as a share of 1 plus the expected growth.
     Growth,
     /// Tangents, rad.
     Tangent,
@@ -95,7 +95,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// All of them, in the order of the table.
+    /// All quantities, in the order of the table.
     pub const ALL: [Self; 8] = [
         Self::Centre,
         Self::Half,
@@ -107,8 +107,8 @@ impl Quantity {
         Self::Normal,
     ];
 
-    /// The plain tolerance in the quantity's unit, before more is allowed for digits or drift. Roll
-    /// has none.
+    /// The plain tolerance in the quantity's unit, to which more is added for digits or drift. Roll
+    /// has no plain tolerance.
     const fn bound(self) -> f64 {
         match self {
             Self::Centre | Self::Vertex => POSITION,
@@ -129,7 +129,7 @@ impl Quantity {
     }
 }
 
-/// The worst of one quantity.
+/// The worst errors of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Worst {
     /// The largest error in the quantity's unit, among places whose tolerance is at most twice the

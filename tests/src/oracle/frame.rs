@@ -14,9 +14,9 @@ pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
 ///
 /// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008. The first
 /// reflection maps one centre to the other, the second the reflected tangent to the next tangent.
-/// Rings that coincide have no chord, and the tangent takes its place. Where a yarn turns straight
-/// back, tangents do not determine the second reflection. It is defined to keep the upright side,
-/// because rolls are turns against the upright frame.
+/// Rings that coincide have no chord, and the tangent is used in its place. If a yarn turns
+/// straight back, tangents do not determine the second reflection. It is defined to keep the
+/// upright side, because rolls are turns against the upright frame.
 pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) -> DVec3 {
     let across = if chord.length_squared() <= 1e-30 { tangent } else { chord.normalize() };
     let (side, reflected) = (mirror(side, across), mirror(tangent, across));
@@ -41,7 +41,7 @@ pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DV
     };
     let [one, other] = [one, other].map(|(up, from)| {
         let middle = from + tangent;
-        // There is no smallest rotation straight back, and the up stays.
+        // If the tangent turns straight back, there is no smallest rotation, and the up stays.
         let turns = middle.length() > 4e-5;
         across(if turns { mirror(mirror(up, from), middle.normalize()) } else { up })
     });
@@ -69,8 +69,8 @@ mod tests {
         }
     }
 
-    /// Ups with the same height keep it around an arc. Half way between two ups at a right angle
-    /// lies their middle.
+    /// Two ups of the same height keep that height around an arc. Half way between two ups at a
+    /// right angle the direction is their middle.
     #[test]
     fn ups_go_over_into_one_another() {
         let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
@@ -82,7 +82,7 @@ mod tests {
         }
         let up = up_between((DVec3::Z, DVec3::X), (DVec3::Y, DVec3::X), DVec3::X, 0.5);
         assert!((up - DVec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-12, "{up}");
-        // A height has no sign.
+        // The direction of a height has no sign.
         let opposite = up_between((DVec3::Z, DVec3::X), (-DVec3::Z, DVec3::X), DVec3::X, 0.5);
         assert_eq!(opposite, DVec3::Z);
     }

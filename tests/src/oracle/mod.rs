@@ -22,7 +22,7 @@ use texere_core::{Frame, Settings, Topology, Yarn, Yarns};
 use frame::{transport, up_between, upright};
 use spline::Curve;
 
-/// One ring, exact.
+/// An exact ring.
 #[derive(Debug, Clone, Copy)]
 pub struct OracleRing {
     /// Centre, mm.
@@ -31,7 +31,7 @@ pub struct OracleRing {
     pub halves: [f64; 2],
     /// Unit tangent.
     pub tangent: DVec3,
-    /// Growth of both along the yarn, mm per mm.
+    /// Growth of the half width and of the half height along the yarn, mm per mm.
     pub growths: [f64; 2],
     /// Turn against the upright frame, in turns. The part from twist is not reduced to one turn.
     pub roll: f64,
@@ -39,11 +39,11 @@ pub struct OracleRing {
     pub twist: f64,
     /// Twist over the whole control interval of the ring, rad, without sign.
     pub interval_twist: f64,
-    /// The largest coordinate of its four control points, mm, without sign. The rounding of f32
-    /// depends on it.
+    /// The largest coordinate of the ring's four control points, mm, without sign. The rounding of
+    /// f32 depends on it.
     pub extent: f64,
-    /// Side and up of the frame in which the section is flattened: the upright one, or the one that
-    /// leans.
+    /// Side and up of the frame in which the section is flattened: the upright frame, or the frame
+    /// that leans.
     pub upright: [DVec3; 2],
     /// Whether the yarn has up directions that it follows.
     pub leans: bool,
@@ -54,8 +54,8 @@ pub struct OracleRing {
 }
 
 impl OracleRing {
-    /// Whether the section is as wide as high here. The direction of the upright frame does not
-    /// matter then.
+    /// Whether the section is as wide as high here. The direction of the upright frame then does
+    /// not matter.
     #[must_use]
     pub fn is_round(&self) -> bool {
         self.halves[0] == self.halves[1] && self.growths[0] == self.growths[1]
@@ -67,31 +67,31 @@ impl OracleRing {
         self.halves[0].min(self.halves[1])
     }
 
-    /// The larger half over the smaller. Flattening may turn a normal by this factor more than the
-    /// roll.
+    /// The larger of the two halves, divided by the smaller. Flattening may turn a normal by this
+    /// factor more than the roll.
     #[must_use]
     pub fn flatness(&self) -> f64 {
         self.halves[0].max(self.halves[1]) / self.thinnest()
     }
 }
 
-/// One yarn, exact.
+/// An exact yarn.
 #[derive(Debug, Clone)]
 pub struct OracleYarn {
-    /// Its rings; the last of a closed yarn is a copy of the first.
+    /// The rings of the yarn. The last ring of a closed yarn is a copy of the first.
     pub rings: Vec<OracleRing>,
-    /// The number of its outline.
+    /// The number of the yarn's outline.
     pub section: usize,
-    /// Whether its ends join.
+    /// Whether the yarn's ends join.
     pub closed: bool,
-    /// How its sections are oriented.
+    /// The frame of the yarn's sections.
     pub frame: Frame,
-    /// The whole turn of a closed yarn less the nearest whole number of turns, in \[-1/2, 1/2).
+    /// The total turn of a closed yarn less the nearest whole number of turns, in \[-1/2, 1/2).
     /// Near either end of that range, rounding decides in which direction the rest is spread.
     pub excess: f64,
 }
 
-/// A fabric, exact.
+/// An exact fabric.
 ///
 /// ```
 /// use texere_conformance::oracle::Oracle;
@@ -114,16 +114,16 @@ pub struct Oracle {
     pub settings: Settings,
 }
 
-/// The counts that there should be.
+/// The counts that an output should have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OracleCounts {
-    /// Rings of all yarns.
+    /// The number of rings of all yarns.
     pub rings: u64,
-    /// Vertices, caps included.
+    /// The number of vertices, caps included.
     pub vertices: u64,
-    /// Triangles, caps included.
+    /// The number of triangles, caps included.
     pub triangles: u64,
-    /// Stored indices: three a triangle, the shared pattern's, or none.
+    /// The number of stored indices: three for each triangle, those of the shared pattern, or none.
     pub indices: u64,
 }
 
@@ -151,7 +151,7 @@ impl Oracle {
         }
     }
 
-    /// The counts that there should be.
+    /// The counts that an output should have.
     #[must_use]
     pub fn counts(&self) -> OracleCounts {
         let sides = u64::from(self.settings.sides);
@@ -167,8 +167,8 @@ impl Oracle {
         }
         counts.indices = match self.settings.topology {
             Topology::Indexed => 3 * counts.triangles,
-            // Quads of the longest yarn, as far as the pattern covers them, and both caps of each
-            // section.
+            // The pattern has the quads of the longest yarn, as many as it may have, and both caps
+            // of each section.
             Topology::Shared => {
                 let caps = if self.settings.caps { 2 * self.outlines.len() as u64 } else { 0 };
                 most_gaps.min(8192) * sides * 6 + caps * (sides - 2) * 3
@@ -204,7 +204,7 @@ fn follow(
     settings: &Settings,
     frame: Frame,
 ) -> OracleYarn {
-    // Side and up in which a ring is flattened.
+    // The side and the up of the frame in which a ring is flattened.
     let stance = |ring: usize, tangent: DVec3| {
         let (side, up) = upright(tangent);
         let Some(ups) = ups else { return [side, up] };
@@ -268,8 +268,8 @@ fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     }
 }
 
-/// Spreads the excess of a closed yarn's turn over whole turns along the yarn. Closes it with a
-/// copy of its first ring.
+/// Spreads what a closed yarn turns beyond whole turns along the yarn. Closes the yarn with a copy
+/// of its first ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
     let whole = rings[gaps].roll - rings[0].roll;

@@ -39,7 +39,7 @@ impl OutlinePoint {
 ///
 /// # Panics
 ///
-/// For a kind of section that the oracle does not know.
+/// For a kind of section that the oracle does not have.
 #[must_use]
 pub fn outline(section: &Section, sides: u32) -> Vec<OutlinePoint> {
     let wide = |value: f32| f64::from(value);
@@ -56,7 +56,7 @@ pub fn outline(section: &Section, sides: u32) -> Vec<OutlinePoint> {
         }
         Section::Lobed { plies } => {
             let depth = lobe_depth(wide(*plies as f32));
-            // Half the integral of the squared distance.
+            // The area is half the integral of the squared distance.
             let area = PI * ((1.0 - depth).powi(2) + depth * depth / 2.0);
             (area, Box::new(move |k| lobed(depth, wide(*plies as f32), angle(k, sides))))
         }
@@ -70,19 +70,19 @@ fn angle(k: u32, sides: u32) -> f64 {
     TAU * f64::from(k) / f64::from(sides)
 }
 
-/// (√a cos θ, sin θ / √a).
+/// The point (√a cos θ, sin θ / √a) of an ellipse of aspect a.
 fn ellipse(aspect: f64, angle: f64) -> OutlinePoint {
     let (width, height) = (aspect.sqrt(), 1.0 / aspect.sqrt());
     OutlinePoint::new(width * angle.cos(), height * angle.sin(), height * angle.cos(), width * angle.sin())
 }
 
-/// (a cos θ, ±|sin θ|ⁿ). The outline is upright at its two edges.
+/// The point (a cos θ, ±|sin θ|ⁿ) of a power ellipse. The outline is upright at its two edges.
 fn power_ellipse(aspect: f64, exponent: f64, angle: f64) -> OutlinePoint {
     let (sin, cos) = angle.sin_cos();
     if sin.abs() < 1e-9 {
         return OutlinePoint::new(aspect * cos, 0.0, cos, 0.0);
     }
-    // The outline's direction turned back by a quarter.
+    // The normal is the outline's direction, turned back by a quarter.
     let (across, rise) = (-aspect * sin, exponent * sin.abs().powf(exponent - 1.0) * cos);
     OutlinePoint::new(aspect * cos, sin.signum() * sin.abs().powf(exponent), rise, -across)
 }
@@ -104,7 +104,8 @@ struct Arc {
 }
 
 impl Arc {
-    /// A lens is 2 a wide and 2 high. Its edges lie `distortion` above the middle.
+    /// One of the arcs of a lens, which is 2 a wide and 2 high. The edges of the lens lie
+    /// `distortion` above the middle.
     fn new(aspect: f64, distortion: f64, up: f64) -> Self {
         let rise = 1.0 - up * distortion;
         let radius = (aspect * aspect + rise * rise) / (2.0 * rise);
@@ -116,7 +117,7 @@ impl Arc {
         self.radius * self.radius * (self.half_angle - self.half_angle.sin() * self.half_angle.cos())
     }
 
-    /// `along` from 0 at the right edge to 1 at the left.
+    /// The point at `along`, from 0 at the right edge to 1 at the left.
     fn at(&self, along: f64) -> OutlinePoint {
         let (sin, cos) = (self.half_angle * (1.0 - 2.0 * along)).sin_cos();
         let height = self.radius * (cos - self.half_angle.cos());
@@ -124,8 +125,8 @@ impl Arc {
     }
 }
 
-/// The upper arc takes the first half of the points, and the lower arc the second. Where both meet,
-/// the normal points straight out.
+/// Point `k` of a lens. The upper arc has the first half of the points, and the lower arc the
+/// second half. Where both arcs meet, the normal points straight out.
 fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     let along = 2.0 * f64::from(k) / f64::from(sides);
     let point = if 2 * k < sides { upper.at(along) } else { lower.at(2.0 - along) };
@@ -136,24 +137,25 @@ fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
 }
 
 /// Half the height from the valley between two plies to a ply's outermost point. Round plies that
-/// touch leave a valley at cos(π/p) / (1 + sin(π/p)); it counts as half way to the axis at least.
+/// touch leave a valley at cos(π/p) / (1 + sin(π/p)) of a ply's outermost distance, which counts as
+/// at least a half.
 fn lobe_depth(plies: f64) -> f64 {
     let valley = (PI / plies).cos() / (1.0 + (PI / plies).sin());
     (1.0 - valley.max(0.5)) / 2.0
 }
 
-/// An outline at the distance 1 - depth (1 - cos pθ) at the angle θ.
+/// The point at the angle θ of an outline whose distance from the axis is 1 - depth (1 - cos pθ).
 fn lobed(depth: f64, plies: f64, angle: f64) -> OutlinePoint {
     let distance = 1.0 - depth * (1.0 - (plies * angle).cos());
     let change = -depth * plies * (plies * angle).sin();
     let (sin, cos) = angle.sin_cos();
-    // The outline's direction turned back by a quarter.
+    // The normal is the outline's direction, turned back by a quarter.
     let direction = (change * cos - distance * sin, change * sin + distance * cos);
     OutlinePoint::new(distance * cos, distance * sin, direction.1, -direction.0)
 }
 
-/// An outline of the caller's corners. The normal of a corner halves the angle between the normals
-/// of its edges.
+/// The outline with the caller's corners. The normal of a corner halves the angle between the
+/// normals of its edges.
 fn polygon(corners: &[[f32; 2]]) -> Vec<OutlinePoint> {
     let count = corners.len();
     let at = |k: usize| corners[k % count].map(f64::from);
@@ -185,7 +187,7 @@ mod tests {
         shapes
     }
 
-    /// The closed forms against a polygon of many corners.
+    /// Compares the closed forms with polygons of many corners.
     #[test]
     fn every_outline_encloses_the_unit_circles_area() {
         for shape in shapes() {

@@ -20,7 +20,7 @@ pub(super) struct Place {
     pub(super) halves: [f64; 2],
     /// Unit tangent.
     pub(super) tangent: DVec3,
-    /// Growth of both along the yarn.
+    /// Growth of the half width and of the half height along the yarn.
     pub(super) growths: [f64; 2],
     /// Largest coordinate of the four control points, mm.
     pub(super) extent: f64,
@@ -31,7 +31,7 @@ struct Interval {
     /// Positions relative to the interval's first point, so that coinciding points coincide
     /// exactly.
     positions: [DVec3; 4],
-    /// Half widths, then half heights.
+    /// The half widths of the four points, then their half heights.
     halves: [[f64; 4]; 2],
     start: DVec3,
 }
@@ -71,9 +71,9 @@ impl Interval {
         self.halves[which].iter().zip(weights).map(|(half, weight)| half * weight).sum()
     }
 
-    /// A half width or half height, and its growth along the yarn. It is at least half of the
-    /// smaller value at the two points that the interval joins. It does not grow where that bound
-    /// holds it, or where the yarn stands still.
+    /// A half width or half height, and its growth along the yarn. The size is at least half of the
+    /// smaller value at the two points that the interval joins. Its growth is 0 if that bound holds
+    /// the size, or if the yarn stands still.
     fn size(&self, which: usize, orders: [[f64; 4]; 4]) -> (f64, f64) {
         let (half, velocity) = (self.half(which, orders[0]), self.position(orders[1]));
         let least = 0.5 * self.halves[which][1].min(self.halves[which][2]);
@@ -98,9 +98,9 @@ impl Interval {
         self.positions.iter().map(furthest).fold(0.0, f64::max)
     }
 
-    /// The tangent at t: the direction of the first derivative that does not vanish, or +x if all
-    /// do. It is the limit from the right. At t = 1, where a yarn ends, it is the limit from the
-    /// left: odd orders keep their sign, and the second order changes it.
+    /// The tangent at t: the direction of the first derivative that is not zero, or +x if all are.
+    /// It is the limit from the right. At t = 1, where a yarn ends, it is the limit from the left:
+    /// odd orders keep their sign, and the second order changes it.
     fn tangent(&self, orders: [[f64; 4]; 4], t: f64) -> DVec3 {
         let before = if t < 1.0 { 1.0 } else { -1.0 };
         for (order, sign) in [(1, 1.0), (2, before), (3, 1.0)] {
@@ -126,8 +126,8 @@ impl<'a> Curve<'a> {
         intervals * self.per_interval + 1
     }
 
-    /// Position and halves of control point `index`. It may be the virtual point before the first
-    /// or after the last, whose halves are half floats, too.
+    /// Position, half width and half height of control point `index`. It may be the virtual point
+    /// before the first or after the last, whose sizes are half floats, too.
     fn point(&self, index: i64) -> (DVec3, [f64; 2]) {
         let count = self.points.len() as i64;
         let exact = |at: i64| {

@@ -20,13 +20,13 @@ pub fn quad_indices(ring: u64, side: u64, sides: u64) -> [u64; 6] {
 /// A fault of a cap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flaw {
-    /// The number of its triangles is not that of the corners less two.
+    /// The number of the cap's triangles is not two less than that of the corners.
     Count,
-    /// It names a corner that the outline does not have.
+    /// The cap names a corner that the outline does not have.
     Corner,
     /// A triangle faces inward, or has no area.
     Flipped,
-    /// It does not close the outline: an edge is missing, occurs twice, or runs the wrong way.
+    /// The cap does not close the outline: an edge is missing, occurs twice, or runs the wrong way.
     Open,
 }
 

@@ -1,4 +1,4 @@
-//! A grid of cells that finds places near one another, over all images of a repeat.
+//! A grid of cells by which places near one another are found, in all copies of a repeat.
 
 use std::collections::BTreeMap;
 
@@ -6,12 +6,12 @@ use glam::DVec3;
 
 /// Places, sorted into cells in x and y. Cloth is thin, so that cells reach through it.
 pub(super) struct Cells {
-    /// Number of cells in a repeat; 0 where nothing repeats.
+    /// The number of cells in a repeat along each axis; 0 if nothing repeats along it.
     count: [i64; 2],
     /// Places in each cell of the first repeat, with the number of repeats by which they lie beyond
     /// it.
     members: BTreeMap<[i64; 2], Vec<(usize, [i64; 2])>>,
-    /// Distance of cells that may hold near places, in cells.
+    /// The greatest distance, in cells, of two cells that may hold near places.
     range: [i64; 2],
 }
 

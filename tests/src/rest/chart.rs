@@ -7,13 +7,13 @@ pub enum Stitch {
     Face,
     /// Knits on the back bed: draws the new loop to the back.
     Back,
-    /// Takes the yarn and keeps its loops.
+    /// Lays the yarn on the needle and keeps the needle's loops.
     Tuck,
-    /// Takes no yarn, which floats past.
+    /// Does not catch the yarn, which floats past.
     Miss,
 }
 
-/// A repeat of stitches, one yarn a course.
+/// A repeat of stitches, with one yarn for each course.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chart {
     wales: usize,
@@ -30,22 +30,23 @@ struct Hanging {
     wale: i64,
 }
 
-/// The fate of a loop after it was made.
+/// What happens to a loop after it was made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fate {
-    /// Number of wales by which its head is moved to the right.
+    /// Number of wales by which the loop's head is moved to the right.
     pub(super) moved: i64,
-    /// Number of courses in which its needle does not knit.
+    /// Number of courses in which the loop's needle does not knit.
     pub(super) held: i64,
-    /// Whether the loop that is drawn through it comes to the face (1) or to the back (-1).
+    /// Whether the next loop is drawn through this one to the face (1) or to the back (-1).
     pub(super) side: f64,
-    /// Number of loops on the same needle between it and the side to which the yarn is drawn.
+    /// Number of loops on the same needle between this loop and the side to which the yarn is
+    /// drawn.
     pub(super) layer: usize,
 }
 
 impl Chart {
     /// A chart from its courses, the first one first, with a letter for each wale from left to
-    /// right. `k` and `p` knit to the face and to the back, `t` tucks, `m` misses. `>` and `<` knit
+    /// right. `k` knits to the face and `p` to the back, `t` tucks and `m` misses. `>` and `<` knit
     /// to the face and then move the loop to the next needle.
     ///
     /// # Panics
@@ -139,7 +140,7 @@ impl Chart {
         loops
     }
 
-    /// The fate of the loop that is made in `course` on the needle of `wale`.
+    /// What happens to the loop that is made in `course` on the needle of `wale`.
     pub(super) fn fate(&self, course: i64, wale: i64) -> Fate {
         let moved = self.cell(course, wale).1;
         let next = self.next_knit(course, wale + moved);

@@ -21,22 +21,23 @@ pub struct Place {
 /// The result of [`check`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The least distance between two centrelines over the sum of their radii, with all images of
-    /// the repeat. Two places of one yarn count only if the yarn between them is longer than pi/2
-    /// times the sum of the radii: half of a circle in which it touches itself. A straight yarn
-    /// thus has a clearance of pi/2 from itself, and no clearance is much larger.
+    /// The least distance between two centrelines, divided by the sum of their radii. Copies of the
+    /// cloth in the repeats beside it count, too. Two places of one yarn count only if the yarn
+    /// between them is at least pi/2 times the sum of the radii long. That is half of the smallest
+    /// ring into which the yarn can be bent before it touches itself. A straight yarn therefore has
+    /// a clearance of about pi/2 from itself, so no clearance is much larger.
     pub clearance: f64,
-    /// The places of that distance; none if all yarns are shorter.
+    /// The two places of the least distance. None if no two places count.
     pub nearest: Option<[Place; 2]>,
-    /// The least radius of curvature, in diameters of the yarn. Below a half the yarn folds into
-    /// itself.
+    /// The least radius of curvature, in diameters of the yarn. If it is below a half, the yarn
+    /// folds into itself.
     pub bend: f64,
-    /// Where that is.
+    /// The interval with the least radius of curvature.
     pub sharpest: Place,
     /// Growth of the yarn whose length changed most, as a share of its length at the start. It is
     /// negative if the yarn is shorter.
     pub stretch: f64,
-    /// The number of that yarn.
+    /// The number of the yarn whose length changed most.
     pub stretched: usize,
     /// Growth of all yarns together, as a share of their length at the start.
     pub growth: f64,
@@ -54,7 +55,7 @@ pub struct Report {
 #[must_use]
 pub fn check(start: &Start, settled: &[Vec<DVec3>]) -> Report {
     assert_eq!(settled.len(), start.yarns.len(), "{}: yarns", start.name);
-    assert!(settled.iter().flatten().all(|point| point.is_finite()), "{}: points are no numbers", start.name);
+    assert!(settled.iter().flatten().all(|point| point.is_finite()), "{}: a point is not finite", start.name);
     let at_start = start.points();
     let curves: Vec<_> = (0..settled.len()).map(|yarn| Curve::new(start, yarn, &settled[yarn])).collect();
     let (clearance, nearest) = clearance(start, &curves);
@@ -108,8 +109,8 @@ fn bend(start: &Start, curves: &[Curve<'_>]) -> (f64, Place) {
     intervals.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a yarn has intervals")
 }
 
-/// The least radius of curvature of an interval: first at the ends of its parts, then in smaller
-/// and smaller steps around the least of these.
+/// The least radius of curvature of an interval. It is searched first at the ends of the interval's
+/// parts, and then in smaller and smaller steps around the place of the least.
 fn least_radius(piece: &Piece) -> f64 {
     let mut step = 1.0 / PARTS as f64;
     let least = |places: &mut dyn Iterator<Item = f64>| {
@@ -124,14 +125,16 @@ fn least_radius(piece: &Piece) -> f64 {
     radius
 }
 
-/// The least distance over the sum of the radii, and its places.
+/// The least distance of two places that count, divided by the sum of the radii, and the two
+/// places.
 fn clearance(start: &Start, curves: &[Curve<'_>]) -> (f64, Option<[Place; 2]>) {
     let chords = Chords::new(start, curves);
     let thickest = start.yarns.iter().map(|yarn| yarn.radius).fold(0.0, f64::max);
     let mut reach = 2.2 * thickest;
     loop {
         let (ratio, places) = nearest(start, curves, &chords, reach);
-        // Nothing beyond the reach is nearer, or the reach covers everything.
+        // Nothing beyond the reach is nearer, or the reach covers everything. A smaller first reach
+        // would only need more rounds.
         if ratio * 2.0 * thickest <= reach || reach > chords.widest() {
             return (ratio, places);
         }
@@ -139,7 +142,8 @@ fn clearance(start: &Start, curves: &[Curve<'_>]) -> (f64, Option<[Place; 2]>) {
     }
 }
 
-/// The least ratio of all places whose distance is at most `reach`. Others may be seen or not.
+/// The least ratio of all places at most `reach` apart. Places further apart may or may not be
+/// included.
 fn nearest(start: &Start, curves: &[Curve<'_>], chords: &Chords, reach: f64) -> (f64, Option<[Place; 2]>) {
     let mut least = (f64::INFINITY, None);
     chords.each_pair(reach, |one, other, image| {

@@ -14,12 +14,12 @@ pub(super) const PARTS: usize = 16;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
     pub(super) place: Place,
-    /// Its beginning within its interval, from 0 to 1.
+    /// The beginning of the chord within its interval, from 0 to 1.
     pub(super) start: f64,
     pub(super) from: DVec3,
     pub(super) to: DVec3,
-    /// Largest distance of the curve from it: an eighth of the largest second derivative, times the
-    /// square of the step.
+    /// Largest distance of the curve from the chord: an eighth of the largest second derivative,
+    /// times the square of the step.
     pub(super) sag: f64,
     /// Length of the yarn from its first point to each end of the chord.
     arc: [f64; 2],
@@ -34,7 +34,7 @@ impl Chord {
         self.from.lerp(self.to, along)
     }
 
-    /// The greatest distance of its curve from its middle.
+    /// The greatest distance of the chord's curve from the chord's middle.
     pub(super) fn reach(&self) -> f64 {
         self.from.distance(self.to) / 2.0 + self.sag
     }

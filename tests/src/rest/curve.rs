@@ -56,7 +56,7 @@ impl<'a> Curve<'a> {
     }
 }
 
-/// One interval in Hermite's form: both ends, and the derivatives there.
+/// An interval in Hermite's form: both ends, and the derivatives there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     from: DVec3,
@@ -66,7 +66,7 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Its point at `u` in \[0, 1\].
+    /// The point of the interval at `u` in \[0, 1\].
     pub(super) fn at(&self, u: f64) -> DVec3 {
         let v = 1.0 - u;
         self.from * (v * v * (1.0 + 2.0 * u))
@@ -75,28 +75,28 @@ impl Piece {
             - self.arriving * (u * u * v)
     }
 
-    /// Its derivative at `u`.
+    /// The derivative at `u`.
     pub(super) fn slope(&self, u: f64) -> DVec3 {
         (self.to - self.from) * (6.0 * u * (1.0 - u))
             + self.leaving * ((1.0 - u) * (1.0 - 3.0 * u))
             + self.arriving * (u * (3.0 * u - 2.0))
     }
 
-    /// Its second derivative at `u`.
+    /// The second derivative at `u`.
     pub(super) fn bend(&self, u: f64) -> DVec3 {
         (self.to - self.from) * (6.0 - 12.0 * u)
             + self.leaving * (6.0 * u - 4.0)
             + self.arriving * (6.0 * u - 2.0)
     }
 
-    /// Its radius of curvature at `u`; 0 where it stands still.
+    /// The radius of curvature at `u`; 0 if the curve stands still there.
     pub(super) fn radius(&self, u: f64) -> f64 {
         let (slope, bend) = (self.slope(u), self.bend(u));
         let speed = slope.length();
         if speed == 0.0 { 0.0 } else { speed.powi(3) / slope.cross(bend).length() }
     }
 
-    /// Its length from 0 to the end of each of `parts` equal steps of u, by Simpson's rule on each
+    /// The length from 0 to the end of each of `parts` equal steps of u, by Simpson's rule on each
     /// step.
     pub(super) fn lengths(&self, parts: usize) -> Vec<f64> {
         let step = 1.0 / parts as f64;

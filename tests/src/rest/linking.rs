@@ -15,8 +15,8 @@ use super::curve::Curve;
 use super::segments::closest;
 use super::{Ends, Start};
 
-/// Change of a window's integral above which there was a passage. A strand that passes through
-/// another one, far from its ends, changes it by 1.
+/// The change of a window's integral above which a yarn has passed through another. A strand that
+/// passes through another one, far from its ends, changes it by 1.
 pub const CROSSED: f64 = 0.6;
 
 /// Number of intervals of a window to each side of its middle.
@@ -38,12 +38,12 @@ pub struct Linking {
     pub at: Option<[Place; 2]>,
 }
 
-/// Compares the linking of the yarns of `start` with their points `before` and `after`, over all
-/// images.
+/// Compares the linking of the yarns of `start` with their points `before` and `after`, with all
+/// copies of the repeat.
 ///
 /// # Panics
 ///
-/// If either has other yarns or other counts of points than `start`.
+/// If `before` or `after` has other yarns or other counts of points than `start`.
 #[must_use]
 pub fn linking(start: &Start, before: &[Vec<DVec3>], after: &[Vec<DVec3>]) -> Linking {
     let cloths = [before, after].map(|points| Cloth::new(start, points));
@@ -79,7 +79,7 @@ pub fn linking_integral(one: &[DVec3], other: &[DVec3]) -> f64 {
 }
 
 /// The integral of two chords: the solid angle of all directions in which one is seen to cross the
-/// other, over that of the whole sphere (Klenin and Langowski 2000).
+/// other, divided by that of the whole sphere (Klenin and Langowski 2000).
 ///
 /// These directions are a quadrangle on the sphere. It is cut into two triangles, whose solid
 /// angles come from the formula of Van Oosterom and Strackee (1983). The formula has the sign, and
@@ -198,8 +198,8 @@ impl<'a> Cloth<'a> {
         pairs
     }
 
-    /// Whether both windows are of one yarn and share an interval or an end. With a shared end,
-    /// rounding over the seam of a repeat would decide the integral.
+    /// Whether both windows are of one yarn and share an interval or an end. If they shared an end,
+    /// rounding at the edge of a repeat would decide the integral.
     fn overlap(&self, pair: Pair) -> bool {
         let steps = -2 * HALF_WINDOW..=2 * HALF_WINDOW;
         pair.one.yarn == pair.other.yarn

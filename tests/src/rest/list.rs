@@ -4,7 +4,7 @@ use super::{
     Chart, Gauge, Lapping, Length, Start, Weave, warp_knit, weft_knit, weft_knit_piece, woven, woven_piece,
 };
 
-/// The fixed list.
+/// The list of starts, which is the same in every run.
 #[must_use]
 pub fn starts() -> Vec<Start> {
     weft_knits().into_iter().chain(warp_knits()).chain(weaves()).collect()
@@ -31,8 +31,8 @@ fn weft_knits() -> Vec<Start> {
     list
 }
 
-/// Knit with eyelets, in repeats of four wales and four courses. In every other course, the loop of
-/// every fourth needle is moved to a neighbour, to the right and to the left by turns. The yarn
+/// A knit with eyelets, in repeats of four wales and four courses. In every other course, the loop
+/// of every fourth needle is moved to a neighbour, to the right and to the left by turns. The yarn
 /// goes over the empty needle.
 #[must_use]
 pub fn lace(repeats: usize) -> Start {
@@ -41,8 +41,8 @@ pub fn lace(repeats: usize) -> Start {
     weft_knit(&format!("lace-{0}x{0}", 4 * repeats), &chart, Gauge::new(5.0), Length::Free)
 }
 
-/// Knit of `size` wales and `size` courses, in which about every fifth stitch is missed; at most
-/// two side by side or one above the other.
+/// A knit of `size` wales and `size` courses, in which about every fifth stitch is missed. At most
+/// two missed stitches lie side by side or one above the other.
 #[must_use]
 pub fn random_misses(size: usize, seed: u64) -> Start {
     let mut missed = vec![vec![false; size]; size];

@@ -1,4 +1,4 @@
-//! From starts to settling problems, and from settled yarns back to plain points.
+//! Turns starts into settling problems, and settled yarns back into plain points.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

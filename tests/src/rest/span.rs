@@ -71,7 +71,7 @@ pub struct Span<'a> {
 }
 
 impl<'a> Span<'a> {
-    /// The surface of a chain from foot to foot, with this many chords per control interval.
+    /// The surface of a chain from foot to foot, which has `parts` chords per control interval.
     ///
     /// # Panics
     ///
@@ -85,7 +85,8 @@ impl<'a> Span<'a> {
         Self { ring, middle, low: fold(DVec3::min), high: fold(DVec3::max) }
     }
 
-    /// Number of times that a chain goes through the surface, less the times that it comes back.
+    /// Number of times that a chain goes through the surface, less the number of times that it
+    /// comes back.
     #[must_use]
     pub fn through(&self, chain: &[DVec3]) -> i32 {
         let mut count = 0;

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// The way in which a yarn goes on at its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// The yarn ends there.
+    /// The yarn ends at its first and last point.
     Open,
     /// After the last point the first one follows.
     Closed,
@@ -21,18 +21,18 @@ pub enum Length {
     Held,
     /// Each yarn reaches its length at the start times this factor.
     Given(f64),
-    /// Yarns find their own length.
+    /// Yarns may change their length freely.
     Free,
 }
 
 /// A yarn of a start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StartYarn {
-    /// Its control points in one repeat, mm.
+    /// The yarn's control points in one repeat, mm.
     pub points: Vec<DVec3>,
-    /// Half its diameter, mm.
+    /// Half the yarn's diameter, mm.
     pub radius: f64,
-    /// How it goes on.
+    /// The way in which the yarn goes on at its ends.
     pub ends: Ends,
 }
 
@@ -42,9 +42,9 @@ pub struct StartYarn {
 /// the cloth, too, or the same yarn further along (see [`Ends::Repeats`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    /// Its name, as in `jersey-4.2`.
+    /// The name of the start, such as `jersey-4.2`.
     pub name: String,
-    /// Its yarns.
+    /// The yarns of the start.
     pub yarns: Vec<StartYarn>,
     /// Size of the repeat in x and y, mm. It is 0 in a direction in which nothing repeats.
     pub repeat: [f64; 2],

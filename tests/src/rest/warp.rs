@@ -31,7 +31,7 @@ const PIECE: f64 = 0.4 * WALE;
 /// Distance of an underlap behind its feet, in diameters.
 const UNDERLAP: f64 = 0.6;
 
-/// Wales of a repeat.
+/// The number of wales of a repeat.
 const WALES: i32 = 4;
 
 /// The fewest courses of a repeat. Chains are repeated until they fill it.
@@ -44,10 +44,10 @@ pub struct Lapping<'a> {
     pub bars: &'a [&'a str],
     /// Diameter of the yarn, mm. Wales are 1 mm apart.
     pub diameter: f64,
-    /// Width by which each leg lies further in below, where it comes through another loop, and
-    /// further out above, in diameters.
+    /// The distance by which each leg lies further in below, where it comes through another loop,
+    /// and further out above, in diameters.
     pub bulge: f64,
-    /// Height by which a loop begins below and ends above its course, in courses.
+    /// The height by which a loop begins below its course and ends above it, in courses.
     pub slant: f64,
 }
 
@@ -55,7 +55,7 @@ pub struct Lapping<'a> {
 ///
 /// # Panics
 ///
-/// If a chain is not sound.
+/// If a chain is not valid.
 #[must_use]
 pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
     let chains: Vec<_> = lapping.bars.iter().map(|bar| chain(bar)).collect();
@@ -120,7 +120,7 @@ fn loop_points(
 ) -> Vec<DVec3> {
     let Lapping { bars, diameter, bulge, slant } = lapping;
     let (last, front_most) = (bars.len() - 1, 0.5 * (bars.len() - 1) as f64 - bar as f64);
-    // Legs of each bar lie in front of heads of both. That takes more depth than the bars are
+    // Legs of each bar lie in front of heads of both bars. This takes more depth than the bars are
     // apart.
     let (forward, tilt) = if last == 0 { (0.9, 0.0) } else { (1.0, 0.3) };
     let layer = 0.7 * front_most;

@@ -41,7 +41,7 @@ pub struct Gauge {
 
 impl Gauge {
     /// Wales `wale` diameters apart, of a yarn with a diameter of 1 mm. Courses are three quarters
-    /// of that apart.
+    /// of the wales' distance apart.
     #[must_use]
     pub fn new(wale: f64) -> Self {
         let depth = DEPTHS.windows(2).find(|pair| wale <= pair[1].0).map_or(0.64, |pair| {
@@ -128,8 +128,8 @@ fn course_points(chart: &Chart, gauge: Gauge, course: i64) -> Vec<DVec3> {
     points
 }
 
-/// z of the arc between two feet: that of the foot which lies further back, or half way between
-/// feet on opposite sides.
+/// z of the arc between two feet: z of the foot that lies further back, or half way between feet on
+/// opposite sides.
 fn between(left: f64, right: f64) -> f64 {
     if left * right < 0.0 {
         (left + right) / 2.0
@@ -171,8 +171,8 @@ impl Cell<'_> {
             || self.chart.hanging(self.course, self.wale) == 0
     }
 
-    /// Distance by which the feet lie further back than behind one loop, because more loops lie
-    /// between.
+    /// Distance by which the feet lie further back than they would behind one loop, because they
+    /// lie behind several loops.
     fn behind(&self) -> f64 {
         let loops = match self.chart.stitch(self.course, self.wale) {
             Stitch::Face | Stitch::Back => self.chart.hanging(self.course, self.wale),
@@ -182,12 +182,12 @@ impl Cell<'_> {
         loops.saturating_sub(1) as f64 * self.gauge.diameter
     }
 
-    /// z of its feet.
+    /// z of the loop's feet.
     fn foot(&self) -> f64 {
         -self.side() * (0.84 * self.gauge.depth * self.gauge.diameter + self.behind())
     }
 
-    /// The head's middle.
+    /// The middle of the loop's head.
     fn head(&self) -> DVec3 {
         let fate = self.chart.fate(self.course, self.wale);
         let Gauge { wale, course, diameter, depth } = self.gauge;
@@ -195,7 +195,8 @@ impl Cell<'_> {
         self.place(fate.moved as f64 * wale, y, fate.side * (-0.84 * depth - fate.layer as f64) * diameter)
     }
 
-    /// One half from foot to head: the left half where `hand` is -1, the right half where it is 1.
+    /// One half of the stitch from foot to head: the left half if `hand` is -1, the right half if
+    /// it is 1.
     fn half(&self, hand: f64) -> Vec<DVec3> {
         let Gauge { wale, course, diameter, depth } = self.gauge;
         let (height, narrow) = (self.gauge.height(), self.gauge.narrow());
@@ -203,7 +204,8 @@ impl Cell<'_> {
         let (own, next) = (self.side(), fate.side);
         let own_z = |z: f64| own * z * depth * diameter;
         let next_z = |z: f64| next * (z * depth - fate.layer as f64) * diameter;
-        // `way` is the share of the distance from the own needle to the one that it is moved to.
+        // `way` is the share of the distance from the loop's own needle to the needle that it is
+        // moved to.
         let at = |across: f64, way: f64, y: f64, z: f64| {
             self.place(hand * across + way * fate.moved as f64 * wale, y * height, z)
         };

@@ -1,4 +1,4 @@
-//! Starts of weaves, with one point a crossing, and three more where a yarn changes sides.
+//! Starts of weaves, with one point at each crossing, and three more at each change of sides.
 
 use glam::DVec3;
 
@@ -9,9 +9,10 @@ use super::{Ends, Length, Start, StartYarn};
 pub struct Weave {
     /// Number of ends and of picks in a repeat.
     pub size: usize,
-    /// Picks by which the pick that an end lies under is higher from end to end.
+    /// The number of picks by which the pick that an end lies under is higher than that of the end
+    /// before.
     pub step: usize,
-    /// Number of picks after which an end lies under one again.
+    /// The number of picks after which an end lies under a pick again.
     pub order: usize,
     /// Distance from yarn to yarn, mm. The diameter is 1 mm.
     pub pitch: f64,

@@ -6,7 +6,7 @@ use crate::steps::Steps;
 /// A view: its name in the picture's file name, and its options.
 type View = (&'static str, &'static [&'static str]);
 
-/// Where the pictures go, from the repository's root.
+/// The folder of the pictures, from the repository's root.
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with its views beside face and back.
@@ -48,7 +48,7 @@ const DESIGNS: [(&str, &[View]); 34] = [
 ];
 
 const CLOSE_UP: View = ("close-up", &["--view", "close-up"]);
-/// With rings and sides enough for plies that wind.
+/// A close-up with enough rings and sides for plies that wind.
 const FINE: View = ("close-up", &["--view", "close-up", "--subdivisions", "12", "--sides", "48"]);
 const CUT: View = ("cut", &["--view", "cut-warp", "--size", "800x260"]);
 
@@ -72,7 +72,7 @@ pub(crate) fn gallery(steps: &mut Steps) {
     }
     for name in PAPER {
         let (path, picture) = (format!("designs/paper/{name}.toml"), format!("{FOLDER}/paper-{name}.png"));
-        // Threads are as narrow as pixels, so more samples are taken against moiré.
+        // Threads are as narrow as pixels, so more samples are taken to avoid moiré.
         let options = ["--size", "640x480", "--supersampling", "4"];
         let args = [&["texere", "render", &path, "-o", &picture], &options[..]].concat();
         steps.cargo(&picture, &args, &[]);

@@ -7,10 +7,10 @@ use crate::steps::Steps;
 
 pub(crate) use gallery::gallery;
 
-/// Where the demo's picture lies, from the repository's root.
+/// The path of the demo's picture, from the repository's root.
 const DEMO: &str = "target/demo.png";
 
-/// A close-up of denim at rest, on whatever device draws here.
+/// Draws a close-up of denim at rest, on any device of this machine that draws.
 pub(crate) fn demo(steps: &mut Steps) {
     vulkan::install(steps);
     render(steps, "the demo", &["designs/denim.toml", "-o", DEMO, "--view", "close-up", "--sides", "16"]);
@@ -23,7 +23,7 @@ pub(crate) fn demo(steps: &mut Steps) {
 fn render(steps: &mut Steps, name: &str, args: &[&str]) {
     let smooth: &[&str] =
         if args.contains(&"--sides") { &[] } else { &["--sides", "12", "--subdivisions", "4"] };
-    // Without the window, which takes as long to build as everything else.
+    // The window is left out, because it takes as long to build as everything else.
     let program = ["run", "--quiet", "--release", "--package", "texere-cli", "--no-default-features", "--"];
     steps.cargo(name, &[&program, &["render"][..], args, smooth].concat(), &[]);
 }

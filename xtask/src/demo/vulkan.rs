@@ -1,4 +1,4 @@
-//! Installs a Vulkan driver where there is none.
+//! Installs a Vulkan driver if there is none.
 
 use std::fs;
 

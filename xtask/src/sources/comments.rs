@@ -5,8 +5,8 @@ use super::files::Source;
 /// The most columns of a line that has a comment.
 const COLUMNS_MOST: usize = 100;
 
-/// All lines with a comment that are wider, with their columns. Addresses, rows of tables and code
-/// in docs may be wider.
+/// All lines with a comment that are wider than [`COLUMNS_MOST`], with their columns. Addresses,
+/// rows of tables and code in docs may be wider.
 pub(crate) fn find(files: &[Source]) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
@@ -31,7 +31,7 @@ pub(crate) fn find(files: &[Source]) -> Vec<String> {
     found
 }
 
-/// The comment of each line, with the line's number from 0.
+/// The comment of each line, with the line's number, counted from 0.
 fn comments(text: &str) -> Vec<(usize, &str)> {
     let mut found = Vec::new();
     let (mut at, mut line) = (0, 0);
@@ -55,7 +55,7 @@ fn comments(text: &str) -> Vec<(usize, &str)> {
     found
 }
 
-/// Bytes of the block comment that `text` begins with, nested comments included.
+/// The number of bytes of the block comment that `text` begins with, nested comments included.
 fn block(text: &str) -> usize {
     let (mut depth, mut at) = (0_usize, 0);
     while at < text.len() {
@@ -76,7 +76,8 @@ fn block(text: &str) -> usize {
     text.len()
 }
 
-/// Bytes of the string or character that `text` begins with, or else of its first character.
+/// The number of bytes of the string or character literal that `text` begins with, or else of its
+/// first character.
 fn literal(text: &str, before: Option<char>) -> usize {
     let first = text.chars().next().map_or(1, char::len_utf8);
     let in_word = before.is_some_and(|before| before.is_alphanumeric() || before == '_');
@@ -100,7 +101,7 @@ fn literal(text: &str, before: Option<char>) -> usize {
     }
 }
 
-/// Bytes up to the second `quote`, without those behind a backslash.
+/// The number of bytes up to the second `quote`. Quotes behind a backslash do not count.
 fn quoted(text: &str, quote: char) -> usize {
     let mut escaped = false;
     for (at, character) in text.char_indices().skip(1) {
@@ -120,7 +121,7 @@ mod tests {
         find(&[Source { path: path.into(), text: text.to_owned() }])
     }
 
-    /// A line of 101 columns counts in each kind of comment, one of 100 doesn't.
+    /// A line of 101 columns is found in each kind of comment, and a line of 100 is not.
     #[test]
     fn the_first_column_too_many_counts() {
         for (before, after) in [
@@ -160,7 +161,7 @@ mod tests {
         ] {
             assert_eq!(wide("a.rs", &text), Vec::<String>::new());
         }
-        // The fence ends.
+        // The fence ends before the long line.
         assert_eq!(wide("a.rs", &format!("/// ```\n/// ```\n/// {long}")), ["a.rs:3: 124 columns"]);
     }
 }

@@ -9,7 +9,7 @@ use crate::steps::root;
 /// A file of Rust, OpenCL C or WGSL.
 #[derive(Debug)]
 pub(crate) struct Source {
-    /// From the repository's root.
+    /// The file's path from the repository's root.
     pub(crate) path: PathBuf,
     pub(crate) text: String,
 }
@@ -48,7 +48,7 @@ pub(crate) fn all() -> Result<Vec<Source>, String> {
             let (path, name) = (entry.path(), entry.file_name());
             let name = name.to_string_lossy();
             if entry.file_type().map_err(named)?.is_dir() {
-                // Folders of tools, builds and pictures.
+                // These are folders of tools, builds and pictures.
                 let apart = name.starts_with('.') || ["target", "out"].contains(&&*name);
                 folders.extend((!apart).then_some(path));
             } else if ["rs", "cl", "wgsl"].iter().any(|kind| path.extension() == Some(OsStr::new(kind))) {

@@ -11,7 +11,7 @@ use super::files::Source;
 /// The most lines from `fn` to the closing brace, both counted.
 const LINES_MOST: usize = 80;
 
-/// All functions outside tests that are longer, with their lines.
+/// All functions outside tests that are longer than [`LINES_MOST`], with their numbers of lines.
 pub(crate) fn find(files: &[Source]) -> Vec<String> {
     let mut long = Long { path: Path::new(""), found: Vec::new() };
     for file in files.iter().filter(|file| file.is_rust() && !file.is_test()) {
@@ -82,7 +82,7 @@ impl<'ast> Visit<'ast> for Long<'_> {
 mod tests {
     use super::*;
 
-    /// Functions of 80 and 81 lines in each place that a function may have.
+    /// Tests functions of 80 and 81 lines in each place where a function may stand.
     #[test]
     fn the_first_line_too_many_counts() {
         let body = |lines: usize| format!("{{\n{}}}", "    f();\n".repeat(lines - 2));

@@ -8,7 +8,7 @@ mod functions;
 use crate::steps::Steps;
 use crate::workspace;
 
-/// Prints each offence against the three rules, and fails where there is one.
+/// Prints each breach of the three rules, and fails if there is one.
 pub(crate) fn run(steps: &mut Steps) {
     let packages = match workspace::packages() {
         Ok(packages) => packages,

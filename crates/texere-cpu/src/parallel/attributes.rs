@@ -1,4 +1,4 @@
-//! Lengths along yarns and attributes of vertices, a block an item.
+//! Lengths along yarns, and attributes of vertices. Each rayon item is one block.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use crate::attributes::{block, block_length, blocks_of, caps, sum_up};
 use crate::engine::Work;
 
 pub(super) fn measure(plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {
-    // Each block is an item, so that one long yarn feeds all cores as well as many short ones.
+    // Each item is one block, so that one long yarn feeds all cores as well as many short ones.
     let (mut left, mut first, mut blocks) = (&mut *lengths, 0, Vec::new());
     for yarn in yarns.clone() {
         let own = blocks_of(plan, yarn);

@@ -180,8 +180,8 @@ impl Simd for Avx2 {
     fn scatter(self, rows: [F32x8; 4], out: &mut [f32], stride: usize) {
         let out = &mut out[..7 * stride + 4];
         let to = out.as_mut_ptr();
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does;
-        // stores need not be aligned.
+        // SAFETY: lane l is stored at l * stride, and the last lane ends where `out` does. Stores
+        // need not be aligned.
         unsafe {
             let half = to.add(4 * stride);
             for (lane, F32x8(column)) in self.tiles(rows).into_iter().enumerate() {
@@ -197,8 +197,8 @@ impl Simd for Avx2 {
         let to = out.as_mut_ptr();
         let [a, b, c, d, e, f, g, h] = rows;
         let (low, high) = (self.tiles([a, b, c, d]), self.tiles([e, f, g, h]));
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does;
-        // stores need not be aligned.
+        // SAFETY: lane l is stored at l * stride, and the last lane ends where `out` does. Stores
+        // need not be aligned.
         unsafe {
             for (lane, (F32x8(low), F32x8(high))) in low.into_iter().zip(high).enumerate() {
                 let (first, second) =
@@ -301,8 +301,8 @@ impl Floats for F32x8 {
         // SAFETY: no pointers.
         Self(unsafe {
             let (before, here) = (_mm256_castps_si256(before.0), _mm256_castps_si256(self.0));
-            // The last half of the one and the first half of the other, from which each half gets
-            // its first lane.
+            // The last half of `before` and the first half of `here`: from this vector each half
+            // gets its first lane.
             let middle = _mm256_permute2x128_si256::<0x21>(before, here);
             _mm256_castsi256_ps(_mm256_alignr_epi8::<12>(here, middle))
         })

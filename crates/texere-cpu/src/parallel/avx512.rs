@@ -203,8 +203,8 @@ impl Simd for Avx512 {
     fn scatter(self, rows: [F32x16; 4], out: &mut [f32], stride: usize) {
         let out = &mut out[..15 * stride + 4];
         let to = out.as_mut_ptr();
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does;
-        // stores need not be aligned.
+        // SAFETY: lane l is stored at l * stride, and the last lane ends where `out` does. Stores
+        // need not be aligned.
         unsafe {
             for (lane, F32x16(column)) in self.tiles(rows).into_iter().enumerate() {
                 _mm_storeu_ps(to.add(lane * stride), _mm512_extractf32x4_ps::<0>(column));
@@ -220,8 +220,8 @@ impl Simd for Avx512 {
         let out = &mut out[..15 * stride + 8];
         let to = out.as_mut_ptr();
         let (low, high) = (self.tiles([a, b, c, d]), self.tiles([e, f, g, h]));
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does;
-        // stores need not be aligned.
+        // SAFETY: lane l is stored at l * stride, and the last lane ends where `out` does. Stores
+        // need not be aligned.
         unsafe {
             let first = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
             let last = _mm512_setr_epi32(8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31);
@@ -275,7 +275,7 @@ impl Floats for F32x16 {
 
     #[cfg_attr(optimized, inline(always))]
     fn floor(self) -> Self {
-        /// To no binary places, downwards, without exceptions.
+        /// The rounding of the instruction: downwards, to no binary places, without exceptions.
         const DOWN: i32 = 0x09;
         // SAFETY: no pointers.
         Self(unsafe { _mm512_roundscale_ps::<DOWN>(self.0) })

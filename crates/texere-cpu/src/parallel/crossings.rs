@@ -1,4 +1,4 @@
-//! Crossings on all cores: the same bits as the reference.
+//! Crossings on all cores, with the same bits as the reference.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, Crossi
 
 use crate::crossings::{CrossingsMemory, step};
 
-/// Crossings of one rayon item.
+/// The number of crossings of one rayon item.
 const TASK: usize = 256;
 
 /// The settler of crossings on all cores.

@@ -46,7 +46,7 @@ impl InstructionSet {
 
     /// The set that `TEXERE_SIMD` names or, without it, the one with the widest vectors.
     ///
-    /// **Errors**: [`BackendError::NoInstructionSet`] where the processor has no set of that name.
+    /// **Errors**: [`BackendError::NoInstructionSet`] if the processor has no set of that name.
     pub(super) fn chosen() -> Result<Self, BackendError> {
         std::env::var_os(VARIABLE).map_or_else(|| Ok(Self::widest()), |name| Self::named(&name))
     }

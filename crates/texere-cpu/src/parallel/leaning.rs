@@ -1,4 +1,4 @@
-//! Yarns whose outlines lean. They are rare, and made by the reference's own functions. The blocks
+//! Yarns whose outlines lean. They are rare, so the reference's own functions make them. The blocks
 //! of a call are consecutive blocks of one yarn.
 
 use texere_core::Vertex;
@@ -16,7 +16,7 @@ pub(super) fn rings(work: &Work, blocks: &[Block], out: &mut [Ring]) {
     }
 }
 
-/// Makes vertices and indices. `indices` is empty where none are wanted.
+/// Makes vertices and indices. `indices` is empty if none are wanted.
 pub(super) fn mesh(work: &Work, blocks: &[Block], vertices: &mut [Vertex], indices: &mut [u32]) {
     let (plan, sides) = (&work.plan, work.plan.settings().sides);
     let outline = plan.outline(plan.yarn(blocks[0].yarn as usize).section as usize);

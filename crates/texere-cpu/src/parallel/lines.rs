@@ -1,8 +1,8 @@
 //! Output in whole cache lines, which can go past the caches.
 //!
-//! A line that is written past the caches needs no read before it. But only few such lines can be
-//! under way, so they are sent a few at a time between other work, and the processor need not wait
-//! for memory.
+//! A line that is written past the caches need not be read first. But the processor can have only
+//! few such lines on their way to memory at a time. A few at a time are therefore sent between
+//! other work, so that the processor need not wait for memory.
 
 use std::ops::Range;
 
@@ -13,9 +13,11 @@ use super::vertices::OVERHANG;
 /// A slice of the output, split into whole lines.
 #[derive(Debug)]
 pub(super) struct Lines<'a> {
-    /// The floats before the first whole line; `tail` has those after the last.
+    /// The floats before the first whole line.
     pub(super) head: &'a mut [f32],
+    /// The floats after the last whole line.
     pub(super) tail: &'a mut [f32],
+    /// The whole lines between `head` and `tail`.
     pub(super) lines: &'a mut [Line],
     /// Whether lines go past the caches.
     pub(super) streams: bool,
@@ -31,9 +33,9 @@ impl<'a> Lines<'a> {
 /// Vertices on their way to the output.
 ///
 /// They are written to scratch memory, aligned there as they will be in the output. Whole lines are
-/// sent from it: half of them at once, half while the next rings are worked out. What is left moves
-/// to the front of a second scratch memory, which takes turns with the first. Each holds one vector
-/// of rings, so both stay in the nearest cache.
+/// sent from it: half of them at once, half while the next rings are worked out. The floats after
+/// the last whole line move to the front of a second scratch memory, and the two take turns. Each
+/// holds one vector of rings, so both stay in the nearest cache.
 #[derive(Debug)]
 pub(super) struct VertexLines<'a> {
     out: Lines<'a>,
@@ -48,7 +50,7 @@ pub(super) struct VertexLines<'a> {
 }
 
 impl<'a> VertexLines<'a> {
-    /// Lines of scratch memory for vertices of `floats` a ring.
+    /// The number of lines of scratch memory for vertices of `floats` floats a ring.
     pub(super) const fn scratch(floats: usize) -> usize {
         2 * (1 + (LANES_MAX * floats + OVERHANG).div_ceil(LINE))
     }
@@ -66,8 +68,8 @@ impl<'a> VertexLines<'a> {
         &mut self.scratch[self.end..]
     }
 
-    /// Begins to send `floats` values that have been written. What waited before must have been
-    /// sent.
+    /// Begins to send `floats` values that have been written. The lines that waited before must
+    /// have been sent.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn send(&mut self, simd: impl Simd, floats: usize) {
         let mut first = 0;
@@ -106,7 +108,7 @@ impl<'a> VertexLines<'a> {
         }
     }
 
-    /// Sends the rest.
+    /// Sends what is left.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish(mut self, simd: impl Simd) {
         self.send_waiting(simd);
@@ -119,8 +121,8 @@ impl<'a> VertexLines<'a> {
     }
 }
 
-/// The index pattern of [`INDEX_RINGS`] rings, which are whole lines, and the start of the next
-/// rings'.
+/// The index pattern of [`INDEX_RINGS`] rings, which are whole lines, and the start of the pattern
+/// once more.
 #[derive(Debug)]
 pub(super) struct IndexTable {
     table: Vec<u32>,
@@ -128,8 +130,8 @@ pub(super) struct IndexTable {
     growth: u32,
 }
 
-/// Rings whose indices are whole lines, whatever the number of sides: a ring has six indices a
-/// side, and eight times six are three lines.
+/// The number of rings whose indices fill whole lines, whatever the number of sides: a ring has six
+/// indices a side, and eight times six are three lines.
 const INDEX_RINGS: u32 = 8;
 
 impl IndexTable {
@@ -150,7 +152,7 @@ pub(super) struct IndexLines<'a> {
     pattern: &'a [[u32; LINE]],
     growth: u32,
     base: u32,
-    /// The line of the pattern that comes next.
+    /// The number of the pattern's line that comes next.
     next: usize,
 }
 
@@ -164,7 +166,7 @@ impl<'a> IndexLines<'a> {
         Self { out, pattern, growth: table.growth, base: first_vertex, next: 0 }
     }
 
-    /// Sends the next lines, `count` at most.
+    /// Sends the next lines, at most `count` of them.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn send<S: Simd>(&mut self, simd: S, count: usize) {
         let mut left = count.min(self.out.lines.len());
@@ -193,7 +195,7 @@ impl<'a> IndexLines<'a> {
         }
     }
 
-    /// Sends the rest.
+    /// Sends what is left.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish(mut self, simd: impl Simd) {
         self.send(simd, usize::MAX);
@@ -201,7 +203,7 @@ impl<'a> IndexLines<'a> {
     }
 }
 
-/// Writes `base + table[i]`.
+/// Writes `base + table[i]` to `out[i]`, for all of `out`.
 fn put(out: &mut [f32], table: &[u32], base: u32) {
     for (index, offset) in out.iter_mut().zip(table) {
         *index = f32::from_bits(base.wrapping_add(*offset));

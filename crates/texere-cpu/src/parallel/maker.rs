@@ -1,4 +1,5 @@
-//! Rings in vectors: what makes them from consecutive blocks, and what takes them.
+//! Rings in vectors: the maker that works them out from consecutive blocks, and the sinks that they
+//! go to.
 
 use texere_core::backend::{BLOCK_RINGS, Block};
 
@@ -10,11 +11,11 @@ use super::vertices::Surface;
 use crate::engine::Work;
 use crate::rolls::block_number;
 
-/// What all runs share.
+/// The input that all runs share.
 pub(super) struct Maker<'a> {
     pub(super) work: &'a Work,
     seats: Vec<Seats>,
-    /// One for each section.
+    /// The surface of each section.
     pub(super) surfaces: Vec<Surface<'a>>,
 }
 
@@ -26,7 +27,7 @@ impl<'a> Maker<'a> {
         Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
-    /// Makes `piece`. Where any of its rings may be flattened that is a function of its own, so
+    /// Makes `piece`. If any of its rings may be flattened, a separate function does so, in order
     /// that the loops of round yarns stay small.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn make<S: Simd>(&self, simd: S, piece: impl Piece, blocks: &[Block]) {
@@ -47,7 +48,7 @@ impl<'a> Maker<'a> {
     }
 
     /// Gives `sink` the rings of `blocks`, consecutive blocks of one yarn, a vector of rings at a
-    /// time. Without `FLATTENED` all rings are taken for round.
+    /// time. Without `FLATTENED` all rings are treated as round.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn rings<S: Simd, const FLATTENED: bool>(
         &self,
@@ -73,7 +74,8 @@ impl<'a> Maker<'a> {
 
 /// Work on consecutive blocks of one yarn.
 pub(super) trait Piece {
-    /// Does it. It must be inlined, so that it is compiled for the instructions of `simd`.
+    /// Does the work. The function must be inlined, so that it is compiled for the instructions of
+    /// `simd`.
     fn make<S: Simd, const FLATTENED: bool>(self, simd: S);
 }
 
@@ -89,8 +91,8 @@ impl<P: Piece> Job for Flattened<P> {
 
 /// A consumer of rings.
 pub(super) trait Sink {
-    /// Takes the first `count` rings of a vector. Unless `rolled`, all rolls are zero. It must be
-    /// inlined, so that it is compiled for the instructions of `simd`.
+    /// Uses the first `count` rings of a vector. Unless `rolled`, all rolls are zero. The function
+    /// must be inlined, so that it is compiled for the instructions of `simd`.
     fn take<S: Simd, const FLATTENED: bool>(
         &mut self,
         simd: S,

@@ -18,8 +18,8 @@ use crate::caps::caps;
 use crate::engine::Work;
 use crate::pages;
 
-/// Bytes of output from which on stores go past the caches: the size of a large processor's last
-/// cache.
+/// Outputs of at least this many bytes are stored past the caches. It is the size of a large
+/// processor's last cache.
 pub(super) const STREAM_BYTES: usize = 32 << 20;
 
 pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: MeshMut<'_>) {
@@ -39,9 +39,9 @@ pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: Mes
 /// Both stages for a run of blocks.
 pub(super) struct MeshJob<'a> {
     pub(super) maker: &'a Maker<'a>,
-    /// The pattern of indices; none where the topology has no indices.
+    /// The pattern of indices; none if the topology has no indices.
     pub(super) table: Option<&'a IndexTable>,
-    /// Whether stores go past the caches, since the output is too large for any.
+    /// Whether stores go past the caches, because the output is too large for them.
     pub(super) streams: bool,
     pub(super) run: MeshRun<'a>,
 }
@@ -81,7 +81,7 @@ impl Job for MeshJob<'_> {
 struct MeshPiece<'a> {
     maker: &'a Maker<'a>,
     blocks: &'a [Block],
-    /// Floats of the vertices of a ring, which has an equal number of indices.
+    /// The number of floats of a ring's vertices. The ring has as many indices.
     floats: usize,
     out: Lines<'a>,
     scratch: &'a mut [Line],
@@ -110,10 +110,10 @@ impl Piece for MeshPiece<'_> {
     }
 }
 
-/// Where a mesh goes.
+/// The sink that writes a mesh.
 struct MeshSink<'a> {
     surface: &'a Surface<'a>,
-    /// Floats of the vertices of a ring, which has an equal number of indices.
+    /// The number of floats of a ring's vertices. The ring has as many indices.
     floats: usize,
     vertices: Way<'a>,
     indices: Option<IndexLines<'a>>,
@@ -146,7 +146,7 @@ impl Sink for MeshSink<'_> {
     }
 }
 
-/// How vertices get to their lines.
+/// The memory through which vertices get to their lines.
 enum Way<'a> {
     Tiles(TileLines<'a>),
     Scratch(VertexLines<'a>),

@@ -43,15 +43,14 @@ pub(crate) use settling::ParallelSettler;
 pub(crate) struct Parallel(InstructionSet);
 
 impl Parallel {
-    /// Takes the vectors that `TEXERE_SIMD` names or, without it, the widest that the processor
-    /// has.
+    /// Uses the vectors that `TEXERE_SIMD` names or, without it, the widest that the processor has.
     ///
-    /// **Errors**: [`BackendError::NoInstructionSet`] where the processor has none of that name.
+    /// **Errors**: [`BackendError::NoInstructionSet`] if the processor has none of that name.
     pub(crate) fn new() -> Result<Self, BackendError> {
         InstructionSet::chosen().map(Self)
     }
 
-    /// One for each kind of vectors that the processor has, the widest last.
+    /// An executor for each kind of vectors that the processor has, the widest last.
     pub(crate) fn each() -> impl Iterator<Item = Self> {
         InstructionSet::available().into_iter().map(Self)
     }

@@ -15,11 +15,11 @@ use crate::engine::Work;
 use crate::packed::caps;
 use crate::pages;
 
-/// Blocks that are made at a time: with six sides some 70 kB, together with what they are packed
-/// to.
+/// The number of blocks that are made at a time. With six sides they take some 70 kB, together with
+/// the packed vertices.
 const BLOCKS: usize = 5;
 
-/// Words of a packed vertex.
+/// The number of words of a packed vertex.
 const WORDS: usize = 3;
 
 /// Two vertices, whose floats are three vectors of four.
@@ -53,8 +53,8 @@ pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut 
 struct PackJob<'a> {
     vertices: &'a [Vertex],
     quantum: Quantum,
-    /// Memory in between, for the words of as many vertices. Words are moved as the floats that
-    /// have their bits.
+    /// Memory for the words of the packed vertices. Words are moved as the floats that have their
+    /// bits.
     words: &'a mut [f32],
     out: &'a mut [PackedVertex],
     streams: bool,
@@ -73,7 +73,7 @@ impl Job for PackJob<'_> {
         for (pairs, words) in vectors.zip(packed.chunks_exact_mut(2 * WORDS * S::LANES)) {
             pack(simd, pairs, quantum, words);
         }
-        // The rest is less than a vector of pairs, and perhaps half a pair more.
+        // What is left is less than a vector of pairs, and perhaps half a pair more.
         let mut last = [Vertex::default(); 2 * LANES_MAX];
         last[..rest.len() / WORDS].copy_from_slice(&vertices[2 * whole..]);
         let mut room = [0.0; 2 * WORDS * LANES_MAX];
@@ -95,7 +95,7 @@ impl Job for PackJob<'_> {
     }
 }
 
-/// Packs a vector of pairs, a pair a lane, as [`PackedVertex::pack`] does.
+/// Packs a vector of pairs, a pair a lane, in the way of [`PackedVertex::pack`].
 #[cfg_attr(optimized, inline(always))]
 fn pack<S: Simd>(simd: S, pairs: &[Pair], quantum: Quantum, words: &mut [f32]) {
     // No closures here: they would not be compiled for the instructions of the path.
@@ -107,11 +107,11 @@ fn pack<S: Simd>(simd: S, pairs: &[Pair], quantum: Quantum, words: &mut [f32]) {
     let [next_low, next_high] = position(simd, [next_x, next_y, next_z], quantum);
     let next_normal = octahedral(simd, [next_normal_x, next_normal_y, next_normal_z]);
     simd.scatter([low, high, normal, next_low], words, 2 * WORDS);
-    // Two of them again, so that no store reaches into the next pair.
+    // Two of the words are stored again, so that no store reaches into the next pair.
     simd.scatter([normal, next_low, next_high, next_normal], &mut words[2..], 2 * WORDS);
 }
 
-/// The words of positions.
+/// The two words of each position.
 #[cfg_attr(optimized, inline(always))]
 fn position<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3], quantum: Quantum) -> [S::Floats; 2] {
     let [x, y, z] = [wrapped(simd, x, quantum), wrapped(simd, y, quantum), wrapped(simd, z, quantum)];
@@ -120,7 +120,7 @@ fn position<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3], quantum: Quantum) -> [S
 
 const _: () = assert!(Quantum::BITS == 21);
 
-/// The lowest bits of the whole quanta that are nearest to coordinates.
+/// The lowest bits of the whole quanta that are nearest to the coordinates `mm`.
 #[cfg_attr(optimized, inline(always))]
 fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     let quanta = mm * simd.splat(quantum.per_mm());
@@ -130,7 +130,7 @@ fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     (rest + simd.splat(PackedVertex::ROUNDING)).to_bits().masked((1 << Quantum::BITS) - 1)
 }
 
-/// The words of normals.
+/// The word of each normal.
 #[cfg_attr(optimized, inline(always))]
 fn octahedral<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> S::Floats {
     let (zero, one) = (simd.splat(0.0), simd.splat(1.0));

@@ -1,8 +1,8 @@
 //! A test on control points for yarns along which every step of the frame is zero.
 //!
-//! A woven thread keeps to a plane of constant x, or of constant y, and never turns back in it.
-//! Then its sides lie along that axis, their products with chords and tangents are zero, and each
-//! step of a rotation-minimising frame is zero, to the bit.
+//! A woven thread keeps to a plane of constant x, or of constant y, and never turns back in it. The
+//! sides of its frames then lie along that axis, and their products with chords and tangents are
+//! zero. Each step of a rotation minimising frame is therefore zero to the bit.
 
 use texere_core::definitions::NO_LENGTH;
 
@@ -25,8 +25,8 @@ pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stre
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
     let intervals = (plan.rings(stretch.yarn) - 1) / per_interval;
-    // An open yarn's last ring belongs to the interval that it ends. A closed yarn's belongs to the
-    // interval after that.
+    // An open yarn's last ring belongs to the interval that it ends. A closed yarn's last ring
+    // belongs to the interval after that.
     let last = if plan.yarn(stretch.yarn).closed { intervals } else { intervals - 1 };
     let end = ((stretch.first + stretch.count - 1) / per_interval).min(last) + 1;
     let mut first = stretch.first / per_interval;

@@ -2,7 +2,7 @@
 //!
 //! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the
 //! same. The core branches for rare cases: a yarn at rest, a tangent along z, a yarn's last ring.
-//! The lanes only notice such a case, and call the core's own functions for that ring.
+//! The lanes only notice a rare case, and call the core's own functions for that ring.
 
 use texere_core::ControlPoint;
 use texere_core::backend::{Block, PaddedPoints, Plan};
@@ -16,7 +16,7 @@ use super::spline::{Cubics, Seats, all_round, held_size, xyz};
 pub(super) struct Source<'a> {
     pub(super) plan: &'a Plan,
     pub(super) points: &'a PaddedPoints,
-    /// One for each place in an interval, at which a vector's first ring can lie.
+    /// The seats of a vector, for each place in an interval at which its first ring can lie.
     pub(super) seats: &'a [Seats],
 }
 
@@ -33,8 +33,8 @@ impl<'a> Source<'a> {
     pub(super) fn all_round(&self, stretch: Stretch) -> bool {
         let (points, per_interval) = (self.yarn(stretch.yarn), self.seats.len());
         let first = stretch.first as usize / per_interval;
-        // The last ring's interval, and the three points after its first. An open yarn's last ring
-        // has no interval of its own.
+        // The end of the points that the last ring reads: its interval's first point and the three
+        // after it. An open yarn's last ring has no interval of its own.
         let end = (stretch.first + stretch.count - 1) as usize / per_interval + 4;
         all_round(&points[first..end.min(points.len())])
     }
@@ -58,7 +58,7 @@ impl Stretch {
 }
 
 /// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all rings
-/// are taken for round.
+/// are treated as round.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) centre: [S::Floats; 3],
@@ -67,17 +67,18 @@ pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// The frame of the section. It is turned by the roll where the yarn is round, and upright
-    /// where it is flattened.
+    /// The side of the section's frame. The frame is turned by the roll if the yarn is round, and
+    /// upright if it is flattened.
     pub(super) side: [S::Floats; 3],
+    /// The up of the section's frame.
     pub(super) up: [S::Floats; 3],
     /// Sine and cosine of the roll.
     pub(super) roll: (S::Floats, S::Floats),
-    /// The centre relative to the interval's start, and the interval's end likewise: chords are
-    /// made of both.
+    /// The centre relative to the interval's start. Chords are made from it and `span`.
     pub(super) offset: [S::Floats; 3],
+    /// The end of the interval relative to its start.
     pub(super) span: [S::Floats; 3],
-    /// Zero where an interval starts.
+    /// The parameter of the ring in its interval: zero where the interval starts.
     pub(super) t: S::Floats,
 }
 
@@ -88,10 +89,11 @@ pub(super) struct Walk<'a, S: Simd, const FLATTENED: bool> {
     source: Source<'a>,
     stretch: Stretch,
     points: &'a [[f32; 4]],
-    /// The number of rings of the stretch that are done, and the next ring's interval and place in
-    /// it.
+    /// The number of rings of the stretch that are done.
     pub(super) done: u32,
+    /// The interval of the next ring.
     interval: usize,
+    /// The place of the next ring in its interval.
     place: usize,
     /// The intervals and places by which a vector advances.
     stride: (usize, usize),
@@ -159,7 +161,7 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         rings
     }
 
-    /// Lets the core make those of the next rings whose bits are set in `rare`.
+    /// Replaces those of the next rings whose bits are set in `rare` by rings that the core makes.
     #[cfg_attr(optimized, inline(always))]
     fn mended(&self, rings: Rings<S, FLATTENED>, rare: u32) -> Rings<S, FLATTENED> {
         let mut fields = rings.fields();
@@ -167,7 +169,7 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         for (field, lane) in fields.iter().zip(&mut lanes.0) {
             field.store(lane);
         }
-        // A copy, so that the walk itself need not lie in memory.
+        // A copy is passed on, so that the walk itself need not lie in memory.
         let source = self.source;
         mend(&source, self.stretch, self.done, rare, &mut lanes);
         for (field, lane) in fields.iter_mut().zip(&lanes.0) {
@@ -180,13 +182,13 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
 /// Fields of a ring that the core replaces.
 const FIELDS: usize = 16;
 
-/// The fields of a vector of rings in memory. They are aligned as vectors are. Then the compiler
+/// The fields of a vector of rings in memory. They are aligned as vectors are. The compiler then
 /// aligns the stack frame that holds them, and with it all vectors that it spills there.
 #[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
 impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
-    /// Writes them to the first `LANES` places of a slice.
+    /// Writes the rings to the first `LANES` places of `out`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn store(&self, simd: S, roll: S::Integers, out: &mut [Ring]) {
         const FLOATS: usize = size_of::<Ring>() / size_of::<f32>();
@@ -198,14 +200,14 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
         simd.scatter(sizes, &mut out[FLOATS / 3 * 2..], FLOATS);
     }
 
-    /// The rings that are round, as `Ring::is_round` of the core defines it.
+    /// The rings that are round by the definition of `Ring::is_round` in the core.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn round(&self) -> S::Mask {
         let apart = (self.half_width - self.half_height).abs();
         (apart + (self.width_growth - self.height_growth).abs()).is_zero()
     }
 
-    /// The rings whose halves don't grow.
+    /// The rings whose half widths and half heights don't grow.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn steady(&self) -> S::Mask {
         (self.width_growth.abs() + self.height_growth.abs()).is_zero()
@@ -232,8 +234,8 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
 }
 
 /// The seats of a vector that ends an open yarn. The yarn's last ring lies at the end of the
-/// interval before; the others are `seats`. Where the last ring is the vector's first there is no
-/// such interval, and a bit says that the core has to make it.
+/// interval before; the other rings have `seats`. If the last ring is the vector's first, there is
+/// no such interval, and a bit says that the core has to make the ring.
 #[cold]
 #[inline(never)]
 fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {

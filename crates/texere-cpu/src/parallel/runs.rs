@@ -4,14 +4,15 @@ use texere_core::Vertex;
 use texere_core::backend::{Block, Chunk, MeshMut};
 use texere_core::definitions::Ring;
 
-/// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. That is enough to make the
-/// hand-over cheap, and few enough that a fabric of a few thousand rings still feeds several cores.
+/// The number of blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. That is enough
+/// for the hand-over to take negligible time, and few enough for several cores to share a fabric of
+/// a few thousand rings.
 const RUN_BLOCKS: usize = 32;
 
 /// A run of blocks, and the output for their rings.
 pub(super) struct RingRun<'a> {
     pub(super) blocks: &'a [Block],
-    /// Number of the first ring of `rings` among the chunk's.
+    /// The number of the first ring of `rings` in the chunk.
     pub(super) first_ring: u32,
     pub(super) rings: &'a mut [Ring],
 }
@@ -19,9 +20,9 @@ pub(super) struct RingRun<'a> {
 /// A run of blocks, and the output for their mesh.
 pub(super) struct MeshRun<'a> {
     pub(super) blocks: &'a [Block],
-    /// Number of the first vertex of `vertices` among the chunk's, and of the first index of
-    /// `indices`.
+    /// The number of the first vertex of `vertices` in the chunk.
     pub(super) first_vertex: u32,
+    /// The number of the first index of `indices` in the chunk.
     pub(super) first_index: u32,
     pub(super) vertices: &'a mut [Vertex],
     pub(super) indices: &'a mut [u32],
@@ -61,7 +62,7 @@ pub(super) fn mesh_runs<'a>(
     chunk.blocks().chunks(RUN_BLOCKS).map(run).collect()
 }
 
-/// Runs of `each` blocks, each with the output for what its vertices have.
+/// Runs of `each` blocks. Each has the part of the output for its vertices.
 pub(super) fn vertex_runs<'a, T>(
     chunk: &'a Chunk,
     each: usize,
@@ -81,14 +82,15 @@ fn ends(blocks: &[Block]) -> [&Block; 2] {
     [&blocks[0], &blocks[blocks.len() - 1]]
 }
 
-/// The part of the output that no run has yet, from number `first` of the chunk's on.
+/// The part of the output that no run has yet. It begins at number `first` of the chunk's output.
 struct Rest<'a, T> {
     first: u32,
     rest: &'a mut [T],
 }
 
 impl<'a, T> Rest<'a, T> {
-    /// Takes the values from number `first` up to `end`. Values between runs may belong to none.
+    /// Splits off the values from number `first` up to `end`. Values between runs may belong to
+    /// none.
     fn take(&mut self, first: u32, end: u32) -> &'a mut [T] {
         take(&mut self.rest, (first - self.first) as usize);
         self.first = end;
@@ -96,7 +98,7 @@ impl<'a, T> Rest<'a, T> {
     }
 }
 
-/// Splits the first `count` values off `left`.
+/// Splits the first `count` values off `left`, and returns them.
 pub(super) fn take<'a, T>(left: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (taken, rest) = std::mem::take(left).split_at_mut(count);
     *left = rest;

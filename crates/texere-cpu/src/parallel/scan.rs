@@ -1,4 +1,4 @@
-//! Rolls. Each block adds up its own steps; then a running sum goes along each yarn's blocks.
+//! Rolls. Each block adds up its own steps. A running sum then goes along each yarn's blocks.
 
 use std::ops::Range;
 
@@ -17,10 +17,10 @@ use super::turns::Steps;
 use crate::engine::resize;
 use crate::rolls::Rolls;
 
-/// Blocks that one rayon item goes along.
+/// The number of blocks of one rayon item.
 const RUN_BLOCKS: u32 = 64;
 
-/// Rings of these blocks.
+/// The number of rings of these blocks.
 const RUN_RINGS: u32 = RUN_BLOCKS * BLOCK_RINGS;
 
 pub(super) fn scan(
@@ -54,7 +54,7 @@ pub(super) fn scan(
     Ok(())
 }
 
-/// Consecutive blocks of one yarn, and where their sums go.
+/// Consecutive blocks of one yarn, and the memory for their sums.
 struct Run<'a> {
     yarn: usize,
     first_ring: u32,
@@ -68,11 +68,11 @@ struct Run<'a> {
 fn runs<'a>(plan: &Plan, yarns: Range<usize>, blocks: &'a mut [Turn], rings: &'a mut [Turn]) -> Vec<Run<'a>> {
     let mut runs = Vec::new();
     let [mut blocks_left, mut rings_left] = [blocks, rings];
-    // Offsets of what is left.
+    // The offsets of the blocks and rings that are left.
     let [mut block, mut ring] = [0, 0];
     for yarn in yarns {
         let mut first_ring = 0;
-        // Between yarns there may be room for more.
+        // Blocks and rings between the yarns may belong to yarns that are not scanned.
         let starts = [plan.block_offsets()[yarn] as usize, plan.ring_offsets()[yarn] as usize];
         take(&mut blocks_left, starts[0] - block);
         take(&mut rings_left, starts[1] - ring);
@@ -99,7 +99,7 @@ impl Job for ScanRun<'_> {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
         let (frame, twist) = (source.plan.frame(yarn), source.plan.turns_per_mm(yarn));
-        // The blocks' own rings and, unless the yarn ends, the one after them: the step to it
+        // The blocks' own rings and, unless the yarn ends, the ring after them: the step to it
         // belongs to the last block.
         let stretch =
             |first: u32, rings: u32| Stretch { yarn, first, count: (rings + 1).min(of_yarn - first) };
@@ -125,8 +125,8 @@ impl Job for ScanRun<'_> {
     }
 }
 
-/// Adds up the steps between the rings of `stretch`: those of `rings`, and perhaps the ring after
-/// them.
+/// Adds up the steps between the rings of `stretch`: the rings of `rings`, and perhaps the ring
+/// after them.
 #[cfg_attr(optimized, inline(always))]
 fn sums<S: Simd>(simd: S, source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
     // Rolls do not depend on sizes.

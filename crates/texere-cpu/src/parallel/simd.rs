@@ -5,10 +5,11 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use bytemuck::{Pod, Zeroable};
 
-/// Floats of a cache line.
+/// The number of floats of a cache line.
 pub(super) const LINE: usize = 16;
 
-/// A cache line of the output: what can be written past the caches without a read before it.
+/// A cache line of the output: the least that can be written past the caches without being read
+/// first.
 #[repr(C, align(64))]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(super) struct Line(pub(super) [f32; LINE]);
@@ -16,19 +17,19 @@ pub(super) struct Line(pub(super) [f32; LINE]);
 /// The most lanes that an implementation has.
 pub(super) const LANES_MAX: usize = 16;
 
-/// Consecutive entries, for [`Simd::rows`].
+/// The numbers of consecutive entries, for [`Simd::rows`].
 pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// A set of vector instructions, and proof that the processor has it.
 ///
 /// Only an implementation's own detection makes a value of the type. Vectors and masks are made
 /// with such a value or from other vectors, so they prove the same, and all methods are safe to
-/// call. The values have no size, so they cost nothing to pass on.
+/// call. The values have no size, so it takes no time to pass them on.
 ///
 /// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation
 /// gives the same bits.
 pub(super) trait Simd: Copy + Debug + Send + Sync {
-    /// Lanes of a vector: a power of two, from 4 to [`LANES_MAX`].
+    /// The number of lanes of a vector: a power of two, from 4 to [`LANES_MAX`].
     const LANES: usize;
 
     /// The bits of a mask that is set in all lanes.
@@ -43,7 +44,7 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// The mask with as many lanes.
     type Mask: Mask<Floats = Self::Floats>;
 
-    /// Runs `job`, compiled for these instructions, as a function of its own.
+    /// Runs `job` as a function of its own, which is compiled for these instructions.
     fn run(self, job: impl Job);
 
     /// One value in all lanes.
@@ -73,8 +74,8 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     fn tiles(self, rows: [Self::Floats; 4]) -> [Self::Floats; 4];
 
     /// Makes lines of columns. With n lines for every four lanes, line jn + i becomes lanes 4j to
-    /// 4j + 3 of columns 4i to 4i + 3. With `STREAM` they go past the caches, where the processor
-    /// can.
+    /// 4j + 3 of columns 4i to 4i + 3. With `STREAM` the lines go past the caches, if the processor
+    /// can do so.
     fn arrange<const STREAM: bool>(self, columns: &[f32], lines: &mut [Line]);
 
     /// Stores lane l of row r at `out[l * stride + r]`.
@@ -87,21 +88,22 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
         self.scatter([e, f, g, h], &mut out[4..], stride);
     }
 
-    /// Copies a line past the caches, where the processor can. Other threads are sure to see the
+    /// Copies a line past the caches, if the processor can do so. Other threads are sure to see the
     /// copy only after a [`Simd::fence`].
     fn stream(self, from: &[f32; LINE], to: &mut Line);
 
-    /// Writes the line `base + table[i]` past the caches, where the processor can. `base` is the
+    /// Writes the line `base + table[i]` past the caches, if the processor can do so. `base` is the
     /// same in all lanes.
     fn stream_indices(self, table: &[u32; LINE], base: Self::Integers, to: &mut Line);
 
-    /// Ends streaming: other threads see what was written.
+    /// Ends streaming: other threads then see what was written.
     fn fence(self);
 }
 
 /// Work that is written once for all sets of vector instructions.
 pub(super) trait Job {
-    /// Does it. It must be inlined, so that it is compiled for the instructions of `simd`.
+    /// Does the work. The function must be inlined, so that it is compiled for the instructions of
+    /// `simd`.
     fn run<S: Simd>(self, simd: S);
 }
 
@@ -156,10 +158,10 @@ pub(super) trait Floats:
     /// `before`.
     fn shift_in_four(self, before: Self) -> Self;
 
-    /// Lanes as whole numbers of `i32`. They must be whole and in range.
+    /// The lanes converted to `i32`. They must be whole numbers within its range.
     fn to_signed(self) -> Self::Integers;
 
-    /// The lanes' bits.
+    /// The bits of the lanes.
     fn to_bits(self) -> Self::Integers;
 }
 
@@ -195,7 +197,7 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     /// `self >> BY`
     fn shift_right<const BY: i32>(self) -> Self;
 
-    /// `self >> BY` of lanes taken as `i32`, which shifts in copies of the sign.
+    /// `self >> BY` of lanes read as `i32`, which shifts in copies of the sign.
     fn shift_right_signed<const BY: i32>(self) -> Self;
 
     /// `self & mask`
@@ -204,7 +206,7 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     /// `self & bit != 0`, where `bit` is one bit.
     fn has_bit(self, bit: u32) -> Self::Mask;
 
-    /// The nearest floats to lanes taken as `i32`.
+    /// The nearest floats to lanes read as `i32`.
     fn signed_to_floats(self) -> Self::Floats;
 
     /// The floats that have the lanes' bits.
@@ -216,10 +218,10 @@ pub(super) trait Mask: Copy + Debug {
     /// The vector of `f32` with as many lanes.
     type Floats;
 
-    /// `yes` where the lane says so, else `no`.
+    /// `yes` in lanes where the mask is set, else `no`.
     fn select(self, yes: Self::Floats, no: Self::Floats) -> Self::Floats;
 
-    /// A bit for each lane. The first lane's is the lowest.
+    /// A bit for each lane. The lowest bit belongs to the first lane.
     fn bits(self) -> u32;
 }
 
@@ -247,19 +249,19 @@ pub(super) fn difference<F: Floats>(a: [F; 3], b: [F; 3]) -> [F; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// The vectors' bits.
+/// The bits of three vectors.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn to_bits<F: Floats>([x, y, z]: [F; 3]) -> [F::Integers; 3] {
     [x.to_bits(), y.to_bits(), z.to_bits()]
 }
 
-/// The floats that have the vectors' bits.
+/// The floats that have the bits of three vectors.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn bit_cast<I: Integers>([x, y, z]: [I; 3]) -> [I::Floats; 3] {
     [x.bit_cast(), y.bit_cast(), z.bit_cast()]
 }
 
-/// The nearest floats to lanes taken as `i32`.
+/// The nearest floats to lanes read as `i32`.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn to_floats<I: Integers>([x, y, z]: [I; 3]) -> [I::Floats; 3] {
     [x.signed_to_floats(), y.signed_to_floats(), z.signed_to_floats()]
@@ -271,20 +273,20 @@ pub(super) fn between<I: Integers>(from: [I; 3], to: [I; 3]) -> [I; 3] {
     [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
 }
 
-/// `values`, limited to 0 to 1.
+/// `value`, limited to 0 to 1.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn share<S: Simd>(simd: S, value: S::Floats) -> S::Floats {
     value.max(simd.splat(0.0)).min(simd.splat(1.0))
 }
 
-/// The nearest whole numbers; of two that are as near, the larger.
+/// The nearest whole numbers. If two are equally near, the larger is taken.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn rounded<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> [S::Integers; 3] {
     let half = simd.splat(0.5);
     [(x + half).floor().to_signed(), (y + half).floor().to_signed(), (z + half).floor().to_signed()]
 }
 
-/// The least of all lanes.
+/// The least value of all lanes.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn least<S: Simd>(values: S::Floats) -> f32 {
     let mut lanes = [f32::INFINITY; LANES_MAX];
@@ -306,7 +308,7 @@ pub(super) fn first<S: Simd>(count: usize) -> u32 {
     if count < S::LANES { (1 << count) - 1 } else { S::ALL }
 }
 
-/// `yes` where `mask` says so, else `no`.
+/// `yes` in lanes where `mask` is set, else `no`.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn select<M: Mask<Floats: Copy>>(
     mask: M,

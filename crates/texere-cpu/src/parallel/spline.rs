@@ -5,8 +5,8 @@ use texere_core::definitions::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCI
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot};
 
-/// The places of a vector of consecutive rings on their cubics: each ring's interval, counted from
-/// the first ring's, and its parameter.
+/// The places of a vector of consecutive rings on their cubics: for each ring its interval, counted
+/// from the first ring's, and its parameter.
 #[derive(Debug)]
 pub(super) struct Seats {
     pub(super) interval: [u32; LANES_MAX],
@@ -14,7 +14,7 @@ pub(super) struct Seats {
 }
 
 impl Seats {
-    /// The seats for each place in an interval at which a vector's first ring can lie.
+    /// The seats of a vector, for each place in an interval at which its first ring can lie.
     pub(super) fn at_each_place(plan: &Plan) -> Vec<Self> {
         let (per_interval, step) = (plan.settings().subdivisions + 1, plan.sampling().step());
         let seats = |place: u32| Self {
@@ -34,11 +34,12 @@ pub(super) struct Cubics<S: Simd> {
     span: [S::Floats; 3],
     /// The coefficients of t, t² and t³.
     terms: [[S::Floats; 4]; 3],
-    /// The largest squared velocity that counts as standing still.
+    /// The largest square of a velocity that counts as standing still.
     at_rest: S::Floats,
     /// The least half height.
     floor: S::Floats,
-    /// Half widths. A round yarn's have no meaning: its half width is its half height.
+    /// The cubics of half widths. They have no meaning for a round yarn, whose half width is its
+    /// half height.
     pub(super) half_width: Widths<S>,
 }
 
@@ -46,8 +47,9 @@ pub(super) struct Cubics<S: Simd> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sampled<S: Simd> {
     pub(super) start: [S::Floats; 4],
-    /// Position and half height relative to the interval's start; `velocity` is their derivative.
+    /// Position and half height relative to the interval's start.
     pub(super) offset: [S::Floats; 4],
+    /// The derivative of `offset` by t.
     pub(super) velocity: [S::Floats; 4],
     pub(super) span: [S::Floats; 3],
     pub(super) at_rest: S::Floats,
@@ -87,7 +89,7 @@ impl<S: Simd> Cubics<S> {
         }
     }
 
-    /// The spline at `t` of each lane's interval, which is number `interval` of these.
+    /// The spline at `t` of each lane's interval, which is number `interval` of these cubics.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn sample(&self, simd: S, interval: S::Integers, t: S::Floats) -> Sampled<S> {
         let zero = simd.splat(0.0);
@@ -135,7 +137,8 @@ impl<S: Simd> Widths<S> {
     }
 }
 
-/// A size and its growth, with both limits applied. At `floor` a size is held and does not grow.
+/// A size and its growth, with both limits applied. A size below `floor` is held at `floor`, and
+/// does not grow.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn held_size<S: Simd>(
     simd: S,
@@ -149,7 +152,7 @@ pub(super) fn held_size<S: Simd>(
 }
 
 /// The coefficients of t, t² and t³ between a point and the next. Relative to the point, `a` is the
-/// point before, `b` the next, and `c` the one after that.
+/// point before, `b` is the next, and `c` is the one after the next.
 #[cfg_attr(optimized, inline(always))]
 fn coefficients<S: Simd>(simd: S, a: S::Floats, b: S::Floats, c: S::Floats, s: f32) -> [S::Floats; 3] {
     let (doubled, rest, less) = (simd.splat(2.0 * s), simd.splat(3.0 - 2.0 * s), simd.splat(s - 2.0));
@@ -177,7 +180,7 @@ fn low_halves<F: Floats<Integers: Integers<Floats = F>>>(halves: F) -> F {
 }
 
 /// The sizes at an interval's four points. They are half floats in the high 16 bits of `before` and
-/// `after`. Each is converted once, since the points between are other lanes of these.
+/// `after`. Each is converted once, because the sizes of the points between stand in other lanes.
 #[cfg_attr(optimized, inline(always))]
 fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4] {
     let (before, after) = (from_half(simd, before), from_half(simd, after));
@@ -193,9 +196,9 @@ fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4
 fn from_half<S: Simd>(simd: S, half: S::Floats) -> S::Floats {
     /// Two to the difference of the exponents' biases.
     const BIAS: f32 = (1u128 << 112) as f32;
-    /// The bits of a float that a half float has, too.
+    /// The bits that a float has in common with a half float.
     const SIGN_AND_SIZE: u32 = 0x8fff_e000;
-    // Exponent and fraction are moved to where a float has them. A subnormal half float gives a
+    // Exponent and fraction are moved to their places in a float. A subnormal half float gives a
     // subnormal float, which the multiplication makes normal.
     half.to_bits().shift_right_signed::<3>().masked(SIGN_AND_SIZE).bit_cast() * simd.splat(BIAS)
 }
@@ -216,8 +219,8 @@ pub(super) fn all_round(points: &[[f32; 4]]) -> bool {
     apart == 0
 }
 
-/// Four vectors of points: a point in each lane, from number `first` on and from each of the next
-/// three numbers on.
+/// Four vectors of points, with a point in each lane. The first has the points from number `first`
+/// on, and each of the others begins one point later.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn neighbours<S: Simd>(simd: S, points: &[[f32; 4]], first: usize) -> [[S::Floats; 4]; 4] {
     let last;
@@ -236,7 +239,7 @@ pub(super) fn neighbours<S: Simd>(simd: S, points: &[[f32; 4]], first: usize) ->
     ]
 }
 
-/// The points from number `first` on, and zeros past the last one.
+/// The points from number `first` on, followed by zeros.
 #[cold]
 fn last_points(points: &[[f32; 4]], first: usize) -> [[f32; 4]; LANES_MAX + 3] {
     let mut window = [[0.0; 4]; LANES_MAX + 3];

@@ -5,7 +5,7 @@ use texere_core::SectionPoint;
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd, difference, plus, scale};
 
-/// Floats of a vertex: position and normal.
+/// The number of floats of a vertex: position and normal.
 pub(super) const VERTEX: usize = 6;
 
 /// A vector of rings, with what all vertices of a ring share.
@@ -62,7 +62,7 @@ impl<S: Simd, const FLATTENED: bool, const KIND: u8> Stances<S> for Round<'_, S,
 /// grows.
 pub(super) struct Flat<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> {
     rings: &'a Rings<S, FLATTENED>,
-    /// The centre; no coordinate is -0.
+    /// The centre. No coordinate of it is -0.
     centre: [S::Floats; 3],
 }
 
@@ -94,7 +94,7 @@ impl<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool
         [self.at(x * wide, y * high), plus(normal, [simd.splat(0.0); 3])]
     }
 
-    /// `x` along the side and `y` along the up.
+    /// The vector that is `x` along the side and `y` along the up.
     #[cfg_attr(optimized, inline(always))]
     fn at(&self, x: S::Floats, y: S::Floats) -> [S::Floats; 3] {
         let Rings { side, up, .. } = self.rings;
@@ -127,7 +127,8 @@ impl<S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> St
 /// Rings of flattened yarns with six sides, where opposite points mirror one another.
 pub(super) struct SixSided<S: Simd> {
     centre: [S::Floats; 3],
-    /// For each of the first three points, the way from the centre to it and its normal.
+    /// For each of the first three points: the way from the centre to the point, and the normal
+    /// there.
     first: [[[S::Floats; 3]; 2]; 3],
 }
 
@@ -156,7 +157,7 @@ impl<S: Simd> Stances<S> for SixSided<S> {
     }
 }
 
-/// Rings of flattened yarns, of which some are round.
+/// Rings of flattened yarns, some of which are round.
 pub(super) struct Mixed<'a, S: Simd, const FLATTENED: bool> {
     pub(super) flat: Flat<'a, S, FLATTENED, true, true>,
     pub(super) round: Round<'a, S, FLATTENED, SLOPED>,

@@ -1,41 +1,42 @@
-//! Vertices that become whole lines in registers. It works where rings start at quarters of lines:
+//! Vertices that become whole lines in registers. This works if rings start at quarters of lines:
 //! with an even number of sides, in memory aligned to 16 bytes.
 //!
 //! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
-//! gives a column for each quarter of four rings. A column's lanes hold the same quarter of the
-//! next four rings, and so on. Quarters of four consecutive columns are a line. Columns pass
-//! through memory, aligned and read as they were stored. Reads thus need not wait for the lines
-//! before them, which are slow to go past the caches.
+//! gives a column for each quarter of four rings. The first four lanes of a column hold the same
+//! quarter of four rings, the next four lanes that of the next four rings, and so on. Quarters of
+//! four consecutive columns are a line. Columns pass through memory, where they are aligned and are
+//! read as they were stored. Reads thus need not wait for the lines before them, which are slow to
+//! go past the caches.
 
 use super::lines::Lines;
 use super::runs::take;
 use super::simd::{Floats, LANES_MAX, LINE, Line, Simd};
 
-/// Floats of a quarter of a line.
+/// The number of floats of a quarter of a line.
 const QUARTER: usize = 4;
 
-/// Columns of the rings before that the first lines may need: a line less a quarter.
+/// The number of columns of the rings before that the first lines may need: a line less a quarter.
 const BEFORE: usize = LINE / QUARTER - 1;
 
-/// Vertices on their way, a vector of rings at a time.
+/// Vertices on their way to the output, a vector of rings at a time.
 #[derive(Debug)]
 pub(super) struct TileLines<'a> {
     out: Lines<'a>,
-    /// The last columns of the rings before, then one for each quarter of four rings.
+    /// The last columns of the rings before, and then a column for each quarter of four rings.
     columns: &'a mut [f32],
-    /// Lines that lie only in part in the output.
+    /// Memory for lines that lie only in part in the output.
     edge: &'a mut [Line],
-    /// Quarters of a ring.
+    /// The number of quarters of a ring.
     quarters: usize,
-    /// Quarters from the start of a line to the start of the first ring.
+    /// The number of quarters from the start of a line to the start of the first ring.
     shift: usize,
     /// Whether the first rings are still to come.
     starts: bool,
 }
 
 impl<'a> TileLines<'a> {
-    /// Whether rings of `floats` floats start at quarters of the lines of `out`, and go past the
-    /// caches. Lines that stay in the caches are better written in order.
+    /// Whether rings of `floats` floats start at quarters of the lines of `out`, and the lines go
+    /// past the caches. Lines that stay in the caches are better written in order.
     pub(super) fn fit(out: &Lines<'_>, floats: usize) -> bool {
         out.streams && floats.is_multiple_of(QUARTER) && out.head.len().is_multiple_of(QUARTER)
     }
@@ -47,7 +48,7 @@ impl<'a> TileLines<'a> {
         Self { out, columns, edge, quarters: floats / QUARTER, shift, starts: true }
     }
 
-    /// Lines of scratch memory for rings of `floats` floats.
+    /// The number of lines of scratch memory for rings of `floats` floats.
     pub(super) const fn scratch(floats: usize) -> usize {
         (BEFORE + floats) + floats * LANES_MAX / LINE
     }
@@ -83,7 +84,7 @@ impl<'a> TileLines<'a> {
         }
     }
 
-    /// Sends the lines of the first rings, and of the last rings where they are no full vector.
+    /// Sends the lines of the first rings, or of the last rings if they do not fill a vector.
     #[cfg_attr(optimized, inline(always))]
     fn send_edge<S: Simd>(&mut self, simd: S, count: usize) {
         let lines = self.quarters * S::LANES / QUARTER;
@@ -109,10 +110,11 @@ impl<'a> TileLines<'a> {
         }
     }
 
-    /// Sends the rest.
+    /// Sends what is left.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish<S: Simd>(self, _simd: S) {
-        // The rest lies in the last lanes of the last columns, unless less than a vector came last.
+        // What is left lies in the last lanes of the last columns, unless less than a vector came
+        // last.
         let last = &self.columns[(BEFORE - self.shift) * S::LANES..BEFORE * S::LANES];
         let (tail, _) = self.out.tail.as_chunks_mut::<QUARTER>();
         for (to, from) in tail.iter_mut().zip(last.chunks_exact(S::LANES)) {

@@ -1,4 +1,4 @@
-//! Stage 1: rings for the caller.
+//! Stage 1 for a caller who wants the rings themselves.
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk};
@@ -52,7 +52,7 @@ impl Piece for RingPiece<'_> {
     }
 }
 
-/// Where a trajectory goes.
+/// The sink that writes a trajectory.
 struct RingSink<'a> {
     rings: &'a mut [Ring],
 }

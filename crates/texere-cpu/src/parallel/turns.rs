@@ -13,13 +13,13 @@ use crate::rolls::Rolls;
 pub(super) struct Steps<S: Simd> {
     simd: S,
     minimizing: bool,
-    /// Turns per mm; none where it is zero.
+    /// The twist in turns per mm; none if it is zero.
     twist: Option<S::Floats>,
-    /// The vector of rings before the present one; none at the start.
+    /// The vector of rings before the next one; none at the start.
     before: Option<Traces<S>>,
 }
 
-/// What a step needs of the ring where it begins.
+/// The values that a step needs of the ring where it begins.
 #[derive(Debug, Clone, Copy)]
 struct Traces<S: Simd> {
     offset: [S::Floats; 3],
@@ -55,7 +55,7 @@ impl<S: Simd> Steps<S> {
         let simd = self.simd;
         let offset = preceding(before.offset, rings.offset);
         let span = preceding(before.span, rings.span);
-        // The last ring of an interval is followed by the start of the next one.
+        // After the last ring of an interval comes the start of the next interval.
         let chord = difference(select(rings.t.is_zero(), span, rings.offset), offset);
         let length_squared = dot(chord, chord);
         let turn = if self.minimizing {
@@ -120,13 +120,13 @@ pub(super) fn rolls<S: Simd>(
     simd.load_integers(&lanes)
 }
 
-/// The vectors of the rings before those of `here`. The first is the last in `before`.
+/// The vectors of the rings just before the rings of `here`. The first one is the last of `before`.
 #[cfg_attr(optimized, inline(always))]
 fn preceding<F: Floats>(before: [F; 3], here: [F; 3]) -> [F; 3] {
     [here[0].shift_in(before[0]), here[1].shift_in(before[1]), here[2].shift_in(before[2])]
 }
 
-/// Double reflection from the rings before to `rings`, in turns.
+/// The turns of double reflection from the rings of `before` to `rings`.
 #[cfg_attr(optimized, inline(always))]
 fn transport<S: Simd>(
     simd: S,

@@ -1,5 +1,5 @@
-//! Stage 2 in lanes: the vertices of several rings at a time, a ring in each lane, then transposed
-//! into place.
+//! Stage 2 in lanes: the vertices of several rings at a time, with a ring in each lane. They are
+//! then transposed into place.
 
 use texere_core::SectionPoint;
 
@@ -7,14 +7,14 @@ use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd};
 use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances, VERTEX};
 
-/// Floats by which the stores of a ring may reach over its end.
+/// The number of floats by which the stores of a ring may reach over its end.
 pub(super) const OVERHANG: usize = 2;
 
-/// A section's outline, and what its shape lets `Ring::vertex` leave out.
+/// A section's outline, and the properties of its shape that let `Ring::vertex` leave terms out.
 #[derive(Debug, Clone)]
 pub(super) struct Surface<'a> {
     outline: &'a [SectionPoint],
-    /// Whether each normal is its point, as on a circle.
+    /// Whether each normal equals its point, as on a circle.
     round: bool,
     /// Whether each point of the first half, with its normal, is the negative of the opposite
     /// point.
@@ -33,8 +33,8 @@ impl<'a> Surface<'a> {
     }
 
     /// Writes the vertices of `rings` to `out`. With `COLUMNS`, for an even number of sides, they
-    /// are written as the columns of [`TileLines`](super::tiles::TileLines); otherwise ring after
-    /// ring.
+    /// are written as the columns of [`TileLines`](super::tiles::TileLines). Otherwise they are
+    /// written ring after ring.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<S: Simd, const FLATTENED: bool, const COLUMNS: bool>(
         &self,
@@ -50,7 +50,7 @@ impl<'a> Surface<'a> {
         } else if !self.round {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, PLAIN>(rings), self.outline, out);
         } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
-            // With six sides loops and strides are known at compile time.
+            // With six sides the compiler knows loops and strides.
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, ROUND>(rings), outline, out);
         } else {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, ROUND>(rings), self.outline, out);
@@ -110,8 +110,8 @@ fn vertices<S: Simd, V: Stances<S>, const COLUMNS: bool>(
 }
 
 /// Writes all vertices of a vector of rings in columns. A column has the same four floats of every
-/// fourth ring. First come the columns of ring 0, from its first floats to its last, then those of
-/// ring 1.
+/// fourth ring. First come the columns of ring 0, from its first floats to its last, then the
+/// columns of ring 1.
 #[cfg_attr(optimized, inline(always))]
 fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();

@@ -1,24 +1,26 @@
-//! A ray against boxes and triangles.
+//! Tests of a ray against boxes and triangles.
 
 use texere_core::{Bounds, Ray};
 
-/// A direction is scaled so that its largest component is between 1 and 2. Components below this
-/// count as zero: along them the ray does not move.
+/// The ray does not move along an axis if its direction has a component below this. Directions are
+/// scaled first, so that the largest component is between 1 and 2.
 const NO_WAY: f64 = 1e-290;
 
-/// Where a ray enters and leaves a box is each off by three roundings at most.
+/// The factor by which the distance at which a ray leaves a box is enlarged. Both it and the
+/// distance at which the ray enters are off by at most three roundings.
 const BOX_SLACK: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 /// A ray, prepared for tests against boxes and triangles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beam {
     origin: [f64; 3],
-    /// One over the direction; infinite along axes on which the ray does not move.
+    /// One over each component of the scaled direction; infinite along axes on which the ray does
+    /// not move.
     inverse: [f64; 3],
-    /// The three axes. The last is the one along which the ray moves most.
+    /// The numbers of the three axes. The ray moves most along the last.
     axes: [usize; 3],
-    /// How far the ray moves along the two other axes for a unit along the last; then one over the
-    /// direction along the last.
+    /// How far the ray moves along the first two of `axes` for each unit along the last. The third
+    /// number is one over the scaled direction's component along the last.
     shear: [f64; 3],
     /// The power of two by which the direction was multiplied.
     scale: f64,
@@ -58,13 +60,13 @@ impl Beam {
         })
     }
 
-    /// A distance in lengths of the ray's own direction.
+    /// A distance, given in lengths of the scaled direction, in lengths of the ray's own direction.
     pub(super) fn unscaled(&self, along: f64) -> f64 {
         along * self.scale
     }
 
-    /// Where the ray enters a box; 0 where it begins inside. None if it misses the box, or enters
-    /// it only after `most`.
+    /// The distance at which the ray enters a box; 0 if the ray begins inside. None if the ray
+    /// misses the box, or enters it only after `most`.
     pub(super) fn enters(&self, bounds: &Bounds, most: f64) -> Option<f64> {
         let (mut entry, mut exit) = (0.0f64, most);
         for axis in 0..3 {
@@ -83,7 +85,7 @@ impl Beam {
         (entry <= exit).then_some(entry)
     }
 
-    /// Where the ray hits a triangle, from either side.
+    /// The place at which the ray hits a triangle, from either side.
     ///
     /// The triangle is sheared so that the ray becomes an axis. The side of an edge on which the
     /// ray passes is the sign of a product. Both triangles at an edge work out the same product,
@@ -99,7 +101,7 @@ impl Beam {
         });
         let edge = |one: [f64; 3], other: [f64; 3]| one[0] * other[1] - one[1] * other[0];
         let sides = [edge(c, b), edge(a, c), edge(b, a)];
-        // Written so that NaN is no hit.
+        // NaN fails both comparisons, and so is no hit.
         let inside = sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0);
         let whole = sides[0] + sides[1] + sides[2];
         if !inside || whole == 0.0 {
@@ -157,7 +159,7 @@ mod tests {
         ] {
             assert!(Beam::new(&Ray { origin, direction }).is_none());
         }
-        // Finite, but out of all proportion: nothing is hit, and nothing panics.
+        // The numbers are finite, but far too large: nothing is hit, and nothing panics.
         assert!(beam([1e300, 1e300, 1e300], [-1.0, -1.0, -1.0]).touches(TRIANGLE).is_none());
     }
 

@@ -23,9 +23,9 @@ pub enum PickError {
     /// The number of control points differs from the plan's.
     #[error("{points} control points, but the plan has {planned}")]
     PointCount {
-        /// Points given.
+        /// The number of points given.
         points: u64,
-        /// Points of the plan.
+        /// The number of points of the plan.
         planned: u64,
     },
     /// Control points that no yarn can have.
@@ -34,7 +34,7 @@ pub enum PickError {
     /// There is no yarn of this number.
     #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
     NoYarn {
-        /// The yarn.
+        /// The number asked for, counted from 0.
         yarn: usize,
         /// The number of yarns.
         yarns: usize,
@@ -42,7 +42,7 @@ pub enum PickError {
     /// The plan differs from the picker's in yarns other than those that are set.
     #[error("the plan is not the picker's with yarn {yarn} edited")]
     OtherPlan {
-        /// The first yarn that was to be set, from 0.
+        /// The first yarn that was to be set, counted from 0.
         yarn: usize,
     },
     /// There is not enough memory.
@@ -87,12 +87,13 @@ pub struct Picker {
     pub(super) work: Work,
     /// The boxes of each yarn's blocks.
     pub(super) yarns: Vec<BoxTree>,
-    /// The boxes of the yarns. Yarns that lie side by side are neighbours in it.
+    /// The boxes of the yarns. In this tree, yarns that lie side by side are neighbours.
     pub(super) cloth: BoxTree,
-    /// The yarn at each position of `cloth`; `positions` has the position of each yarn.
+    /// The yarn at each position of `cloth`.
     pub(super) order: Vec<u32>,
+    /// The position of each yarn in `cloth`.
     positions: Vec<u32>,
-    /// How far each section reaches, in half widths or half heights.
+    /// The distance from its middle to which each section reaches, in half widths or half heights.
     pub(super) reaches: Vec<f32>,
     /// The indices of the triangles between two rings.
     pub(super) pattern: Vec<u32>,
@@ -101,7 +102,7 @@ pub struct Picker {
 impl Picker {
     /// A picker of the mesh of `plan`. `points` are the control points of all its yarns.
     ///
-    /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for a point that is not sound,
+    /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for an invalid point,
     /// [`PickError::OutOfMemory`].
     pub fn new(plan: Arc<Plan>, points: &[ControlPoint]) -> Result<Self, PickError> {
         let planned = plan.layout().point_count();
@@ -136,27 +137,28 @@ impl Picker {
         Ok(Self { cloth: BoxTree::new(&in_order), yarns, order, positions, reaches, pattern, work })
     }
 
-    /// The plan as it is now.
+    /// The plan of the mesh, with all changes so far.
     #[must_use]
     pub const fn plan(&self) -> &Arc<Plan> {
         &self.work.plan
     }
 
-    /// A box that holds the mesh as it is now.
+    /// A box that holds the mesh, with all changes so far.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         *self.cloth.root()
     }
 
-    /// A box that holds yarn number `yarn` as it is now, from 0. None past the last yarn.
+    /// A box that holds the mesh of yarn number `yarn`, counted from 0, with all changes so far.
+    /// None if there is no yarn of this number.
     #[must_use]
     pub fn yarn_bounds(&self, yarn: usize) -> Option<Bounds> {
         self.yarns.get(yarn).map(|tree| *tree.root())
     }
 
-    /// Gives yarn number `yarn`, from 0, other control points. `plan` is the picker's own, or what
-    /// [`Plan::edited`] has made of that for this yarn. Only the boxes of this yarn, and those
-    /// above them, are made again.
+    /// Gives yarn number `yarn`, counted from 0, other control points. `plan` is the picker's own
+    /// plan, or the plan that [`Plan::edited`] makes of it for this yarn. Only the boxes of this
+    /// yarn, and the boxes above them, are made again.
     ///
     /// **Errors**: the errors of [`Picker::set_yarns`].
     pub fn set_yarn(
@@ -169,12 +171,12 @@ impl Picker {
         self.set_yarns(plan, &Edits::from([(yarn, (what, points))]))
     }
 
-    /// Gives several yarns other control points at once. `plan` is what [`Plan::edited_all`] has
-    /// made of the picker's own for `edits`.
+    /// Gives several yarns other control points at once. `plan` is the plan that
+    /// [`Plan::edited_all`] makes of the picker's own plan for `edits`.
     ///
     /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of a
-    /// yarn, and [`PickError::Points`] leave the picker as it was. [`PickError::OutOfMemory`] makes
-    /// it useless.
+    /// yarn, and [`PickError::Points`] leave the picker as it was. After [`PickError::OutOfMemory`]
+    /// the picker must not be used any more.
     pub fn set_yarns(&mut self, plan: Arc<Plan>, edits: &Edits<'_>) -> Result<(), PickError> {
         let Some((&first, _)) = edits.first_key_value() else { return Ok(()) };
         let yarns = self.yarns.len();
@@ -214,8 +216,8 @@ impl Picker {
     }
 }
 
-/// Whether `other` is `one` with the yarns of `edits` replaced: the same offsets, and all other
-/// yarns the same.
+/// Whether `other` is `one` with the yarns of `edits` replaced: the offsets are equal, and so are
+/// all other yarns.
 fn differ_by(one: &Plan, other: &Plan, edits: &Edits<'_>) -> bool {
     let [before, after] = [one, other].map(|plan| plan.layout().yarns());
     one.shares_offsets(other)
@@ -246,7 +248,7 @@ fn scanned(plan: &Plan, points: &PaddedPoints) -> Result<Rolls, OutOfMemory> {
     Ok(rolls)
 }
 
-/// The boxes of a yarn's blocks. Each also holds the first ring of the next block, where the
+/// The boxes of a yarn's blocks. Each box also holds the first ring of the next block, where the
 /// block's last triangles end.
 fn boxes(work: &Work, yarn: usize) -> BoxTree {
     let Work { plan, points, .. } = work;
@@ -259,9 +261,9 @@ fn boxes(work: &Work, yarn: usize) -> BoxTree {
     BoxTree::new(&boxes)
 }
 
-/// Puts yarns that lie side by side next to one another in `order`. It halves them along the axis
-/// on which their middles lie furthest apart, at the point where the tree halves the row, and then
-/// does the same with each half.
+/// Puts yarns that lie side by side next to one another in `order`. The yarns are halved along the
+/// axis on which their middles lie furthest apart, at the position where the tree halves the row.
+/// Each half is then sorted in the same way.
 fn sort(order: &mut [u32], around: &[Bounds]) {
     if order.len() < 2 {
         return;

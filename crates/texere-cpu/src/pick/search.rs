@@ -1,5 +1,5 @@
-//! The search of one ray for the first triangle on its way. Triangles are made only where the ray
-//! comes by.
+//! The search of one ray for the first triangle on its way. Triangles are made only in blocks whose
+//! boxes the ray meets.
 
 use texere_core::backend::BLOCK_RINGS;
 use texere_core::definitions::Ring;
@@ -9,10 +9,11 @@ use super::beam::{Beam, Touch};
 use super::picker::Picker;
 use crate::serial::rings;
 
-/// Rings of a block, and the ring after it, where its last triangles end.
+/// The rings of a block, and the ring after it, where the block's last triangles end.
 const RINGS: usize = BLOCK_RINGS as usize + 1;
 
-/// Factor by which rounding may let sections and frames reach too far.
+/// The factor by which reaches are enlarged, because rounding may let sections and frames reach too
+/// far.
 const REACH_SLACK: f32 = 1.0 + 1e-5;
 
 /// The first triangle that a ray hits. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its
@@ -20,34 +21,35 @@ const REACH_SLACK: f32 = 1.0 + 1e-5;
 /// terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Distance from the ray's origin, in lengths of its direction: in mm where that has length 1.
+    /// Distance from the ray's origin, in lengths of the ray's direction: in mm if the direction
+    /// has length 1.
     pub distance: f64,
     /// The triangle's place.
     pub place: MeshPlace,
     /// The point that is hit, mm.
     pub position: [f64; 3],
-    /// The control interval of the yarn, from 0.
+    /// The control interval of the yarn, counted from 0.
     pub interval: u32,
     /// Position along the interval, from 0 to 1, interpolated between the triangle's two rings.
     pub t: f64,
 }
 
 impl Picker {
-    /// The first triangle that `ray` hits, from either side; of several at the same distance the
-    /// first along the yarns. None where it hits nothing, goes nowhere, or has numbers that are not
-    /// finite.
+    /// The first triangle that `ray` hits, from either side. If several triangles lie at the same
+    /// distance, it is the first along the yarns. None if the ray hits nothing, has a direction of
+    /// zero, or has numbers that are not finite.
     #[must_use]
     pub fn pick(&self, ray: &Ray) -> Option<Hit> {
         Search::new(self, Beam::new(ray)?).run()
     }
 }
 
-/// A ray on its way through the cloth.
+/// The search of one ray through the cloth.
 #[derive(Debug)]
 struct Search<'a> {
     picker: &'a Picker,
     beam: Beam,
-    /// The vertices of the two rings that are looked at.
+    /// The vertices of the rings that are being tested: two of a tube, or one of a cap.
     corners: Vec<[f32; 3]>,
     nearest: Option<Nearest>,
 }
@@ -58,13 +60,13 @@ struct Nearest {
     touch: Touch,
     corners: [[f32; 3]; 3],
     place: MeshPlace,
-    /// Position of the point between the place's ring and the next, from 0 to 1.
+    /// Position of the hit between the place's ring and the next, from 0 to 1.
     onward: f64,
 }
 
 impl Nearest {
-    /// The order of hits. Hits at equal distances are ordered along the yarns, so that a hit does
-    /// not depend on the order in which boxes are visited.
+    /// The values by which hits are ordered. Hits at equal distances are ordered along the yarns,
+    /// so that the result does not depend on the order in which boxes are visited.
     fn order(&self) -> (f64, u32, u32, Option<bool>, u32) {
         let MeshPlace { yarn, ring, side, cap } = self.place;
         (self.touch.along, yarn, ring, cap.map(|end| end == End::Finish), side)
@@ -76,7 +78,7 @@ impl<'a> Search<'a> {
         Self { picker, beam, corners: Vec::new(), nearest: None }
     }
 
-    /// Goes through the whole cloth.
+    /// Searches the whole cloth.
     fn run(mut self) -> Option<Hit> {
         let picker = self.picker;
         let (mut most, beam) = (f64::INFINITY, self.beam);
@@ -92,12 +94,12 @@ impl<'a> Search<'a> {
         self.hit()
     }
 
-    /// The distance beyond which triangles no longer matter.
+    /// The distance of the nearest hit so far. Triangles beyond it do not matter.
     fn most(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |nearest| nearest.touch.along)
     }
 
-    /// Tries the triangles of a block.
+    /// Tests the triangles of a block.
     fn block(&mut self, yarn: usize, block: u32) {
         let plan = &self.picker.work.plan;
         let (first, all) = (block * BLOCK_RINGS, plan.rings(yarn));
@@ -120,7 +122,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether the ray may meet the tube between some rings.
+    /// Whether the ray may meet the tube between the first and the last of `rings`.
     fn may_meet(&self, yarn: usize, rings: &[Ring]) -> bool {
         let section = self.picker.work.plan.yarn(yarn).section;
         let reach = self.picker.reaches[section as usize] * REACH_SLACK;
@@ -136,13 +138,13 @@ impl<'a> Search<'a> {
         self.beam.enters(&bounds, self.most()).is_some()
     }
 
-    /// Tries the triangles between ring number `ring` and the next.
+    /// Tests the triangles between ring number `ring` and the next.
     fn tube(&mut self, yarn: usize, ring: u32, pair: &[Ring]) {
         self.stand(yarn, pair);
         let picker = self.picker;
         for (triangle, indices) in (0..).zip(picker.pattern.as_chunks::<3>().0) {
             let place = MeshPlace { yarn: yarn as u32, ring, side: triangle / 2, cap: None };
-            // The next ring's vertices come after the first one's.
+            // The vertices of the next ring come after those of the first.
             let sides = self.corners.len() / 2;
             let beyond = |touch: &Touch| {
                 let weights = indices.iter().zip(touch.weights);
@@ -152,7 +154,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Tries the triangles of a cap on ring number `number`.
+    /// Tests the triangles of a cap on ring number `number`.
     fn cap(&mut self, yarn: usize, end: End, number: u32, ring: &Ring) {
         if !self.may_meet(yarn, std::slice::from_ref(ring)) {
             return;
@@ -167,7 +169,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Makes the vertices of some rings.
+    /// Makes the vertices of `rings`, in place of those before.
     fn stand(&mut self, yarn: usize, rings: &[Ring]) {
         let plan = &self.picker.work.plan;
         let outline = plan.outline(plan.yarn(yarn).section as usize);

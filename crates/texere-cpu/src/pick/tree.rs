@@ -4,8 +4,8 @@ use texere_core::Bounds;
 
 use super::beam::Beam;
 
-/// A row of boxes, with a box round each two neighbours, a box round each two of those, and so on
-/// up to one round all.
+/// A row of boxes in a tree: a box round each two neighbours, a box round each two of the boxes
+/// made so, and so on up to one box round all.
 ///
 /// Node 1 is the root, nodes 2i and 2i + 1 lie below node i, and the last half of all nodes are
 /// leaves. The leaves in the lowest level hold the first boxes of the row. Each node thus holds
@@ -55,8 +55,8 @@ impl BoxTree {
         }
     }
 
-    /// Calls `leaf` with the position of each box that `beam` meets no further than `most`, roughly
-    /// the nearest first. `leaf` returns the new `most`.
+    /// Calls `leaf` with the position of each box that `beam` meets within the distance `most`,
+    /// roughly the nearest first. `leaf` returns the new `most`.
     pub(super) fn visit(&self, beam: &Beam, most: &mut f64, leaf: &mut impl FnMut(usize) -> f64) {
         if beam.enters(self.root(), *most).is_some() {
             self.descend(1, beam, most, leaf);

@@ -1,4 +1,4 @@
-//! Crossings at rest, the reference: one crossing after the other on one thread.
+//! The reference settler of crossings: one crossing after the other on one thread.
 
 use std::sync::Arc;
 

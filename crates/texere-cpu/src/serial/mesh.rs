@@ -1,4 +1,5 @@
-//! Algorithm 3 of the paper: for each yarn, for each ring, nc vertices; and the triangles between.
+//! Algorithm 3 of the paper: for each yarn and each ring, nc vertices; and the triangles between
+//! rings.
 
 use texere_core::Topology;
 use texere_core::backend::{Chunk, MeshMut};

@@ -1,4 +1,4 @@
-//! The paper's serial algorithms: one loop inside the other, nothing clever.
+//! The paper's serial algorithms, written as plain nested loops.
 
 mod attributes;
 mod crossings;

@@ -1,4 +1,4 @@
-//! Packed vertices: for each yarn, for each ring, nc of them.
+//! Packed vertices: nc of them for each ring of each yarn.
 
 use texere_core::PackedVertex;
 use texere_core::backend::Chunk;

@@ -24,7 +24,7 @@ pub(super) fn scan(
     Ok(())
 }
 
-/// The whole turn of `yarn`; its rolls at block starts go into `at_block`.
+/// Writes the rolls at the block starts of `yarn` to `at_block`, and returns the yarn's total turn.
 pub(crate) fn scan_yarn(plan: &Plan, points: &PaddedPoints, yarn: usize, at_block: &mut [Turn]) -> Turn {
     let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
     let (frame, twist) = (plan.frame(yarn), plan.turns_per_mm(yarn));

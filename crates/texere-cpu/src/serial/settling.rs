@@ -1,4 +1,4 @@
-//! Settling, the reference: one interval after the other on one thread.
+//! The reference settler: one interval after the other on one thread.
 
 use std::sync::Arc;
 
@@ -16,26 +16,29 @@ use crate::cells::{Extent, Grid, owners};
 pub(crate) struct SerialSettler {
     plan: Arc<SettlingPlan>,
     places: Vec<Place>,
-    /// The step that each point has taken last, mm.
+    /// The last step of each point, mm.
     steps: Vec<Vec3>,
-    /// The length that each interval shall have, mm.
+    /// The length that each interval should have, mm.
     lengths: Vec<f32>,
-    /// The places that the last pass has seen, and those that were kept.
+    /// The places that the last pass measured, before it moved them.
     seen: Vec<Place>,
+    /// The places that were kept; empty until then.
     kept: Vec<Place>,
-    /// Each place's interval and the chords of all of them.
+    /// The interval at each place.
     intervals: Vec<Interval>,
+    /// The chords of all intervals.
     chords: Vec<Chord>,
-    /// The place of each chord's interval.
+    /// For each chord, the place at which its interval begins.
     owners: Vec<u32>,
-    /// Where each chord's neighbours begin, and the end of the last one's.
+    /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
+    /// all.
     starts: Vec<u32>,
     neighbours: Vec<u32>,
     pulls: Vec<Pull>,
 }
 
 impl SerialSettler {
-    /// Takes memory for a plan.
+    /// Allocates the memory for `plan`.
     pub(crate) fn new(plan: Arc<SettlingPlan>) -> Self {
         let (places, chords) = (plan.counts().places as usize, plan.counts().chords as usize);
         Self {
@@ -54,14 +57,14 @@ impl SerialSettler {
         }
     }
 
-    /// Works out all intervals and their chords.
+    /// Works out all intervals and their chords from the places.
     fn renew(&mut self) {
         let plan = &self.plan;
         self.intervals.clear();
         self.chords.clear();
         for place in 0..self.places.len() {
             if plan.tags()[place] & tag::INTERVAL == 0 {
-                // Such a place may be the last of all, with none behind it.
+                // No interval begins here. The place may be the last of all, with none behind it.
                 self.intervals.push(Interval::new(&[self.places[place]; 4], plan.scale(), plan.s()));
                 continue;
             }
@@ -114,7 +117,7 @@ impl Settler for SerialSettler {
         let known = middles.iter().zip(lengths);
         let extent = known.fold(Extent::NOTHING, |extent, (middle, length)| extent.with(*middle, length));
         let grid = Grid::new(plan, growth, &extent);
-        // Cell and number of each chord, in the order of cells.
+        // The cell and the number of each chord, sorted by cells.
         let mut sorted: Vec<(u32, u32)> = middles.iter().map(|middle| grid.cell(*middle)).zip(0..).collect();
         sorted.sort_unstable();
         let (mut starts, mut neighbours) = (vec![0], Vec::new());

@@ -1,4 +1,4 @@
-//! Algorithm 1 of the paper: for each yarn, for each control interval, K + 1 points of the spline.
+//! Algorithm 1 of the paper: for each yarn and each control interval, K + 1 points of the spline.
 
 use texere_core::backend::{BLOCK_RINGS, Chunk};
 use texere_core::definitions::Ring;
@@ -12,7 +12,8 @@ pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut [Ring]) {
     }
 }
 
-/// The rings of `yarn` from `first_ring` on, which is the first of a block.
+/// Writes the rings of `yarn` from `first_ring` on to `out`. `first_ring` must be the first ring of
+/// a block.
 pub(crate) fn rings(work: &Work, yarn: usize, first_ring: u32, out: &mut [Ring]) {
     let plan = &work.plan;
     let (padded, rings, closed) = (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);

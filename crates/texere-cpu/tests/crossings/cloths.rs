@@ -2,7 +2,8 @@
 
 use texere_core::crossings::{CrossingThread, Crossings};
 
-/// A cloth, its yarns in tex, and what it is held to: crimp in per cent, area, and weight in g/m².
+/// A cloth, its yarns in tex, and the values that it must reach: crimp in per cent, area as a share
+/// of the yarn's, and weight in g/m².
 pub(crate) struct Cloth {
     pub(crate) name: &'static str,
     pub(crate) problem: Crossings,
@@ -12,7 +13,7 @@ pub(crate) struct Cloth {
     pub(crate) grams: Option<f64>,
 }
 
-/// tex of an English cotton count, and Peirce's diameter of cotton in mm.
+/// The tex of an English cotton count.
 fn tex(count: f64) -> f64 {
     590.5 / count
 }
@@ -44,8 +45,9 @@ fn per_inch(ends: f64, picks: f64) -> [f64; 2] {
     [25.4 / ends, 25.4 / picks]
 }
 
-/// Denim's crimp is that of mills, 10 to 14 % of the warp; poplin's is published as 14 % and 2 %.
-/// Where nothing is published the cloth is held to what it reached, within four points.
+/// The crimp of denim is that of the mills, 10 to 14 % of the warp. The crimp of poplin is
+/// published as 14 % and 2 %. If nothing is published, the cloth must stay within four points of
+/// what it reached before.
 pub(crate) fn cloths() -> Vec<Cloth> {
     let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
     let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);

@@ -1,4 +1,4 @@
-//! Crossings at rest: the cloths of the mills, the energy against an oracle of its own, and both
+//! Crossings at rest: the cloths of the mills, the energy against an independent oracle, and both
 //! backends against one another.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
@@ -29,13 +29,13 @@ fn rest(backend: &dyn Backend, problem: &Crossings) -> (CrossingsPlan, Vec<Cross
     ((*plan).clone(), crossings, rest)
 }
 
-/// A number between -1 and 1 that looks like chance.
+/// A pseudo-random number between -1 and 1.
 fn chance(seed: &mut u64) -> f32 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     ((*seed >> 40) as f32 / (1_u64 << 23) as f32) - 1.0
 }
 
-/// Uneven threads in a drawdown without any order.
+/// A cloth of uneven threads in an irregular drawdown.
 fn uneven(ends: usize, picks: usize, repeats: bool) -> Crossings {
     let mut seed = 7;
     let mut threads = |count: usize, pitch: f32| -> Vec<CrossingThread> {
@@ -90,7 +90,7 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// Uneven threads whose picks, or whose ends too, lie on two or three levels.
+/// A cloth of uneven threads whose picks, or both ends and picks, lie on two or three levels.
 fn uneven_layers(ends: usize, picks: usize, repeats: bool, [across, along]: [u32; 2]) -> Crossings {
     let mut seed = 14;
     let mut threads = |count: usize, pitch: f32, levels: u32| -> Vec<CrossingThread> {
@@ -118,7 +118,7 @@ fn uneven_layers(ends: usize, picks: usize, repeats: bool, [across, along]: [u32
 #[test]
 fn gradients_are_the_energys() {
     let layers = [[1, 2], [2, 2], [3, 1], [3, 3]];
-    // A piece of each as well, whose edges are open.
+    // Each also as a piece with open edges.
     let layered = layers.into_iter().flat_map(|levels| [true, false].map(|repeats| (levels, repeats)));
     let problems = [true, false].map(|repeats| (uneven(5, 6, repeats), [1.0, 2.4], 0..5)).into_iter().chain(
         layered.map(|(levels, repeats)| {
@@ -129,7 +129,7 @@ fn gradients_are_the_energys() {
     for (problem, shape, wanted) in problems {
         let plan = CrossingsPlan::new(&problem).unwrap();
         let mut seed = 5;
-        // Thick threads near one another, so that all kinds of contact are there.
+        // Thick threads near one another, so that all kinds of contact occur.
         let crossings: Vec<CrossingState> = plan
             .start()
             .unwrap()
@@ -179,8 +179,8 @@ fn balanced_plain_weave_is_alike_both_ways() {
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
         assert!(rest.at_rest, "{rest:?}");
         let [up, down] = [crossings[0], crossings[1]];
-        // Turned over and by a right angle, the cloth is itself; half a repeat further on it is
-        // upside down.
+        // If the cloth is turned over and by a right angle, it is itself. Half a repeat further on
+        // it is upside down.
         for (one, other, sign) in [
             (up.warp, up.weft, -1.0),
             (up.warp, down.weft, 1.0),
@@ -215,7 +215,8 @@ fn far_from_its_edges_a_piece_rests_as_a_repeat() {
         assert!((middle.half_width - repeat.half_width).abs() < 0.02, "{middle:?}, not {repeat:?}");
         assert!((middle.half_height - repeat.half_height).abs() < 0.02, "{middle:?}, not {repeat:?}");
     }
-    // Nothing holds the outermost threads, which give way; from the fourth one on none does.
+    // Nothing holds the outermost threads, which give way. From the fourth thread on none gives
+    // way.
     for end in 3..21 {
         assert!(open[10 * 24 + end].warp.shift.abs() < 0.02, "end {end}: {:?}", open[10 * 24 + end]);
     }
@@ -260,8 +261,8 @@ fn all_cores_give_the_bits_of_one() {
 
 #[test]
 fn round_threads_jam_where_peirce_says() {
-    // Between circles the best way is across the line of their middles: distance² = across² +
-    // rise².
+    // The best way between circles is at right angles to the line between their middles: distance²
+    // = across² + rise².
     let mut seed = 14;
     for _ in 0..200 {
         let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
@@ -279,7 +280,7 @@ fn a_passage_takes_the_best_slope() {
     for _ in 0..2000 {
         let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
         let halves = [[some(0.3, 1.2), some(0.2, 0.8)], [some(0.3, 1.2), some(0.2, 0.8)]];
-        // Neighbours keep to their own places.
+        // No neighbours overlap much.
         let across = (halves[0][0] + halves[1][0]) * some(0.95, 3.0);
         let rise = some(-0.5, 2.0);
         let found = StraightPassage::new(across, rise, halves, 0.7).room;
@@ -322,7 +323,8 @@ fn what_is_wrong_is_named() {
 
 #[test]
 fn nothing_flies_apart_whatever_the_sett() {
-    // Far beyond any loom: it stays finite, and says how much is lacking.
+    // These setts are far denser or more open than any loom's. The result stays finite, and its
+    // clearance says how much room is lacking.
     for pitch in [0.06, 0.1, 5.0] {
         let thread = CrossingThread { pitch, diameter: 0.2, stiffness: 1.0, level: 0 };
         let problem =

@@ -1,18 +1,20 @@
-//! What a weaver would measure on crossings at rest, from their ellipses alone.
+//! The measures that a weaver would take of crossings at rest, from their ellipses alone.
 
 use texere_core::crossings::{CrossingState, CrossingsPlan, Set, Site};
 
 use crate::oracle::room;
 
-/// Crimp in per cent, area over that of the yarn, thickness in mm, weight in g/m².
+/// Crimp in per cent, area as a share of the yarn's, thickness in mm, weight in g/m².
 pub(crate) struct Measures {
-    /// The least growth at which two outlines touch: 1 where they do already.
+    /// The least factor by which ellipses have to grow until two of them touch: 1 if they touch
+    /// already.
     pub(crate) clearance: f64,
     pub(crate) area: [f64; 2],
     pub(crate) least_area: [f64; 2],
     pub(crate) crimp: [f64; 2],
-    /// Ground seen from above, per cent, and weft of what is seen of the face.
+    /// The share of the cloth through which the ground is seen from above, per cent.
     pub(crate) ground: f64,
+    /// The share of the weft in the face, per cent.
     pub(crate) weft_on_face: f64,
     pub(crate) thickness: f64,
     pub(crate) weight: f64,
@@ -27,8 +29,8 @@ fn further(plan: &CrossingsPlan, site: Site, set: Set, along: i32, across: i32) 
     plan.beside(site, set, along, across).unwrap()
 }
 
-/// The length of a taut thread between two crossings, along arcs beside both ellipses and a
-/// straight between.
+/// The length of a taut thread between two crossings: arcs beside both ellipses, and a straight
+/// between them.
 fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> f64 {
     let next = further(plan, site, set, 1, 0);
     let crossed = set.other();
@@ -41,7 +43,7 @@ fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> 
         return across.hypot(there[1] - here[1]) - two[0] + one[0];
     }
     let rise = side * (two[1] - one[1]);
-    // As high as the thread goes over them, which may be more than they are.
+    // The thread may run higher over the ellipses than they are. The height that it has is used.
     let halves =
         [[one[2], (here[1] - one[1]).abs() - here[3]], [two[2], (there[1] - two[1]).abs() - there[3]]];
     let thread = here[3] + there[3];
@@ -75,8 +77,8 @@ fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> 
     straight.max(0.0) + arcs - two[0] + one[0]
 }
 
-/// By how much two upright ellipses, `x` and `z` apart, have to grow until they touch: a point of
-/// one tried against the other.
+/// The factor by which two upright ellipses, `x` and `z` apart, have to grow until they touch.
+/// Points of one are tried against the other.
 fn outlines(x: f64, z: f64, [a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     let inside = |growth: f64| {
         (0..360).any(|part| {
@@ -127,7 +129,7 @@ fn clearance(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) 
     least
 }
 
-/// Measures a repeat whose yarns have so many tex.
+/// Measures a repeat. `tex` has the tex of the warp's yarns and of the weft's.
 pub(crate) fn measures(plan: &CrossingsPlan, all: &[CrossingState], tex: [f64; 2]) -> Measures {
     let count = all.len() as f64;
     let unit = f64::from(plan.unit());
@@ -167,7 +169,7 @@ pub(crate) fn measures(plan: &CrossingsPlan, all: &[CrossingState], tex: [f64; 2
         let threads = plan.rows(set).len() as f64;
         let taken = lengths[index] / (threads * across);
         found.crimp[index] = 100.0 * (taken - 1.0);
-        // tex is g/km: threads a mm times the length of each.
+        // tex is g/km: the threads per mm times the length of each.
         found.weight += threads / (own * unit) * taken * tex[index];
     }
     found.thickness = (high - low) * unit;

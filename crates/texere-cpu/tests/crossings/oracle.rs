@@ -1,4 +1,5 @@
-//! The energy once more, in double precision and as one sum, and its slopes by differences.
+//! The energy, worked out again in double precision and as one sum. Its slopes are differences of
+//! that sum.
 
 use texere_core::crossings::{
     AREA_GAIN, AREA_LOSS, ASPECT, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, PRESS, SHAPE,
@@ -7,12 +8,13 @@ use texere_core::crossings::{
 
 use crate::chance;
 
-/// Contact, passage, neighbours, neighbours half way, shoulders; then of layers: contact, passages
-/// and shoulders past threads of others, neighbours of two levels.
+/// The number of kinds of contact: at a crossing, passage, neighbours, neighbours half way,
+/// shoulder. Layers have three more: at a crossing of two levels, passage or shoulder past threads
+/// of other levels, neighbours of two levels.
 pub(crate) const KINDS: usize = 8;
 
-/// A crossing near a start, but with some disorder, with a share of its heights and so many times
-/// as wide.
+/// `crossing`, which is one at the start, with some disorder. Its heights are multiplied by `flat`,
+/// and its half widths by about `wide`.
 pub(crate) fn stirred(crossing: &CrossingState, [flat, wide]: [f32; 2], seed: &mut u64) -> CrossingState {
     let mut all: [f32; 8] = bytemuck::cast(*crossing);
     for set in 0..2 {
@@ -24,7 +26,7 @@ pub(crate) fn stirred(crossing: &CrossingState, [flat, wide]: [f32; 2], seed: &m
     bytemuck::cast(all)
 }
 
-/// The room of a passage and the slope that leaves most, by trying all of them.
+/// The room of a passage, and the slope at which it is largest, found by trying all slopes.
 pub(crate) fn room(across: f64, rise: f64, halves: [[f64; 2]; 2], thread: f64) -> (f64, f64) {
     let at = |slope: f64| {
         let (s, c) = slope.sin_cos();
@@ -49,7 +51,8 @@ struct Sum<'a> {
     plan: &'a CrossingsPlan,
     pass: &'a CrossingsPass,
     values: &'a [[f64; 8]],
-    /// As slopes at contacts are taken from: they count as they were found.
+    /// The values from which the slopes at contacts are taken. They stay fixed while `values` are
+    /// changed.
     found: &'a [[f64; 8]],
 }
 
@@ -93,7 +96,7 @@ impl Sum<'_> {
         sum
     }
 
-    /// The steeper one of a thread's slopes before and after a crossing.
+    /// The steeper of a thread's slopes before and after a crossing.
     fn slope(&self, site: Site, set: Set) -> f64 {
         let height = |site: Site| self.found[self.plan.number(site)][if set == Set::Warp { 1 } else { 5 }];
         let slope = |steps: i32| {
@@ -105,14 +108,14 @@ impl Sum<'_> {
         [-1, 1].into_iter().filter_map(slope).fold(0.0, f64::max)
     }
 
-    /// From a thread of a set to the one so many further on.
+    /// The distance from the thread of a set at `site` to the thread `steps` further on.
     fn way(&self, site: Site, set: Set, steps: i32) -> f64 {
         let rows = self.plan.rows(set);
         let from = site.thread(set);
         (0..steps as usize).map(|step| f64::from(rows[(from + step) % rows.len()].gap)).sum()
     }
 
-    /// What a thread wants by itself, and on its way to the next crossing.
+    /// The energy of a thread at a crossing and on its way to the next crossing, without contacts.
     fn of(&self, site: Site, set: Set) -> f64 {
         let plan = self.plan;
         let row = plan.rows(set)[site.thread(set)];
@@ -143,7 +146,8 @@ impl Sum<'_> {
         sum
     }
 
-    /// StraightPassage or shoulder from a crossing to the one so many further along a thread.
+    /// The energy of the passage or of the shoulder between a crossing and the crossing `steps`
+    /// further along a thread.
     fn between(&self, site: Site, set: Set, steps: i32, kind: [usize; 2], kinds: &mut [u32; KINDS]) -> f64 {
         let Some(after) = self.plan.beside(site, set, steps, 0) else { return 0.0 };
         let way = self.way(site, set.other(), steps);
@@ -162,8 +166,8 @@ impl Sum<'_> {
         self.kept_apart(side * (own[1] - under[1]) - need, kind[1], kinds)
     }
 
-    /// A thread and those after it: the next one of its level, and the very next one where that is
-    /// of another.
+    /// The energy of contacts between a thread and those after it: the next one of its level, and
+    /// the very next one if that is of another level.
     fn beside(&self, site: Site, set: Set, kinds: &mut [u32; KINDS]) -> f64 {
         let rows = self.plan.rows(set);
         let of_level = rows[site.thread(set)].beside[1];
@@ -205,7 +209,7 @@ fn values(crossings: &[CrossingState]) -> Vec<[f64; 8]> {
     crossings.iter().map(|crossing| bytemuck::cast::<_, [f32; 8]>(*crossing).map(f64::from)).collect()
 }
 
-/// The energy of all crossings; `kinds` counts contacts.
+/// The energy of all crossings. `kinds` counts the contacts of each kind.
 pub(crate) fn energy(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,
@@ -216,7 +220,7 @@ pub(crate) fn energy(
     Sum { plan, pass, values: &values, found: &values }.whole(kinds)
 }
 
-/// The slopes of the energy in the unknowns of one crossing, by differences.
+/// The slopes of the energy in the eight unknowns of one crossing, by differences.
 pub(crate) fn gradient(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,

@@ -36,13 +36,13 @@ impl CrossingsKernels {
         let value = [Arg::Value(bytes_of(params))];
         let Memory { threads, ups, crossings, found, next, group_rows, pass_rows } = memory;
         let args = [&value[..], &in_memory([threads, ups, found, crossings, next, group_rows])].concat();
-        // SAFETY: the arguments are those of `crossings_move`; a lane reads its threads' rows, its
-        // bit of the drawdown and its crossing, and the same of sites beside it that the plan has,
-        // and writes its crossing; a group writes its row.
+        // SAFETY: the arguments are those of `crossings_move`. A lane reads its threads' rows, its
+        // bit of the drawdown and its crossing, and the same of the plan's sites beside it. It
+        // writes its crossing, and a group writes its row.
         unsafe { start(&mut self.step, opened, &args, params.crossings) }?;
         let args = [&value[..], &in_memory([group_rows, pass_rows])].concat();
-        // SAFETY: the arguments are those of `crossings_seen`; the only group reads all rows of
-        // groups, and writes that of the pass, of which there are `CROSSINGS_PASSES`.
+        // SAFETY: the arguments are those of `crossings_seen`. The only group reads the rows of all
+        // groups, and writes the row of the pass. There are `CROSSINGS_PASSES` rows of passes.
         unsafe { start(&mut self.seen, opened, &args, 1) }
     }
 }

@@ -14,12 +14,13 @@ use crate::room::Room;
 pub(super) struct Memory {
     pub(super) threads: Buffer,
     pub(super) ups: Buffer,
-    /// The crossings as they are.
+    /// The lies (states of threads at crossings) after the last pass, without momentum.
     pub(super) crossings: Buffer,
-    /// The crossings as others find them: in the next pass, and in the one after it.
+    /// Two buffers of lies with momentum added. Each pass reads one and writes the other, for the
+    /// next pass.
     pub(super) found: Buffer,
     pub(super) next: Buffer,
-    /// What workgroups have seen, and what each pass since the last wait has seen.
+    /// The measures of each workgroup, and of each pass since the last wait.
     pub(super) group_rows: Buffer,
     pub(super) pass_rows: Buffer,
 }

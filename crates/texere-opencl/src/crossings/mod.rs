@@ -25,7 +25,7 @@ pub(crate) struct OpenClCrossings {
 }
 
 impl OpenClCrossings {
-    /// Takes memory, and compiles the kernels unless a settler of crossings has done so before.
+    /// Allocates memory, and compiles the kernels unless a settler of crossings has done so before.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
     pub(crate) fn new(
@@ -42,7 +42,7 @@ impl OpenClCrossings {
         })
     }
 
-    /// Makes at most [`CROSSINGS_PASSES`] passes, and waits for what they have seen.
+    /// Makes at most [`CROSSINGS_PASSES`] passes, and waits for their measures.
     fn run(&mut self, passes: &[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError> {
         for (number, pass) in (0..CROSSINGS_PASSES).zip(passes) {
             let params = self.params.with_pass(pass, number);

@@ -52,7 +52,7 @@ impl ListKernels {
         let groups = params.chords.div_ceil(SETTLING_EXTENT.group as u32).min(EXTENT_GROUPS);
         let value = [Arg::Value(bytes_of(params))];
         let args = [&value[..], &in_memory([&memory.chords, &memory.extents])].concat();
-        // SAFETY: the arguments are those of `settling_extent`; groups read all chords, and each
+        // SAFETY: the arguments are those of `settling_extent`. Groups read all chords, and each
         // writes its row.
         unsafe { start(&mut self.extent, opened, &args, groups * SETTLING_EXTENT.group as u32) }?;
         let mut extents = vec![ExtentRow::default(); groups as usize];
@@ -62,13 +62,13 @@ impl ListKernels {
         let Memory { chords, cells, sorted, sums, .. } = memory;
         let value = [Arg::Value(bytes_of(&params))];
         let args = [&value[..], &in_memory([chords, cells])].concat();
-        // SAFETY: the arguments are those of `settling_cell_count`; a lane reads its chord and adds
-        // to its cell's count: there are no more cells than there is room for, and one behind them.
+        // SAFETY: the arguments are those of `settling_cell_count`. A lane reads its chord and adds
+        // to its cell's count. There is room for all cells, and for one entry behind them.
         unsafe { start(&mut self.cell_count, opened, &args, params.chords) }?;
         self.scan.run(opened, cells, params.cells() + 1, sums)?;
         let args = [&value[..], &in_memory([chords, cells, sorted])].concat();
-        // SAFETY: the arguments are those of `settling_cell_fill`; a lane writes its chord's number
-        // where its cell's count says.
+        // SAFETY: the arguments are those of `settling_cell_fill`. A lane writes its chord's number
+        // at the position that it gets from its cell. There is a position for each chord.
         unsafe { start(&mut self.cell_fill, opened, &args, params.chords) }?;
         Ok(params)
     }
@@ -81,14 +81,14 @@ impl ListKernels {
         params: &SettlingParams,
         memory: &mut Memory,
     ) -> Result<u32, BackendError> {
-        // The value behind the last count must be 0.
+        // The value behind the last count must be 0, because the scan includes it.
         memory.starts.clear(opened)?;
         let value = [Arg::Value(bytes_of(params))];
         let Memory { chords, chord_rows, place_rows, strands, cells, sorted, starts, sums, .. } = memory;
         let tables = in_memory([chords, chord_rows, place_rows, strands, cells, sorted, starts]);
         let args = [&value[..], &tables].concat();
-        // SAFETY: the arguments are those of `settling_count`; a lane reads its chord and those of
-        // the cells beside it with their rows, and writes its count.
+        // SAFETY: the arguments are those of `settling_count`. A lane reads its chord, the chords
+        // of the cells beside it and the rows of all of them, and writes its count.
         unsafe { start(&mut self.count, opened, &args, params.chords) }?;
         self.scan.run(opened, starts, params.chords + 1, sums)?;
         let mut total = [0];
@@ -99,15 +99,16 @@ impl ListKernels {
             memory;
         let tables = in_memory([chords, chord_rows, place_rows, strands, cells, sorted, starts, neighbours]);
         let args = [&value[..], &tables].concat();
-        // SAFETY: the arguments are those of `settling_fill`; a lane reads what it has counted by,
-        // and writes as many neighbours as it counted, for all of which there is room.
+        // SAFETY: the arguments are those of `settling_fill`. A lane reads what the kernel that
+        // counted has read, and writes no more neighbours than were counted, for all of which there
+        // is room.
         unsafe { start(&mut self.fill, opened, &args, params.chords) }?;
         flush(opened.queue.raw()).map_err(opened.failed("clFlush"))?;
         Ok(total[0])
     }
 }
 
-/// The kernels that replace each count by the sum of all before it.
+/// The kernels that replace each count by the sum of the counts before it.
 #[derive(Debug)]
 struct Scan {
     sum: Kernel,
@@ -128,12 +129,13 @@ impl Scan {
         let groups = count.div_ceil(SETTLING_SCAN_VALUES as u32);
         let lanes = groups * SETTLING_SCAN.group as u32;
         let args = [&[Arg::Value(bytes_of(&count))][..], &in_memory([values, own])].concat();
-        // SAFETY: the arguments are those of both kernels; a group reads and writes its values, of
+        // SAFETY: the arguments are those of both kernels. A group reads and writes its values, of
         // which there are `count` in all, and writes or reads its sum.
         unsafe { start(&mut self.sum, opened, &args, lanes) }?;
         if groups > 1 {
             self.run(opened, own, groups, further)?;
-            // SAFETY: as above.
+            // SAFETY: the arguments are those of both kernels. A group reads its sum, and reads and
+            // writes its values, of which there are `count` in all.
             unsafe { start(&mut self.add, opened, &args, lanes) }?;
         }
         Ok(())
@@ -152,7 +154,7 @@ mod tests {
     use crate::OpenClBackend;
     use crate::settling::OpenClSettler;
 
-    /// Three levels of sums, and sums that stop at the largest number.
+    /// Tests three levels of sums, and sums that stop at the largest number.
     #[test]
     fn sums_are_those_of_all_counts_before() {
         let opened = OpenClBackend::open(0, Schedule::PerRing).unwrap().opened;
@@ -175,7 +177,7 @@ mod tests {
         }
     }
 
-    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of
+    /// The neighbours of each chord are those that a comparison of all pairs finds, in the order of
     /// their numbers.
     #[test]
     fn neighbours_are_listed_in_the_order_of_their_numbers() {

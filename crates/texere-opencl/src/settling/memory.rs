@@ -9,7 +9,7 @@ use crate::buffer::Buffer;
 use crate::opened::Opened;
 use crate::room::Room;
 
-/// Numbers that a pass writes for each place: those of the block form, which writes more than the
+/// The numbers that a pass writes for each place, in the block form, which writes more than the
 /// weighted form.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
@@ -20,42 +20,44 @@ pub(super) struct Memory {
     pub(super) strands: Buffer,
     pub(super) chord_rows: Buffer,
     pub(super) places: Buffer,
-    /// The places that the last pass has seen. The next pass writes here.
+    /// The places that the last pass measured, before it moved them. The next pass writes here.
     pub(super) seen: Buffer,
     pub(super) kept: Buffer,
-    /// The step that each point has taken last, mm.
+    /// The last step of each point, mm.
     pub(super) steps: Buffer,
-    /// The length that each interval shall have, mm.
+    /// The length that each interval should have, mm.
     pub(super) lengths: Buffer,
-    /// Where all chords lie.
+    /// All chords: where each begins, its span, its interval's place and its largest half width or
+    /// half height.
     pub(super) chords: Buffer,
     pub(super) pulls: Buffer,
-    /// What workgroups have seen in a pass, and what all of them have.
+    /// The measures of each workgroup of a pass, and those of the whole pass.
     pub(super) rows: Buffer,
     pub(super) all: Buffer,
-    /// The extents of chords that workgroups have found.
+    /// The extent of the chords of each workgroup.
     pub(super) extents: Buffer,
-    /// Where each cell's chords begin, and the chords cell by cell.
+    /// The position of each cell's first chord in `sorted`, and the chords cell by cell.
     pub(super) cells: Buffer,
     pub(super) sorted: Buffer,
-    /// Where each chord's neighbours begin, and the neighbours of all chords.
+    /// The position of each chord's first neighbour in `neighbours`, and the neighbours of all
+    /// chords.
     pub(super) starts: Buffer,
     pub(super) neighbours: Buffer,
-    /// Sums of the workgroups of a scan, level by level.
+    /// The sums of the workgroups of a scan, level by level.
     pub(super) sums: Vec<Buffer>,
     room: Room,
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
-    /// may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also if one buffer, or all buffers together,
+    /// would have more than the device's limits allow.
     pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let groups = places.div_ceil(SETTLING_PULL_WEIGHTED.group as u64);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // There are as many cells as chords, or a few more.
+        // There are no more cells than chords, or than 64.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -86,7 +88,7 @@ impl Memory {
         })
     }
 
-    /// Makes room for `count` neighbours, and for an eighth more where memory allows it.
+    /// Makes room for `count` neighbours, and for an eighth more if memory allows it.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, opened: &Opened, count: u32) -> Result<(), BackendError> {

@@ -30,14 +30,14 @@ pub(crate) struct OpenClSettler {
     pass: PassKernels,
     points: PointKernels,
     memory: Memory,
-    /// Whether a pass has been made, and whether what it saw was kept.
+    /// Whether a pass has been made, and whether the places that a pass measured were kept.
     seen: bool,
     kept: bool,
     opened: Arc<Opened>,
 }
 
 impl OpenClSettler {
-    /// Takes memory, and compiles the kernels unless a settler has done so before.
+    /// Allocates memory, and compiles the kernels unless a settler has done so before.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
     pub(crate) fn new(
@@ -60,8 +60,8 @@ impl OpenClSettler {
         })
     }
 
-    /// Writes all control points, padded as `plan` says, to `points`, if that lies in the same
-    /// context. Returns whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that buffer lies in the
+    /// same context. Returns whether it does.
     pub(crate) fn write_points(
         &mut self,
         opened: &Arc<Opened>,
@@ -101,7 +101,8 @@ impl Settler for OpenClSettler {
             .and_then(|()| list.cells(opened, plan, &params, memory))
             .and_then(|params| list.neighbours(opened, plan, &params, memory));
         if listed.is_err() {
-            // A half-made list must be empty. An error of this adds nothing.
+            // The list is half made, and is emptied. An error of the emptying adds nothing to the
+            // first error.
             let _ = memory.starts.clear(opened);
         }
         listed.map(u64::from)

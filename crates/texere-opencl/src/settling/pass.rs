@@ -17,8 +17,7 @@ use crate::opened::Opened;
 #[derive(Debug)]
 pub(super) struct PassKernels {
     chords: Kernel,
-    /// Pulls at intervals, then steps of control points, in the weighted form and in the block
-    /// form.
+    /// The kernels of pulls and of steps, in the weighted form and in the block form.
     weighted: [Kernel; 2],
     block: [Kernel; 2],
     ends: Kernel,
@@ -55,13 +54,13 @@ impl PassKernels {
         let Memory { places, place_rows, chord_rows, chords, .. } = memory;
         let value = [Arg::Value(bytes_of(params))];
         let args = [&value[..], &in_memory([places, place_rows, chord_rows, chords])].concat();
-        // SAFETY: the arguments are those of `settling_chords`; a lane reads its chord's row, the
+        // SAFETY: the arguments are those of `settling_chords`. A lane reads its chord's row, the
         // rows of its interval and of the next place, and the interval's four places, and writes
-        // its chord: the plan counted all of them.
+        // its chord. There is room for all of the plan's.
         unsafe { start(&mut self.chords, opened, &args, params.chords) }
     }
 
-    /// Makes a pass from `memory.places` to `memory.seen`, and returns what it saw.
+    /// Makes a pass from `memory.places` to `memory.seen`, and returns its measures.
     pub(super) fn run(
         &mut self,
         opened: &Opened,
@@ -76,23 +75,23 @@ impl PassKernels {
         let tables = in_memory([places, place_rows, chords, starts, neighbours, lengths, pulls, rows]);
         let args = [&value[..], &tables].concat();
         let [pull, step] = if form == Form::Block { &mut self.block } else { &mut self.weighted };
-        // SAFETY: the arguments are those of both kernels; a lane reads its interval's places, rows
-        // and chords, the neighbours that were listed for these, and the same of each neighbour,
-        // and writes its planes; a group writes its row.
+        // SAFETY: the arguments are those of both kernels. A lane reads its interval's places, rows
+        // and chords, the neighbours that were listed for the chords, and the same of each
+        // neighbour. It writes its planes, and a group writes its row.
         unsafe { start(pull, opened, &args, params.places) }?;
         let tables = in_memory([places, place_rows, strands, pulls, steps, lengths, next, rows]);
         let args = [&value[..], &tables].concat();
-        // SAFETY: the arguments are those of both kernels; a lane reads its place's rows and its
-        // yarn's, and the planes of its yarn's intervals, and writes its own step, length and next
-        // place; a group adds to its row.
+        // SAFETY: the arguments are those of both kernels. A lane reads the rows of its place and
+        // its yarn, and the planes of its yarn's intervals. It writes its own step, length and next
+        // place, and a group adds to its row.
         unsafe { start(step, opened, &args, params.places) }?;
         let args = [&value[..], &in_memory([strands, next])].concat();
-        // SAFETY: the arguments are those of `settling_ends`; a lane reads its yarn's row and
-        // places, and writes those beyond its ends.
+        // SAFETY: the arguments are those of `settling_ends`. A lane reads its yarn's row and
+        // places, and writes the places beyond the yarn's ends.
         unsafe { start(&mut self.ends, opened, &args, params.yarns) }?;
         let count = params.places.div_ceil(SETTLING_STEP_WEIGHTED.group as u32);
         let args = [&[Arg::Value(bytes_of(&count))][..], &in_memory([rows, all])].concat();
-        // SAFETY: the arguments are those of `settling_seen`; the only group reads `count` rows and
+        // SAFETY: the arguments are those of `settling_seen`. The only group reads `count` rows and
         // writes one.
         unsafe { start(&mut self.seen, opened, &args, 1) }?;
         let mut seen = [SeenRow::default()];

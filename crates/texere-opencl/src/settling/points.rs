@@ -1,4 +1,4 @@
-//! Settled places turned into control points on the device, without a way over the host.
+//! Settled places turned into control points on the device, without going through the host.
 
 use bytemuck::bytes_of;
 use texere_core::BackendError;
@@ -38,9 +38,9 @@ impl PointKernels {
         let rows = Buffer::holding(opened, "where control points belong", &SettledRow::all(settling, plan))?;
         let value = [Arg::Value(bytes_of(&params))];
         let args = [&value[..], &in_memory([&memory.place_rows, &rows, &memory.places, points])].concat();
-        // SAFETY: the arguments are those of `settling_points`; a lane reads its place, the one
-        // beside it and its yarn's row, and writes its control point and virtual ends where `plan`
-        // has them: both plans have the same yarns.
+        // SAFETY: the arguments are those of `settling_points`. A lane reads its place, the places
+        // beside it and its yarn's row, and writes its control point and virtual ends at their
+        // positions in `plan`. Both plans have the same yarns.
         unsafe { start(&mut self.points, opened, &args, params.places) }
     }
 
@@ -58,8 +58,8 @@ impl PointKernels {
         let found = Buffer::holding(opened, "bounds", &rows)?;
         let value = [Arg::Value(bytes_of(&params))];
         let args = [&value[..], &in_memory([&memory.place_rows, &memory.places, &found])].concat();
-        // SAFETY: the arguments are those of `settling_bounds`; lanes read places and their rows, a
-        // group writes its row.
+        // SAFETY: the arguments are those of `settling_bounds`. Lanes read places and their rows,
+        // and a group writes its row.
         unsafe { start(&mut self.bounds, opened, &args, groups * group) }?;
         found.read_now(opened, 0, &mut rows)?;
         Ok(BoundsRow::joined(&rows))

@@ -1,5 +1,5 @@
-//! What Rust writes into a table, a kernel reads under the same name: on the device, with its
-//! compiler.
+//! Tests that a kernel reads what Rust writes into a table, under the same name. The kernels are
+//! compiled and run on the device.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -20,9 +20,10 @@ use texere_core::{ControlPoint, SectionPoint, Vertex};
 use texere_gpu::{CapRow, Language, Params, YarnRow, prelude};
 use texere_kernels::PER_RING;
 
-/// A table as kernels see it, and where in Rust's type of `bytes` each of their names lies.
+/// A table as kernels read it, and the offset of each of its values in Rust's type, which has
+/// `bytes` bytes.
 struct Table {
-    /// The element of the kernels' pointer.
+    /// The type that the kernels' pointer points to.
     element: &'static str,
     bytes: usize,
     /// How kernels read a value of the table's second row, and its offset in Rust.
@@ -40,7 +41,8 @@ macro_rules! structure {
     };
 }
 
-/// A structure of Rust that kernels take for vectors: each component, and the field that it is.
+/// A structure of Rust that kernels read as vectors: each component, and the field that it stands
+/// for.
 macro_rules! vectors {
     ($element:literal, $type:ident { $($value:literal = $field:ident $(+ $axis:literal)?),+ $(,)? }) => {
         Table {
@@ -125,13 +127,13 @@ fn tables() -> Vec<Table> {
     ]
 }
 
-/// The bits of value number `number` of a table: all distinct, and whole floats too.
+/// The bits of value number `number` of a table. All are distinct, and each is a finite float, too.
 fn bits(number: usize) -> u32 {
     0x3f80_0000 + number as u32
 }
 
-/// What a kernel finds in its `parameter`, called `values`, which `set` hands over: `names`, in
-/// order.
+/// The values `names`, in order, that a kernel reads from its parameter `values`. `parameter`
+/// declares it, and `set` sets it.
 fn probe(
     context: &Context,
     queue: &CommandQueue,
@@ -177,7 +179,7 @@ fn every_field_of_a_tables_second_row_is_read_under_its_name() {
     }
 }
 
-/// Not through memory but as an argument, as launches hand them over.
+/// Tests parameters that are passed as an argument, as launches do, and not through memory.
 #[test]
 fn parameters_arrive_as_they_are_set() {
     let words: [u32; size_of::<Params>() / 4] = std::array::from_fn(bits);

@@ -1,4 +1,5 @@
-//! The backend on the first OpenCL device, beyond what the conformance suite asks of every backend.
+//! The backend on the first OpenCL device, beyond what the conformance suite tests of every
+//! backend.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 

@@ -1,5 +1,5 @@
-//! A caller with a context and a queue of its own: our commands run there, and the mesh stays
-//! there.
+//! A caller with a context and a queue of its own. The backend's commands run in that queue, and
+//! the mesh stays in that context.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -19,7 +19,8 @@ use texere_core::{Backend, BackendError, DeviceInfo, Limits, Pipeline, Settings,
 use texere_opencl::{OpenClBackend, Schedule};
 
 pub(crate) fn context() -> (Context, Device) {
-    // The backend's own list first: it minds that first calls are for one thread alone.
+    // The backend lists the devices first, because the first calls of OpenCL must come from one
+    // thread alone.
     OpenClBackend::devices().unwrap();
     let platform = get_platforms().unwrap()[0];
     let device = Device::new(platform.get_devices(CL_DEVICE_TYPE_ALL).unwrap()[0]);

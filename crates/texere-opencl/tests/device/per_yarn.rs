@@ -1,4 +1,5 @@
-//! The schedule per-yarn: what it does agrees with the oracle, and it refuses the rest.
+//! The schedule per-yarn. Its meshes agree with the oracle, and it refuses plans that it can't
+//! make.
 
 use crate::support::{device, plan};
 use texere_conformance::{cases, check};
@@ -43,8 +44,8 @@ fn what_it_does_agrees_with_the_oracle() {
 
 #[test]
 fn a_lane_cut_at_a_yarns_last_ring_takes_that_ring_alone() {
-    // 65 rings: a block of 64, and one of the last ring. Two rows a chunk leave the last ring for a
-    // chunk of its own.
+    // There are 65 rings: a block of 64, and a block of the last ring. Chunks of two rows leave the
+    // last ring to a chunk of its own.
     let yarns = cases::winding(65, Yarn::default());
     let settings = Settings { subdivisions: 0, ..Settings::default() };
     let report = check(&yarns, settings, &device(Schedule::PerYarn), false).unwrap();

@@ -1,5 +1,4 @@
-//! Sessions on a device: pieces, memory, and what is refused. The suite tries misuse, edits and
-//! times.
+//! Sessions on a device: pieces, memory and refusals. The suite tests misuse, edits and times.
 
 use std::ops::ControlFlow;
 use std::process::Command;
@@ -33,7 +32,7 @@ fn chunks(plan: &texere_core::backend::Plan, blocks: u64) -> Vec<Chunk> {
 
 #[test]
 fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
-    // 100,001 rings, 14.4 MB of vertices and as much of indices: two pieces of both.
+    // 100,001 rings have 14.4 MB of vertices and as much of indices: two pieces of each.
     let yarns = cases::winding(12_501, Yarn { twist: 0.3, ..Yarn::default() });
     let settings = Settings { subdivisions: 7, sides: 7, ..TURNING };
     let plan = plan(&yarns, settings);
@@ -62,14 +61,14 @@ fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
         a.position.into_iter().chain(a.normal).zip(b.position.into_iter().chain(b.normal))
     });
     for (found, expected) in worst {
-        // Four units in the last place of a coordinate of 2,100 mm.
+        // The bound is four units in the last place of a coordinate of 2,100 mm.
         assert!((found - expected).abs() < 1e-3, "{found} for {expected}");
     }
 }
 
 #[test]
 fn more_rings_than_one_launch_takes_come_out_as_one() {
-    // 2^24 rings fill a launch; these need a second one.
+    // 2^24 rings fill a launch. These rings need a second launch.
     let yarns = cases::winding(16_500, Yarn::default());
     let plan = plan(&yarns, Settings { subdivisions: 1023, ..Settings::default() });
     let rings = plan.counts().rings as usize;
@@ -131,7 +130,7 @@ fn a_sink_may_break_off_at_any_piece() {
         ControlFlow::Break(())
     });
     assert!(flow.unwrap().is_break() && rings > 0);
-    // What is read afterwards is whole.
+    // A complete read afterwards gives the whole mesh.
     let again = read(&mut session, chunk);
     assert_eq!((again.0, again.1), (vertices, indices));
 }

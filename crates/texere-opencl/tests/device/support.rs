@@ -1,4 +1,4 @@
-//! What the tests of sessions share.
+//! Helpers of the tests of sessions.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -7,7 +7,8 @@ use texere_core::backend::{Chunk, Engine, Plan, Session};
 use texere_core::{ControlPoint, MeshPiece, Settings, Vertex, Yarn, Yarns};
 use texere_opencl::{OpenClBackend, Schedule};
 
-/// The first OpenCL device. It is not skipped: a missing one is a broken test bed.
+/// The first OpenCL device. A missing device fails the test, because it means that the test machine
+/// is not set up.
 pub(crate) fn device(schedule: Schedule) -> OpenClBackend {
     OpenClBackend::open(0, schedule).expect("an OpenCL device; install a driver, such as pocl-opencl-icd")
 }
@@ -17,7 +18,7 @@ pub(crate) fn plan(yarns: &Yarns, settings: Settings) -> Arc<Plan> {
     Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap())
 }
 
-/// A chunk's mesh, and the number of pieces that it came in.
+/// A chunk's mesh, and the number of pieces in which it was read.
 pub(crate) fn read<E: Engine + ?Sized>(
     session: &mut Session<E>,
     chunk: &Chunk,

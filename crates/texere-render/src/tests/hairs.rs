@@ -1,5 +1,5 @@
-//! Fibres that stand off yarns: as long as they are said to be, the same in every picture, and none
-//! where they would not be seen.
+//! Fibres that stand off yarns have the length that the yarns' hairiness asks for, are the same in
+//! every picture, and are left out where they would not be seen.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::{Background, Camera, Extent, Picture, Pose, Quality, Renderer};
 /// A cotton fibre's width, mm: `HAIR_WIDTH` of `hair.wgsl`.
 const WIDTH_MM: f64 = 0.012;
 
-/// A copy of the yarns with this hairiness.
+/// A copy of `yarns` with this hairiness.
 pub(super) fn hairy(yarns: &Yarns, hairiness: f32) -> Yarns {
     let mut hairy = yarns.clone();
     let materials = yarns.materials().iter().map(|material| Material { hairiness, ..material.clone() });
@@ -35,7 +35,7 @@ fn only_yarns_with_hairs_have_them_and_only_where_they_are_wanted() {
         let hairy = hairy(&yarns, 8.0);
         for (name, camera) in cameras(&Extent::of(&yarns)) {
             let bald = drawn(&renderer, &yarns, &camera, PLAIN).rgb;
-            // A cut shows how the cloth is made.
+            // A cut shows no hairs.
             assert_eq!(drawn(&renderer, &hairy, &camera, PLAIN).rgb != bald, name != "cut", "{name}");
             assert!(
                 drawn(&renderer, &hairy, &camera, Quality { hairs: false, ..PLAIN }).rgb == bald,
@@ -45,7 +45,7 @@ fn only_yarns_with_hairs_have_them_and_only_where_they_are_wanted() {
     }
 }
 
-/// From where threads are less than four pixels wide.
+/// The view is so far that threads are less than four pixels wide.
 #[test]
 fn hairs_are_not_seen_from_afar() {
     let renderer = renderer().lock().unwrap();
@@ -59,8 +59,8 @@ fn hairs_are_not_seen_from_afar() {
     }
 }
 
-/// However the fabric is cut into chunks and the screen into bands, by either kind of atomics, and
-/// in every run.
+/// Hairs are the same however the fabric is cut into chunks and the screen into bands, with either
+/// kind of atomics, and in every run.
 #[test]
 fn hairs_are_the_same_in_every_picture() {
     let whole = renderer().lock().unwrap();
@@ -76,7 +76,8 @@ fn hairs_are_the_same_in_every_picture() {
             for (renderer, what) in [(&*whole, "again"), (&in_rounds, "in rounds"), (&in_bands, "in bands")] {
                 assert!(one == draw(renderer, &yarns, &camera, &Limits::NONE), "{name} {what}");
             }
-            // One block and the ring that it repeats: every yarn of more than 64 rings is cut.
+            // A chunk has one block and the ring that it repeats, so every yarn of more than 64
+            // rings is cut.
             let cut = |limits: &Limits| {
                 let mut scene = whole.scene(&yarns, &long).unwrap().with_limits(limits);
                 assert!(scene.plan().rings(0) > 64);
@@ -87,7 +88,7 @@ fn hairs_are_the_same_in_every_picture() {
     }
 }
 
-/// A picture says of a hair that it is its yarn's, and where it is.
+/// A picture gives the yarn of a hair, and its place.
 #[test]
 fn a_hair_is_seen_as_its_yarn() {
     let renderer = renderer().lock().unwrap();
@@ -108,8 +109,8 @@ fn a_hair_is_seen_as_its_yarn() {
             continue;
         };
         assert!(hairy.yarn < ENDS + PICKS);
-        // No hair is longer than two and a half millimetres, and the next point of its yarn no
-        // farther from its root than one.
+        // No hair is longer than two and a half millimetres, and the next point of its yarn is no
+        // farther from its root than one millimetre.
         let points = yarns.yarn_points(hairy.yarn).unwrap();
         let off =
             points.iter().map(|point| point.position().distance(hairy.position.map(|at| at as f32).into()));
@@ -123,9 +124,10 @@ fn a_hair_is_seen_as_its_yarn() {
     assert!(beside > 20 && over > 20, "{beside} {over}");
 }
 
-/// By Cauchy and Crofton: seen from all sides, a curve is pi / 4 as long as it is in the mean. What
-/// hairs cover of pictures is thus their length times pi / 4 of their width, however they bend. The
-/// yarns that they stand off are so thin that they hide nothing.
+/// By Cauchy's and Crofton's formula, a curve that is seen from all sides appears pi / 4 times as
+/// long as it is, in the mean. The area that hairs cover in pictures is thus their length times pi
+/// / 4 of their width, however they bend. The yarns that they stand off are so thin that they hide
+/// nothing.
 #[test]
 fn hairs_are_as_long_as_their_yarn_says() {
     const VIEWS: u32 = 5;
@@ -142,7 +144,7 @@ fn hairs_are_as_long_as_their_yarn_says() {
             let points = (0..=LENGTH).map(|x| ControlPoint::new(x as f32, yarn as f32 * APART, 0.0, 0.004));
             yarns.yarn(Yarn { twist: 0.5, ..Yarn::default() }, &points.collect::<Vec<_>>());
         }
-        // One that is wide enough for hairs to be shown, out of sight.
+        // This yarn is out of sight. It is so wide that hairs are shown.
         let points = (0..=YARNS * LENGTH).map(|x| ControlPoint::new(x as f32, 200.0, 0.0, 0.5));
         yarns.yarn(Yarn { material: 1, ..Yarn::default() }, &points.collect::<Vec<_>>());
         yarns.build().unwrap()
@@ -151,8 +153,8 @@ fn hairs_are_as_long_as_their_yarn_says() {
     let size = [(LENGTH as f32 + 6.0) * PER_MM, (YARNS as f32 * APART) * PER_MM].map(|pixels| pixels as u32);
     let renderer = renderer().lock().unwrap();
     let extent = Extent::of(&yarns(0.0));
-    // Hairs stand off alike all round, so directions that lie evenly between across the yarns and
-    // along them do for all.
+    // Hairs stand off in the same way all round. Directions that lie evenly between that across the
+    // yarns and that along them therefore stand for all directions.
     let cameras: Vec<_> = (0..VIEWS)
         .map(|view| {
             let cosine = (view as f32 + 0.5) / VIEWS as f32;
@@ -172,7 +174,7 @@ fn hairs_are_as_long_as_their_yarn_says() {
     let hairs_mm = (covered(HAIRINESS) - covered(0.0)) / WIDTH_MM * 4.0 / PI;
     let said_mm = f64::from(HAIRINESS) * f64::from(YARNS * LENGTH);
     println!("{hairs_mm:.1} mm of hairs, {said_mm} said");
-    // Some thirteen hundred hairs of lengths that scatter by nine tenths of their mean, and some
-    // that cover others.
+    // There are some thirteen hundred hairs, whose lengths scatter by nine tenths of their mean,
+    // and some hairs cover others.
     assert!((hairs_mm / said_mm - 1.0).abs() < 0.06, "{hairs_mm} {said_mm}");
 }

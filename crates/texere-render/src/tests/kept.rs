@@ -1,4 +1,4 @@
-//! What a renderer keeps on its device.
+//! The memory that a renderer keeps on its device.
 
 use texere_wgpu::{Schedule, WgpuBackend};
 use wgpu::{Backends, InstanceDescriptor, InstanceFlags, PollType};
@@ -6,8 +6,8 @@ use wgpu::{Backends, InstanceDescriptor, InstanceFlags, PollType};
 use super::{DEVICE, SETTINGS, SIZE, TWILL};
 use crate::{Camera, Quality, Renderer};
 
-/// wgpu's own count of what lives says whether anything of ours is left behind. The process's
-/// memory doesn't: lavapipe keeps one to three MiB of each picture.
+/// The report of wgpu's allocator shows whether any buffer of the scenes is left. The memory of the
+/// process can't show it, because lavapipe keeps one to three MiB of each picture.
 #[test]
 fn scenes_that_come_and_go_leave_nothing_on_the_device() {
     let instance = wgpu::Instance::new(InstanceDescriptor {
@@ -38,7 +38,7 @@ fn scenes_that_come_and_go_leave_nothing_on_the_device() {
         ]
         .map(|(name, registry)| (name, registry.num_allocated))
     };
-    // A window's: a small one where it is made, one that moves, and one at rest.
+    // The pictures of a window: a small one when it opens, one of a moving view, and one at rest.
     let pictures = |turn: usize| {
         let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
         for (size, supersampling) in [([8, 8], 1), (SIZE.map(|side| side / 2 + turn as u32), 1), (SIZE, 2)] {

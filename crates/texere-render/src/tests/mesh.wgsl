@@ -1,21 +1,21 @@
-// The mesh, drawn by a device's own rasteriser: what is nearest in each sample, unlit. After
-// texere_shaders::picture::KEPT and SIDES.
+// Draws the mesh by a device's own rasteriser: what is nearest in each sample, unlit. This file
+// follows texere_shaders::picture::KEPT and the constant SIDES.
 
-// Rust: Run, 16 bytes. A block of the chunk's rings and the quads that start from them, or a yarn's
-// cap.
+// Rust: Run, 16 bytes. A run is a block of the chunk's rings with the quads that start from them,
+// or a yarn's cap.
 struct Run {
     yarn: u32,
     // The number of the run's first ring in its yarn.
     first_ring: u32,
-    // Rings that quads start from: none of a cap.
+    // The number of rings from which quads start; 0 for a cap.
     gaps: u32,
     first_vertex: u32,
 }
 
-// Marks a cap's triangles, in the number of their run.
+// The bit of a triangle's run number that marks a triangle of a cap.
 const CAP = 0x80000000u;
 
-// Positions and normals.
+// The positions and normals of vertices.
 @group(1) @binding(1) var<storage, read> vertices: array<f32>;
 @group(1) @binding(2) var<storage, read> runs: array<Run>;
 
@@ -27,17 +27,18 @@ fn position_of(number: u32) -> vec3<f32> {
 struct Seen {
     @builtin(position) position: vec4<f32>,
     @location(0) normal: vec3<f32>,
-    // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's
-    // corners turn with its twist. A facet's own, so that it does not depend on where a chunk is
-    // cut.
+    // The direction along the facet at its first corner. It is the direction of the fibres, because
+    // a twisted yarn's corners turn with its twist. It is taken from the facet alone, so that it
+    // does not depend on where a chunk is cut.
     @location(1) @interpolate(flat) fibre: vec3<f32>,
-    // Where on the yarn: cosine and sine round it, rings along it.
+    // The place on the yarn: cosine and sine of the angle round it; `along` is the number of rings
+    // along it.
     @location(2) around: vec2<f32>,
     @location(3) along: f32,
     @location(4) @interpolate(flat) yarn: u32,
 }
 
-// Three vertices and the run, for each triangle.
+// For each triangle, its three vertices and its run.
 @group(1) @binding(3) var<storage, read> triangles: array<vec4<u32>>;
 
 @vertex
@@ -53,8 +54,8 @@ fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
     var seen: Seen;
     seen.position = clip_of(position);
     seen.normal = normal;
-    // To the next ring. Past a run's last ring there is another run or nothing, but no facet's
-    // first corner lies there.
+    // The direction to the next ring. Behind a run's last ring there is another run or nothing, but
+    // no facet's first corner lies on that ring.
     seen.fibre = normal;
     if !is_cap && inside < run.gaps * SIDES {
         seen.fibre = position_of(number + SIDES) - position;
@@ -65,8 +66,8 @@ fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
     return seen;
 }
 
-// What is kept, in numbers of 16 bits: a rasteriser has no targets of 32 for several samples a
-// pixel.
+// The encoded sample in numbers of 16 bits, because a rasteriser has no targets of 32 bits for
+// several samples a pixel.
 struct Kept {
     @location(0) directions: vec4<u32>,
     @location(1) place: vec4<u32>,

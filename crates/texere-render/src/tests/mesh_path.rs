@@ -1,5 +1,5 @@
-//! The judge of pictures: the mesh as any session makes it, drawn by the device's own rasteriser,
-//! and lit as ever.
+//! The judge of pictures: it draws a session's mesh by the device's own rasteriser, and lights the
+//! samples as for any picture.
 
 use bytemuck::{Pod, Zeroable};
 use image::RgbImage;
@@ -30,8 +30,8 @@ struct Run {
 /// `CAP` of `mesh.wgsl`.
 const CAP: u32 = 1 << 31;
 
-/// Counts the samples that both have a yarn in, or one, and those of them where it is another or
-/// its depth is.
+/// Counts the samples in which either picture has a yarn, and those of them in which the yarns or
+/// their depths differ.
 const COMPARE: &str = "
 @group(0) @binding(0) var drawn_depths: texture_depth_multisampled_2d;
 @group(0) @binding(2) var places: texture_multisampled_2d<u32>;
@@ -59,7 +59,7 @@ fn compare(@builtin(global_invocation_id) at: vec3<u32>) {
     }
 }";
 
-/// Copies what the rasteriser wrote to where light looks for it.
+/// Copies what the rasteriser wrote to the textures that the light shader reads.
 const UNPACK: &str = "
 @group(0) @binding(0) var drawn_depths: texture_depth_multisampled_2d;
 @group(0) @binding(1) var directions: texture_multisampled_2d<u32>;
@@ -107,18 +107,18 @@ fn triangles(plan: &Plan, chunk: &Chunk) -> (Vec<Run>, Vec<[u32; 4]>) {
     (runs, triangles)
 }
 
-/// What the judge says of a picture.
+/// The judge's result for a picture.
 #[derive(Debug)]
 pub(super) struct Judgement {
-    /// The share of samples, among those that show a yarn, in which the mesh has another one, or at
-    /// another depth.
+    /// The share of samples, among those that show a yarn, in which the mesh has another yarn, or
+    /// the yarn at another depth.
     pub(super) off: f64,
     /// The picture as the scene draws it, and as the mesh shows it.
     pub(super) pictures: [RgbImage; 2],
 }
 
-/// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, however
-/// far it is.
+/// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, from
+/// whatever distance it is seen.
 pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     scene.look(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     let mut view = ViewUniform::new(camera, Background::Ground, 1, false);
@@ -134,15 +134,15 @@ pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     Judgement { off: f64::from(others) / f64::from(samples), pictures: [drawn, lit(scene, camera)] }
 }
 
-/// What is on the screen, as a picture.
+/// The lit picture of what is on the screen.
 fn lit(scene: &Scene, camera: &Camera) -> RgbImage {
     scene.shade().unwrap();
     let [rgb, _] = scene.copy().unwrap();
     image_of(camera.size(), rgb)
 }
 
-/// Draws over the screen, and counts the samples that show a yarn, and those of them that are not
-/// what was there.
+/// Draws the mesh over the screen. Returns the number of samples that show a yarn, and the number
+/// of those that differ from what was there.
 fn draw(scene: &Scene, plan: &Plan, chunk: &Chunk, camera: &Camera) -> [u32; 2] {
     let (renderer, screen) = (&scene.renderer, scene.screen.as_ref().unwrap());
     let device = renderer.device.device();

@@ -14,7 +14,8 @@ use super::{SETTINGS, SIZE, TWILL, renderer, two_yarns};
 use crate::raster::Raster;
 use crate::{Background, Camera, Extent, Picture, Pose, Quality, RenderError, Scene};
 
-/// Two cloths of warp in red and green and weft in blue, one beside the other, turned and larger.
+/// Two cloths with warp in red and green and weft in blue. The second lies beside the first, turned
+/// and larger.
 fn cloths() -> Yarns {
     let twill = TWILL.yarns();
     let mut colored = Yarns::builder();
@@ -40,7 +41,8 @@ fn drawn(yarns: &Yarns, camera: &Camera, background: Background) -> Picture {
     scene.picture(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap()
 }
 
-/// From aside, from near with a wide view and a tilted head, from below, and along parallel lines.
+/// Views from aside, from near with a wide field and a tilted head, from below, and along parallel
+/// lines.
 fn cameras(extent: &Extent) -> [(&'static str, Camera); 4] {
     let pose = |eye, target, up| Pose { eye, target, up };
     let aside = pose([30.0, -25.0, 22.0], [13.0, 3.0, 0.0], [0.0, 0.0, 1.0]);
@@ -54,7 +56,7 @@ fn cameras(extent: &Extent) -> [(&'static str, Camera); 4] {
     ]
 }
 
-/// A picture and a picker know nothing of one another but the camera.
+/// A picture and a picker share nothing but the camera.
 #[test]
 fn a_pixel_shows_the_yarn_that_its_ray_hits() {
     let yarns = cloths();
@@ -67,7 +69,7 @@ fn a_pixel_shows_the_yarn_that_its_ray_hits() {
         let picture = drawn(&yarns, &camera, Background::Nothing);
         let mut seen = [0; 4];
         for (x, y) in (0..SIZE[1]).step_by(3).flat_map(|y| (0..SIZE[0]).step_by(3).map(move |x| (x, y))) {
-            // The corners, and where devices take their four samples.
+            // The corners of a pixel, and the places of its four samples.
             let within = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].into_iter();
             let within = within.chain([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]);
             let hit = |[right, down]: [f32; 2]| material(&camera.ray([x as f32 + right, y as f32 + down]));
@@ -94,7 +96,7 @@ fn a_pixel_shows_the_yarn_that_its_ray_hits() {
     }
 }
 
-/// What a picture says it shows is what its lines of sight hit.
+/// The yarn and the place that a picture gives for a point are those that the line of sight hits.
 #[test]
 fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     let yarns = cloths();
@@ -138,8 +140,7 @@ fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     }
 }
 
-/// Scenes of one renderer take over what pictures are drawn into, but not from a scene that still
-/// has it.
+/// Scenes of one renderer use one another's screens, but not that of a scene that still has it.
 #[test]
 fn a_scene_keeps_its_picture_while_others_are_drawn() {
     let renderer = renderer().lock().unwrap();
@@ -156,15 +157,15 @@ fn a_scene_keeps_its_picture_while_others_are_drawn() {
     beside.frame(&aside, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     assert_eq!(seen(&first), before);
     assert_ne!(seen(&beside), before);
-    // What is left in it of a scene that is gone is not seen.
+    // The samples that a dropped scene has left in the screen are not seen.
     drop((first, beside));
     let mut last = scene(&twill);
     last.frame(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     assert_eq!(seen(&last), before);
 }
 
-/// Where a pixel of the screen has its first sample in a picture of threads finer than pixels:
-/// `sample_in` of `view.wgsl`.
+/// The place of the first sample of a pixel of the screen in a picture of threads finer than
+/// pixels: `sample_in` of `view.wgsl`.
 fn shifted_sample(x: u32, y: u32) -> [f32; 2] {
     let mixed = x.wrapping_mul(1_597_334_677) ^ y.wrapping_mul(3_812_015_801);
     let hash = (mixed ^ (mixed >> 16)).wrapping_mul(2_246_822_519);
@@ -172,7 +173,7 @@ fn shifted_sample(x: u32, y: u32) -> [f32; 2] {
     [(x, within[0]), (y, within[1])].map(|(pixel, within)| pixel as f32 + within as f32 / 256.0)
 }
 
-/// No sample is left out where each pixel has its own places for them.
+/// No sample is left out if each pixel has its samples at places of its own.
 #[test]
 fn threads_finer_than_pixels_are_seen_where_rays_hit_them() {
     let yarns = cloths();
@@ -199,7 +200,7 @@ fn threads_finer_than_pixels_are_seen_where_rays_hit_them() {
     }
 }
 
-/// The matrix and the lines of sight say the same of where a point is seen.
+/// The matrix and the lines of sight agree on the pixel of a point.
 #[test]
 fn a_point_on_a_ray_lies_at_its_pixel() {
     for (name, camera) in cameras(&Extent::of(&cloths())) {
@@ -276,14 +277,13 @@ fn eyes_that_see_nothing_are_refused() {
     }
 }
 
-/// A chunk's control points are bound as one piece, and so are the rolls of its rings: both must
-/// fit whatever yarns it is cut from.
+/// A chunk's control points are bound as one piece, and so are the rolls of its rings. Both must
+/// fit, whatever yarns the chunk is cut from.
 #[test]
 fn chunks_of_pictures_fit_a_binding() {
     const BYTES: u64 = 1 << 17;
     let info = renderer().lock().unwrap().info().clone();
-    // Yarns of all lengths, and then those that are one block each and have as many points as such
-    // a yarn can.
+    // Yarns of all lengths, and then yarns of one block each that have as many points as possible.
     let counts = [&[3, 64, 65, 66, 130, 500, 4, 3, 3, 2000][..], &[63], &[64], &[31], &[8]];
     for (counts, closed) in counts.iter().flat_map(|counts| [(counts, false), (counts, true)]) {
         let mut yarns = Yarns::builder();
@@ -309,8 +309,8 @@ fn chunks_of_pictures_fit_a_binding() {
     }
 }
 
-/// A yarn that an eye looks at from outside is drawn only on its outside; one that the near plane
-/// goes through is seen from inside.
+/// A yarn that is seen from outside is drawn only on its outside. A yarn that the near plane goes
+/// through is seen from inside.
 #[test]
 fn an_eye_in_a_yarn_sees_its_wall() {
     let mut yarns = Yarns::builder();
@@ -333,7 +333,7 @@ fn an_eye_in_a_yarn_sees_its_wall() {
     assert_eq!(corner, 0);
 }
 
-/// Splines reach past their control points, and the near plane must not slice them there.
+/// Splines reach past their control points, and the near plane must not cut them there.
 #[test]
 fn a_crest_past_its_control_points_is_whole() {
     let mut yarns = Yarns::builder();

@@ -1,5 +1,5 @@
-//! Cloth from afar shows no waves that it does not have: threads finer than pixels must not beat
-//! with them.
+//! Cloth from afar must show no waves that it does not have: threads finer than pixels must not
+//! beat with the pixels.
 
 use std::f64::consts::TAU;
 
@@ -8,26 +8,26 @@ use texere_core::{ControlPoint, Material, Yarn, Yarns};
 use super::{SETTINGS, renderer};
 use crate::{Camera, Extent, Pose, Quality};
 
-/// Pixels of the pictures each way.
+/// The number of pixels of the pictures each way.
 const SIZE: usize = 96;
 
-/// A wave of more levels of 255 is seen, of those that the cloth does not have: half of what an eye
-/// makes out at its best, and a fifth and less of what pixels beat by that are means of what lies
-/// in them.
+/// The most levels of 255 that a wave may have that the cloth does not have. This is half of the
+/// least that an eye can see. Pixels that are plain means of their samples beat by at least five
+/// times as much.
 const SEEN: f64 = 4.0;
 
-/// Waves are told from one another where they are so far apart, in waves over the picture: the
-/// window's main lobe has two each way.
+/// The distance, in waves over the picture, at which waves can be distinguished. The window's main
+/// lobe reaches two waves each way.
 const APART: f64 = 3.0;
 
-/// A weave: its repeat, and whether an end lies above a pick.
+/// A weave: its repeat, and a function that tells whether an end lies above a pick.
 type Weave = (usize, fn(usize, usize) -> bool);
 
 const PLAIN: Weave = (2, |end, pick| (end + pick) % 2 == 0);
 const TWILL: Weave = (4, |end, pick| (end + pick) % 4 != 0);
 const SATEEN: Weave = (5, |end, pick| (end + 3 * pick) % 5 == 0);
 
-/// Dark ends and light picks, a millimetre apart, `threads` of each.
+/// A cloth of dark ends and light picks, a millimetre apart, `threads` of each.
 fn cloth((_, up): Weave, threads: usize) -> Yarns {
     let mut yarns = Yarns::builder();
     yarns.material(Material { srgb: [40, 60, 120], ..Material::default() });
@@ -46,8 +46,8 @@ fn cloth((_, up): Weave, threads: usize) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The waves of a line of numbers, real and imaginary parts: its discrete Fourier transform, by the
-/// definition.
+/// The waves of a line of numbers, as real and imaginary parts. They are its discrete Fourier
+/// transform by the definition.
 fn waves_of(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let wave = |number: usize| {
         line.iter().enumerate().fold([0.0; 2], |sum, (at, [real, imaginary])| {
@@ -58,22 +58,22 @@ fn waves_of(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     (0..line.len()).map(wave).collect()
 }
 
-/// The greatest wave of a picture that none of its cloth's can be, levels of 255, and how often it
-/// goes up and down over the picture, each way.
+/// The greatest wave of a picture that can't be a wave of the cloth, levels of 255, and its number
+/// of periods over the picture each way.
 ///
 /// A picture of `pitch` pixels from thread to thread has waves of the cloth at multiples of one
-/// over its repeat, each way. The neighbourhood of each wave that pixels can show is left out;
-/// others must be gone.
+/// over its repeat, each way. The neighbourhood of each of these waves that pixels can show is left
+/// out. No other waves may be in the picture.
 fn strangest(grey: &[f64], pitch: f64, repeat: usize) -> (f64, [f64; 2]) {
     let mean = grey.iter().sum::<f64>() / grey.len() as f64;
-    // A window that fades at the edges: else they are waves themselves (Harris 1978, that of von
-    // Hann).
+    // Von Hann's window fades the picture at its edges, which would otherwise be waves themselves
+    // (Harris 1978).
     let window = |at: usize| 0.5 - 0.5 * (TAU * (at as f64 + 0.5) / SIZE as f64).cos();
     let total = (0..SIZE).map(window).sum::<f64>().powi(2);
     let faded = |x: usize, y: usize| [(grey[y * SIZE + x] - mean) * window(x) * window(y), 0.0];
     let rows: Vec<_> =
         (0..SIZE).map(|y| waves_of(&(0..SIZE).map(|x| faded(x, y)).collect::<Vec<_>>())).collect();
-    // Waves past half the picture's pixels run the other way.
+    // Waves of more periods than half the picture's pixels run the other way.
     let signed = |number: usize| number as f64 - if number > SIZE / 2 { SIZE as f64 } else { 0.0 };
     let step = SIZE as f64 / (repeat as f64 * pitch);
     let most = (SIZE as f64 / 2.0 / step) as i32;
@@ -102,7 +102,7 @@ fn threads_finer_than_pixels_make_no_waves_of_their_own() {
             let shown = SIZE as f64 / pitch;
             let yarns = cloth(weave, shown as usize + 12);
             let extent = Extent::of(&yarns);
-            // Not in step with the threads.
+            // The camera is not in step with the threads.
             let [x, y, z] = extent.middle().to_array();
             let target = [x + 0.3, y + 0.2, z];
             let pose = Pose { eye: [target[0], target[1], z + 10.0], target, up: [0.0, 1.0, 0.0] };

@@ -6,7 +6,7 @@ use texere_shaders::crossings;
 use crate::gpu::Gpu;
 use crate::kernel::Kernel;
 
-/// The two shaders of a pass, compiled.
+/// The two compiled shaders of a pass.
 #[derive(Debug)]
 pub(crate) struct CrossingsKernels {
     pub(super) step: Kernel,
@@ -16,7 +16,8 @@ pub(crate) struct CrossingsKernels {
 impl CrossingsKernels {
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
-        // All yarns of crossings are flattened.
+        // Threads at crossings have half widths and half heights of their own, so the program for
+        // flattened yarns is compiled.
         let kernel = |shader| Kernel::new(gpu, shader, true);
         Ok(Self { step: kernel(&crossings::MOVE)?, seen: kernel(&crossings::SEEN)? })
     }

@@ -9,8 +9,8 @@ use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 use crate::gpu::Gpu;
 use crate::room::Room;
 
-/// Bytes from the parameters of a pass to those of the next: every device can bind uniforms at
-/// multiples of this.
+/// The bytes from the parameters of a pass to those of the next. Every device can bind uniforms at
+/// multiples of this number.
 pub(super) const PARAMS_STEP: u64 = 256;
 
 /// The buffers that the shaders read and write.
@@ -20,12 +20,13 @@ pub(super) struct Memory {
     pub(super) params: wgpu::Buffer,
     threads: wgpu::Buffer,
     ups: wgpu::Buffer,
-    /// The crossings as they are.
+    /// The lies (states of threads at crossings) after the last pass, without momentum.
     pub(super) crossings: wgpu::Buffer,
-    /// The crossings as others find them: in the next pass, and in the one after it.
+    /// Two buffers of lies with momentum added. Each pass reads one and writes the other, for the
+    /// next pass.
     pub(super) found: wgpu::Buffer,
     pub(super) next: wgpu::Buffer,
-    /// What workgroups have seen, and what each pass since the last wait has seen.
+    /// The measures of each workgroup, and of each pass since the last wait.
     group_rows: wgpu::Buffer,
     pub(super) pass_rows: wgpu::Buffer,
 }
@@ -50,8 +51,8 @@ impl Memory {
         })
     }
 
-    /// The binding of `resource` in pass number `number` since the last wait. Passes take turns
-    /// with two buffers: each finds what the one before it has written.
+    /// The binding of `resource` in pass number `number` since the last wait. Two buffers
+    /// alternate: each pass reads what the pass before has written.
     pub(super) fn resource(&self, resource: Resource, number: u32) -> Option<BindingResource<'_>> {
         let [found, next] =
             if number.is_multiple_of(2) { [&self.found, &self.next] } else { [&self.next, &self.found] };

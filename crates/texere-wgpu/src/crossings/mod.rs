@@ -30,7 +30,7 @@ pub(crate) struct WgpuCrossings {
 }
 
 impl WgpuCrossings {
-    /// Takes memory, and compiles the shaders unless a settler of crossings has done so before.
+    /// Allocates memory, and compiles the shaders unless a settler of crossings has done so before.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
     pub(crate) fn new(
@@ -52,8 +52,8 @@ impl WgpuCrossings {
         })
     }
 
-    /// Makes at most [`texere_gpu::CROSSINGS_PASSES`] passes in one submission, and waits for what
-    /// they have seen.
+    /// Makes at most [`texere_gpu::CROSSINGS_PASSES`] passes in one submission, and waits for their
+    /// measures.
     fn run(&mut self, passes: &[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError> {
         let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
         let numbers = 0..passes.len() as u32;

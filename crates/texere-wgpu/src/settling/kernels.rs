@@ -48,7 +48,7 @@ impl SettlingKernels {
         })
     }
 
-    /// The two shaders of a form: pulls at intervals, then steps of control points.
+    /// The two shaders of a form: first the pulls of intervals, then the steps of control points.
     pub(super) fn form(&self, form: Form) -> &[Kernel; 2] {
         match form {
             Form::Weighted => &self.weighted,

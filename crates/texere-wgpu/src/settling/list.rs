@@ -11,7 +11,8 @@ use crate::gpu::Gpu;
 use crate::kernel::Kernel;
 
 impl WgpuSettler {
-    /// Works out all chords, and cells for them, while yarns have `growth` of their thickness.
+    /// Works out all chords, and the cells for them. `growth` is the share of their thickness that
+    /// yarns have.
     pub(super) fn find_cells(&mut self, growth: f32) -> Result<(), BackendError> {
         self.params.growth = growth;
         self.send_params()?;
@@ -26,14 +27,15 @@ impl WgpuSettler {
         self.send_params()
     }
 
-    /// Sorts chords into cells, and finds the neighbours of each. Returns their number.
+    /// Sorts chords into cells, and lists the neighbours of each chord. Returns the number of all
+    /// neighbours.
     pub(super) fn find_neighbours(&mut self) -> Result<u32, BackendError> {
         let Self { opened, memory, kernels, answer, params, .. } = self;
         let (gpu, chords) = (&opened.gpu, u64::from(params.chords));
         let groups = kernels.count.workgroups(params.chords);
         let total: Vec<u32> = answer.after(gpu, &memory.starts, (chords, 1), |encoder| {
             encoder.clear_buffer(&memory.cells, 0, None);
-            // The value behind the last count must be 0.
+            // The value behind the last count must be 0, because the scan includes it.
             encoder.clear_buffer(&memory.starts, 0, None);
             record(gpu, memory, encoder, &[(&kernels.cell_count, groups)]);
             scan(gpu, kernels, encoder, (&memory.cells, u64::from(params.cells()) + 1), &memory.sums);
@@ -48,8 +50,8 @@ impl WgpuSettler {
     }
 }
 
-/// Replaces each of the first `count` of `values` by the sum of all before it. `sums` has room for
-/// the sums of workgroups, level by level.
+/// Replaces each of the first `count` of `values` by the sum of the values before it. `sums` has
+/// room for the sums of workgroups, level by level.
 fn scan(
     gpu: &Gpu,
     kernels: &SettlingKernels,
@@ -105,7 +107,7 @@ mod tests {
         all
     }
 
-    /// Three levels of sums, and sums that stop at the largest number.
+    /// Tests three levels of sums, and sums that stop at the largest number.
     #[test]
     fn sums_are_those_of_all_counts_before() {
         let opened = WgpuBackend::open(0, Schedule::PerRing).unwrap().opened;
@@ -128,7 +130,7 @@ mod tests {
         }
     }
 
-    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of
+    /// The neighbours of each chord are those that a comparison of all pairs finds, in the order of
     /// their numbers.
     #[test]
     fn neighbours_are_listed_in_the_order_of_their_numbers() {

@@ -10,11 +10,11 @@ use wgpu::{BindingResource, BufferUsages};
 use crate::gpu::Gpu;
 use crate::room::Room;
 
-/// Numbers that a pass writes for each place: those of the block form, which writes more than the
+/// The numbers that a pass writes for each place, in the block form, which writes more than the
 /// weighted form.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
-/// Lanes of a workgroup of places, which write one row together.
+/// The number of lanes of a workgroup of places, which write one row together.
 const ROW_PLACES: u64 = 64;
 
 /// The buffers that the shaders read and write.
@@ -25,43 +25,45 @@ pub(super) struct Memory {
     strands: wgpu::Buffer,
     chord_rows: wgpu::Buffer,
     pub(super) places: wgpu::Buffer,
-    /// The places that the last pass has seen. The next pass writes here.
+    /// The places that the last pass measured, before it moved them. The next pass writes here.
     pub(super) seen: wgpu::Buffer,
     pub(super) kept: wgpu::Buffer,
-    /// The step that each point has taken last, mm.
+    /// The last step of each point, mm.
     pub(super) steps: wgpu::Buffer,
-    /// The length that each interval shall have, mm.
+    /// The length that each interval should have, mm.
     pub(super) lengths: wgpu::Buffer,
-    /// Where all chords lie.
+    /// All chords: where each begins, its span, its interval's place and its largest half width or
+    /// half height.
     chords: wgpu::Buffer,
     pulls: wgpu::Buffer,
-    /// What workgroups have seen in a pass, and what all of them have.
+    /// The measures of each workgroup of a pass, and those of the whole pass.
     rows: wgpu::Buffer,
     pub(super) all: wgpu::Buffer,
-    /// The extents of chords that workgroups have found.
+    /// The extent of the chords of each workgroup.
     pub(super) extents: wgpu::Buffer,
-    /// Where each cell's chords begin, and the chords cell by cell.
+    /// The position of each cell's first chord in `sorted`, and the chords cell by cell.
     pub(super) cells: wgpu::Buffer,
     sorted: wgpu::Buffer,
-    /// Where each chord's neighbours begin, and the neighbours of all chords.
+    /// The position of each chord's first neighbour in `neighbours`, and the neighbours of all
+    /// chords.
     pub(super) starts: wgpu::Buffer,
     pub(super) neighbours: wgpu::Buffer,
-    /// Bytes that `neighbours` has taken of the room.
+    /// The bytes of `room` that `neighbours` has taken.
     listed: u64,
-    /// Sums of the workgroups of a scan, level by level.
+    /// The sums of the workgroups of a scan, level by level.
     pub(super) sums: Vec<wgpu::Buffer>,
     room: Room,
 }
 
 impl Memory {
-    /// **Errors**: [`BackendError::OutOfMemory`], also for more than one buffer, or all buffers,
-    /// may have.
+    /// **Errors**: [`BackendError::OutOfMemory`], also if one buffer, or all buffers together,
+    /// would have more than the device's limits allow.
     pub(super) fn new(gpu: &Gpu, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room::new(gpu, limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // There are as many cells as chords, or a few more.
+        // There are no more cells than chords, or than 64.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -101,7 +103,7 @@ impl Memory {
         self.room.binding_bytes
     }
 
-    /// Makes room for `count` neighbours, and for an eighth more where memory allows it.
+    /// Makes room for `count` neighbours, and for an eighth more if memory allows it.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, gpu: &Gpu, count: u32) -> Result<(), BackendError> {
@@ -119,7 +121,7 @@ impl Memory {
         Ok(())
     }
 
-    /// The binding of `resource`. None for a resource that is not of a settling, or lies elsewhere.
+    /// The binding of `resource`. None for a resource that is not in this memory.
     pub(super) fn resource(&self, resource: Resource) -> Option<BindingResource<'_>> {
         let buffer = match resource {
             Resource::SettlingParams => &self.params,

@@ -32,7 +32,7 @@ pub(crate) struct WgpuSettler {
     plan: Arc<SettlingPlan>,
     params: SettlingParams,
     memory: Memory,
-    /// Whether a pass has been made, and whether what it saw was kept.
+    /// Whether a pass has been made, and whether the places that a pass measured were kept.
     seen: bool,
     kept: bool,
     answer: Answer,
@@ -40,7 +40,7 @@ pub(crate) struct WgpuSettler {
 }
 
 impl WgpuSettler {
-    /// Takes memory, and compiles the shaders unless a settler has done so before.
+    /// Allocates memory, and compiles the shaders unless a settler has done so before.
     pub(crate) fn new(
         opened: Arc<Opened>,
         limits: &Limits,
@@ -76,7 +76,7 @@ fn submit(gpu: &Gpu, record: impl FnOnce(&mut CommandEncoder)) -> Result<(), Bac
     })
 }
 
-/// Records kernels one after the other, each with its workgroups.
+/// Records kernels one after the other, each with its number of workgroups.
 fn record(gpu: &Gpu, memory: &Memory, encoder: &mut CommandEncoder, kernels: &[(&Kernel, u32)]) {
     let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
     for (kernel, workgroups) in kernels {
@@ -105,7 +105,8 @@ impl Settler for WgpuSettler {
         }
         let listed = self.find_cells(growth).and_then(|()| self.find_neighbours());
         if listed.is_err() {
-            // A half-made list must be empty. An error of this adds nothing.
+            // The list is half made, and is emptied. An error of the emptying adds nothing to the
+            // first error.
             let _ = submit(&self.opened.gpu, |encoder| encoder.clear_buffer(&self.memory.starts, 0, None));
         }
         listed.map(u64::from)

@@ -7,7 +7,7 @@ use texere_gpu::SeenRow;
 use super::{WgpuSettler, record};
 
 impl WgpuSettler {
-    /// Makes a pass from `memory.places` to `memory.seen`, and returns what it saw.
+    /// Makes a pass from `memory.places` to `memory.seen`, and returns its measures.
     pub(super) fn run(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         self.params = self.params.with_pass(&self.plan, pass);
         self.send_params()?;

@@ -1,4 +1,4 @@
-//! Settled places turned into control points on the device, without a way over the host.
+//! Settled places turned into control points on the device, without going through the host.
 
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ use crate::kernel::Kernel;
 use crate::opened::Opened;
 
 impl WgpuSettler {
-    /// Writes all control points, padded as `plan` says, to `points`, if that lies on the same
-    /// device and fits one binding. Returns whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that buffer lies on the
+    /// same device and fits one binding. Returns whether it does.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,

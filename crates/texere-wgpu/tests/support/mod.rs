@@ -1,4 +1,4 @@
-//! What the tests share: an open device, and small fabrics.
+//! Helpers of the tests: an open device, and small fabrics.
 
 #![allow(dead_code, clippy::expect_used, reason = "not every test needs all of it, and a test may panic")]
 
@@ -8,7 +8,7 @@ use texere_core::backend::Plan;
 use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 use texere_wgpu::{Schedule, WgpuBackend};
 
-/// What to do where a test finds no device.
+/// The message of a test that finds no device: what to install.
 pub(crate) const INSTALL: &str =
     "a wgpu device; on Linux install a Vulkan driver, such as mesa-vulkan-drivers";
 
@@ -18,7 +18,7 @@ pub(crate) fn backend() -> &'static WgpuBackend {
     BACKEND.get_or_init(|| WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL))
 }
 
-/// Yarns of `points` points each along x, which wave.
+/// Waving yarns along x, of `points` points each.
 pub(crate) fn waves(yarns: usize, points: usize, yarn: Yarn) -> Yarns {
     let mut builder = Yarns::builder();
     for number in 0..yarns {

@@ -18,7 +18,7 @@ use crate::workspace::Package;
 
 /// All circles outside tests, each with the imports that make it.
 ///
-/// **Errors**: a sentence that names a file that can't be read or is no Rust.
+/// **Errors**: a sentence that names a file that can't be read or parsed as Rust.
 pub(crate) fn find(packages: &[Package]) -> Result<Vec<String>, String> {
     let mut found = Vec::new();
     let roots = packages.iter().flat_map(|package| &package.roots);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::tree::{Crate, Module};
 
-/// Names that one file imports from another, by the numbers of both files.
+/// The names that one file imports from another, by the numbers of both files.
 pub(super) type Imports = BTreeMap<(usize, usize), BTreeSet<String>>;
 
 /// The most re-exports that a name is followed through, so that a circle of re-exports ends.
@@ -51,7 +51,7 @@ impl Crate {
         };
         while let Some((next, further)) = rest.split_first() {
             let inner = found.iter().flat_map(|&(meaning, by)| match (meaning, next.as_str()) {
-                // A variant, or a function of a type.
+                // The name is a variant, or a function of a type.
                 (Meaning::DefinedIn(_), _) => vec![(meaning, by)],
                 (Meaning::Module(module), "super") => self.modules[module]
                     .parent
@@ -88,8 +88,8 @@ impl Crate {
         if !found.is_empty() {
             return found;
         }
-        // A name of the module's own hides those that a `*` brings in. That also ends the search
-        // for the path before a `*`, which would else go through every `*` again.
+        // A name that the module has itself hides those that a `*` brings in. This also ends the
+        // search for the path before a `*`, which would otherwise go through every `*` again.
         for used in module.uses.iter().filter(|used| used.name == "*") {
             for (meaning, _) in self.meanings(number, &used.path, left) {
                 if let Meaning::Module(all) = meaning {

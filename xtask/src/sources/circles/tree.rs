@@ -14,20 +14,20 @@ use crate::sources::functions;
 #[derive(Debug, Default)]
 pub(super) struct Crate {
     pub(super) files: Vec<PathBuf>,
-    /// The first one is the root.
+    /// The modules. The first is the root.
     pub(super) modules: Vec<Module>,
 }
 
-/// A module, in a file of its own or in another one's.
+/// A module, in a file of its own or in the file of another module.
 #[derive(Debug, Default)]
 pub(super) struct Module {
     pub(super) file: usize,
     pub(super) parent: Option<usize>,
     pub(super) children: BTreeMap<String, usize>,
-    /// Names of the items that it defines.
+    /// The names of the items that the module defines.
     pub(super) items: BTreeSet<String>,
     pub(super) uses: Vec<Use>,
-    /// The paths in its code, single names among them.
+    /// The paths in the module's code, single names included.
     pub(super) paths: BTreeSet<Vec<String>>,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Use {
     /// The name in this module; `*` stands for all names of `path`.
     pub(super) name: String,
     pub(super) path: Vec<String>,
-    /// Whether it re-exports the name.
+    /// Whether the `use` re-exports the name.
     pub(super) passes_on: bool,
 }
 
@@ -114,7 +114,7 @@ fn definition(item: &Item) -> Option<(Option<String>, &[Attribute])> {
     Some((Some(name.to_string()), attributes))
 }
 
-/// Collects what items of a module use and name.
+/// Collects the names and paths that the items of a module use.
 struct Paths<'a>(&'a mut Module);
 
 impl Paths<'_> {

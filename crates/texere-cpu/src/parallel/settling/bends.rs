@@ -9,13 +9,13 @@ use super::curves::{Curve, acceleration, reach, velocity};
 use super::tables::{IntervalRow, PullRow};
 use crate::parallel::simd::{Floats, IN_TURN, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 
-/// The intervals, and their lengths.
+/// The intervals, and the lengths that they should have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Own<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) pass: &'a Pass,
     pub(super) intervals: &'a [IntervalRow],
-    /// The length that each interval shall have, mm.
+    /// The length that each interval should have, mm.
     pub(super) lengths: &'a [f32],
 }
 
@@ -23,7 +23,8 @@ pub(super) struct Own<'a> {
 type Slots<F> = [[F; 9]; 4];
 
 impl Own<'_> {
-    /// Adds the intervals' own pulls to `pulls`, the first of which belongs to place `first`.
+    /// Adds the pulls of intervals' own bends and lengths to `pulls`. The first of `pulls` belongs
+    /// to place `first`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn add<S: Simd>(&self, simd: S, first: usize, pulls: &mut [PullRow]) {
         match self.pass.form {
@@ -144,8 +145,8 @@ impl Own<'_> {
             let tags = self.plan.tags()[place + lane];
             let chords = self.plan.chords()[place + lane + 1] - self.plan.chords()[place + lane];
             if tags & (tag::OPENS | tag::ENDS) != 0 || chords > BEND_PARTS {
-                // Bends that count differently, or are looked at in more places, are left to the
-                // core's own function.
+                // The core's own function makes the bends that count differently, or are measured
+                // in more places.
                 self.alone(place + lane, (tags, chords), pull);
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Pairs of chords in lanes: their nearest images, and the places where they come nearest to one
-//! another.
+//! Pairs of chords in lanes: the nearest image of the second chord, and the places where the two
+//! come nearest to one another.
 
 use texere_core::settling::{SHORT, SettlingPlan};
 
@@ -13,7 +13,7 @@ use crate::parallel::simd::{
 pub(super) struct Chords<S: Simd> {
     at: [S::Integers; 3],
     pub(super) span: [S::Floats; 3],
-    /// The thickest half of each chord's interval, mm.
+    /// The largest half width or half height of each chord's interval, mm.
     pub(super) thickest: S::Floats,
 }
 
@@ -37,7 +37,7 @@ impl<S: Simd> Chords<S> {
         }
     }
 
-    /// Where their middles are, units.
+    /// The middles of the chords, units.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn middle(&self, simd: S, unit: f32) -> [S::Integers; 3] {
         let [dx, dy, dz] = rounded(simd, scale(self.span, simd.splat(0.5 / unit)));
@@ -48,16 +48,16 @@ impl<S: Simd> Chords<S> {
 /// The places where pairs of chords come nearest to one another.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest<S: Simd> {
-    /// The places, as shares of both chords.
+    /// The places, as shares of their chords.
     pub(super) shares: [S::Floats; 2],
     /// The way from the first chord's place to the second's, mm.
     pub(super) apart: [S::Floats; 3],
-    /// The number of repeats by which the second chord is away, negated.
+    /// Minus the number of repeats to the image of the second chord.
     pub(super) image: [S::Floats; 2],
 }
 
 impl<S: Simd> Nearest<S> {
-    /// `Chord::nearest` of the core, for the nearest images.
+    /// `Chord::nearest` of the core, for the nearest image of the second chord.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, images: &Images<S>, one: &Chords<S>, other: &Chords<S>) -> Self {
         let (half, short) = (simd.splat(0.5), simd.splat(SHORT));
@@ -80,7 +80,7 @@ impl<S: Simd> Nearest<S> {
 #[derive(Clone, Copy)]
 pub(super) struct Images<S: Simd> {
     simd: S,
-    /// Whether anything repeats.
+    /// Whether the cloth repeats along x or y.
     any: bool,
     period: [i32; 2],
     frequency: [S::Floats; 2],
@@ -101,8 +101,9 @@ impl<S: Simd> Images<S> {
         }
     }
 
-    /// The way to the nearest image, and the number of repeats by which that is away, negated.
-    /// `middles` lead from the ends of the way to the points that shall be near, mm.
+    /// The way to the nearest image, and minus the number of repeats to it. `middles`, mm, is added
+    /// to the way, for points that lie away from its ends: the nearest image is that of these
+    /// points.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn nearest(
         &self,
@@ -120,7 +121,7 @@ impl<S: Simd> Images<S> {
         (self.moved(way, image), image)
     }
 
-    /// The way to the image that is `image` repeats away, negated.
+    /// The way to an image. `image` is minus the number of repeats to it.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn moved(&self, [x, y, z]: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
         if !self.any {

@@ -1,8 +1,8 @@
 //! Contacts, a vector of pairs of chords at a time.
 //!
-//! All pairs are first looked at on their chords. For pairs that are near the exact places are
-//! worked out, again in full vectors. Then their pulls are added up pair by pair, in the order of
-//! the lists.
+//! All pairs are first tested on their chords. For pairs that are near one another the exact places
+//! are worked out, again in full vectors. Then their pulls are added up pair by pair, in the order
+//! of the lists.
 
 use std::ops::Range;
 
@@ -24,9 +24,10 @@ pub(super) struct Source<'a> {
     pub(super) fixed: &'a Fixed,
     pub(super) intervals: &'a [IntervalRow],
     pub(super) chords: &'a [ChordRow],
-    /// Where each chord's neighbours begin, and the end of the last one's.
+    /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
+    /// all.
     pub(super) starts: &'a [u32],
-    /// All chords' neighbours, and [`LANES_MAX`] entries more.
+    /// The neighbours of all chords, and [`LANES_MAX`] entries more.
     pub(super) neighbours: &'a [u32],
 }
 
@@ -35,16 +36,17 @@ pub(super) struct Source<'a> {
 pub(super) struct Room {
     /// The first chords of all pairs.
     ones: Vec<u32>,
-    /// The number of pairs that are near, and both chords of each.
+    /// The number of pairs that are near one another.
     count: usize,
+    /// The two chords of each near pair.
     near: [Vec<u32>; 2],
-    /// The places of near pairs on their chords, and the number of repeats by which the second
-    /// chord is away, negated.
+    /// For each near pair, the places on both chords, as shares of them, and minus the numbers of
+    /// repeats to the image of the second chord.
     on: Vec<[f32; 4]>,
 }
 
 impl Source<'_> {
-    /// Adds the contacts of intervals to `pulls`, the first of which belongs to place `first`.
+    /// Adds the contacts of intervals to `pulls`. The first of `pulls` belongs to place `first`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn add<S: Simd>(&self, simd: S, first: usize, room: &mut Room, pulls: &mut [PullRow]) {
         room.list(self, self.plan.chords()[first]..self.plan.chords()[first + pulls.len()]);
@@ -55,7 +57,7 @@ impl Source<'_> {
         }
     }
 
-    /// Looks at all pairs on their chords.
+    /// Measures all pairs on their chords, and notes the near ones in `room`.
     #[cfg_attr(optimized, inline(always))]
     fn look<S: Simd>(&self, simd: S, room: &mut Room, first: usize, pulls: &mut [PullRow]) {
         let nearer = simd.splat(NEAR * MARGIN * self.pass.growth);
@@ -98,7 +100,7 @@ impl Source<'_> {
         }
     }
 
-    /// Works out the exact places of near pairs, and what contacts pull.
+    /// Works out the exact places of near pairs, and the pulls of their contacts.
     #[cfg_attr(optimized, inline(always))]
     fn touch<S: Simd, const BLOCK: bool>(&self, simd: S, room: &Room, first: usize, pulls: &mut [PullRow]) {
         let images = Images::new(simd, self.plan);
@@ -127,7 +129,7 @@ impl Source<'_> {
 }
 
 impl Source<'_> {
-    /// The places of the chords' intervals.
+    /// For each of `chords`, the place at which its interval begins.
     #[cfg_attr(optimized, inline(always))]
     fn owners<S: Simd>(&self, chords: &[u32]) -> [u32; LANES_MAX] {
         let mut owners = [0; LANES_MAX];
@@ -137,7 +139,7 @@ impl Source<'_> {
         owners
     }
 
-    /// The tags of `places`.
+    /// The tags of the intervals at `places`.
     #[cfg_attr(optimized, inline(always))]
     fn tags<S: Simd>(&self, places: &[u32; LANES_MAX]) -> [u32; LANES_MAX] {
         let mut tags = [0; LANES_MAX];
@@ -147,8 +149,8 @@ impl Source<'_> {
         tags
     }
 
-    /// For places on chords: where they lie along the intervals, and how far from there the exact
-    /// places may be.
+    /// For places on `chords`, as shares of them: the same places as shares of the intervals, and
+    /// the greatest distance from there to the exact places.
     #[cfg_attr(optimized, inline(always))]
     fn places<S: Simd>(&self, simd: S, chords: &[u32], share: S::Floats) -> (S::Floats, S::Floats) {
         let shares: &[[[f32; 4]; 1]] = bytemuck::cast_slice(&self.fixed.shares);
@@ -176,7 +178,7 @@ impl Room {
 const ORDER: [f32; LANES_MAX] =
     [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
 
-/// The places where pairs of intervals come near one another.
+/// The places where pairs of intervals come near one another, one on each.
 #[derive(Clone, Copy)]
 struct Contacts<S: Simd> {
     at: [S::Floats; 2],
@@ -238,7 +240,7 @@ impl<S: Simd> Contacts<S> {
 struct Touches {
     distance: [f32; LANES_MAX],
     ratio: [f32; LANES_MAX],
-    /// The lanes that pull.
+    /// The bits of the lanes whose contacts pull.
     pulling: u32,
     /// What each lane adds to the slots of a [`PullRow`].
     adds: [[[[f32; 4]; 3]; 4]; LANES_MAX],
@@ -297,7 +299,7 @@ impl Touches {
         }
     }
 
-    /// Adds a lane's contact to the pulls at its interval.
+    /// Adds the contact of a lane to the pulls of its interval.
     #[cfg_attr(optimized, inline(always))]
     fn add<const BLOCK: bool>(&self, lane: usize, pull: &mut PullRow) {
         pull.see(self.distance[lane], self.ratio[lane]);

@@ -8,7 +8,7 @@ use crate::parallel::simd::{Floats, Mask, Simd, dot, plus, scale, to_bits};
 pub(super) struct Curve<S: Simd> {
     pub(super) start: [S::Integers; 3],
     pub(super) terms: [[S::Floats; 3]; 3],
-    /// Half width and half height at the beginning, and their growth.
+    /// Half width and half height at the beginning, and the growth of each.
     pub(super) halves: [[S::Floats; 2]; 2],
 }
 
@@ -80,7 +80,7 @@ pub(super) fn acceleration<S: Simd>(
     plus(scale(*c2, simd.splat(2.0)), scale(*c3, simd.splat(6.0) * u))
 }
 
-/// `Interval::reach` of the core, for intervals that run in direction `tangent` there.
+/// `Interval::reach` of the core, for intervals whose direction at `u` is `tangent`.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn reach<S: Simd>(
     simd: S,
@@ -93,7 +93,7 @@ pub(super) fn reach<S: Simd>(
     let height = start[1] + growth[1] * u;
     let round = (width - height).is_zero();
     if round.bits() == S::ALL {
-        // Most yarns are round, and reach as far as they are wide.
+        // Most yarns are round, and reach equally far in all directions.
         return width;
     }
     let [x, y, z] = tangent;

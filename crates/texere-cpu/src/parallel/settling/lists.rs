@@ -1,8 +1,8 @@
 //! Neighbours of all chords.
 //!
-//! Chords are sorted by cells, so that chords of cells side by side also lie side by side in
-//! memory. Most pairs are refused by the distance of their middles. The others are tested as the
-//! core does.
+//! Chords are sorted by cells, so that the chords of cells side by side also lie side by side in
+//! memory. The distance of their middles excludes most pairs. All other pairs are tested as in the
+//! core.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -19,30 +19,32 @@ use crate::parallel::simd::{
     Floats, Job, LANES_MAX, Mask, Simd, between, bit_cast, dot, first, least, scale, to_floats,
 };
 
-/// Chords that one task works on.
+/// The number of chords that one task works on.
 const TASK: usize = 1024;
 
-/// The neighbours of every chord, in the order of their numbers.
+/// The neighbours of every chord, sorted by number.
 #[derive(Debug, Default)]
 pub(super) struct Lists {
-    /// Where each chord's neighbours begin, and the end of the last one's.
+    /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
+    /// all.
     pub(super) starts: Vec<u32>,
-    /// All chords' neighbours, and [`LANES_MAX`] entries more.
+    /// The neighbours of all chords, and [`LANES_MAX`] entries more.
     pub(super) neighbours: Vec<u32>,
-    /// For each chord: its middle (as bits), and the distance from there at which a neighbour's
-    /// reach may begin, mm.
+    /// For each chord: its middle (as bits), and the distance from there up to which it reaches,
+    /// mm. Two chords may be neighbours if their middles are nearer than both distances together.
     middles: Vec<[f32; 4]>,
     /// Each chord's cell and number, with the cell in the high bits, sorted.
     sorted: Vec<u64>,
     /// The columns of `middles` in the order of `sorted`, with [`LANES_MAX`] entries more.
     columns: [Vec<f32>; 4],
-    /// Where each cell's chords begin in `sorted`, and the end of the last cell's.
+    /// The position of each cell's first chord in `sorted`, and at the end the number of all.
     cells: Vec<u32>,
     tasks: Vec<Task>,
 }
 
-/// The neighbours that a task finds.
+/// The memory of a task that lists neighbours.
 #[derive(Debug, Default)]
+/// The neighbours of the task's chords.
 struct Task {
     neighbours: Vec<u32>,
     /// Chords that may be neighbours of the present one.
@@ -60,7 +62,7 @@ pub(super) struct Basis<'a> {
 }
 
 impl Lists {
-    /// Finds all neighbours anew, and returns their number.
+    /// Lists all neighbours anew, and returns their number.
     pub(super) fn fill(&mut self, basis: Basis<'_>) -> Result<u64, BackendError> {
         let (set, count) = (basis.set, basis.chords.len());
         self.middles.resize(count, [0.0; 4]);
@@ -94,7 +96,7 @@ impl Lists {
         });
         let listed: Result<(), BackendError> = listed.collect();
         if listed.is_err() {
-            // The lists found so far fill the memory that was allowed.
+            // The lists made so far fill the memory that is allowed.
             self.tasks.clear();
         }
         listed?;
@@ -126,7 +128,7 @@ impl Lists {
         });
     }
 
-    /// Puts the lists of all tasks into one.
+    /// Joins the lists of all tasks.
     fn gather(&mut self) -> Result<u64, BackendError> {
         let count = self.tasks.iter().map(|task| task.neighbours.len() as u64).sum();
         self.neighbours.resize(count as usize + LANES_MAX, 0);
@@ -149,12 +151,12 @@ impl Lists {
     }
 }
 
-/// A chord's middle.
+/// The middle of a chord, from its row of `middles`.
 fn at([x, y, z, _]: &[f32; 4]) -> IVec3 {
     IVec3::new(x.to_bits().cast_signed(), y.to_bits().cast_signed(), z.to_bits().cast_signed())
 }
 
-/// The middles of a task's chords.
+/// Works out the middles of a task's chords.
 struct MiddleJob<'a> {
     basis: Basis<'a>,
     chords: &'a [ChordRow],
@@ -176,8 +178,8 @@ impl Job for MiddleJob<'_> {
             let own = Chords::<S>::new(simd, chords, &numbers);
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
-            // Each chord has half of what `are_neighbours` allows, and more than rounding and the
-            // units of middles may take away.
+            // Each chord gets half of the distance that `are_neighbours` allows, and more than
+            // rounding and the units of middles may take away from it.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
             let [x, y, z] = bit_cast(own.middle(simd, unit));
@@ -203,8 +205,8 @@ struct Sorted<'a> {
 }
 
 impl Sorted<'_> {
-    /// Writes the chords that may be neighbours of a chord whose middle is `own`, and returns their
-    /// number.
+    /// Writes the chords that may be neighbours of a chord to `near`, and returns their number.
+    /// `own` is that chord's row of `middles`.
     #[cfg_attr(optimized, inline(always))]
     fn near<S: Simd>(&self, simd: S, images: &Images<S>, own: &[f32; 4], near: &mut Vec<u32>) -> usize {
         let zero = [simd.splat(0.0); 3];
@@ -238,17 +240,18 @@ impl Sorted<'_> {
     }
 }
 
-/// The neighbours of a task's chords.
+/// Lists the neighbours of a task's chords.
 struct ListJob<'a> {
     basis: Basis<'a>,
     sorted: Sorted<'a>,
-    /// The first chord.
+    /// The number of the task's first chord.
     first: usize,
-    /// Where each chord's neighbours end, counted from the task's first one.
+    /// For each chord, the end of its neighbours among those of the task.
     ends: &'a mut [u32],
     room: &'a mut Task,
-    /// The number of neighbours that all tasks have found so far, and whether it is allowed.
+    /// The number of neighbours that all tasks have listed so far.
     found: &'a AtomicU64,
+    /// An error if more neighbours were listed than are allowed.
     listed: &'a mut Result<(), BackendError>,
 }
 
@@ -260,7 +263,7 @@ impl Job for ListJob<'_> {
         let Task { neighbours, near } = room;
         let images = Images::new(simd, plan);
         let (grown, skin) = (simd.splat(MARGIN * growth), simd.splat(SKIN * plan.spans().diameter));
-        // The present yarn and its chords.
+        // The yarn of the present chord, and the chords of that yarn.
         let (mut yarn, mut own) = (0, 0..0);
         neighbours.clear();
         for (number, end) in (start as u32..).zip(ends) {
@@ -277,7 +280,7 @@ impl Job for ListJob<'_> {
                 let others = &near[k..][..S::LANES];
                 let other = Chords::<S>::new(simd, chords, others);
                 let Nearest { apart, image, .. } = Nearest::new(simd, &images, &one, &other);
-                // `are_neighbours` of the core.
+                // The distance that `are_neighbours` of the core allows.
                 let thickness = one.thickest + other.thickest;
                 let within = grown * thickness + skin;
                 let mut found = dot(apart, apart).less(within * within).bits() & first::<S>(count - k);

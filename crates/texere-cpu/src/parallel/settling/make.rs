@@ -12,7 +12,7 @@ use crate::parallel::simd::{
 pub(super) struct Make<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) fixed: &'a Fixed,
-    /// All places, behind [`FRONT`] entries more.
+    /// All places. [`FRONT`] entries come before the first.
     pub(super) places: &'a [Place],
     /// The place of the first of `intervals`.
     pub(super) first: usize,
@@ -40,7 +40,7 @@ impl Make<'_> {
             let a = scale(to_floats(between(start, corner(simd, &places[done..]))), unit);
             let b = scale(to_floats(between(start, corner(simd, &places[done + 2..]))), unit);
             let c = scale(to_floats(between(start, corner(simd, &places[done + 3..]))), unit);
-            // The coefficients, as the core works them out.
+            // The coefficients, worked out as in the core.
             let c1 = scale(difference(b, a), simd.splat(s));
             let sum = plus(scale(a, simd.splat(2.0 * s)), scale(b, simd.splat(3.0 - 2.0 * s)));
             let c2 = difference(sum, scale(c, simd.splat(s)));

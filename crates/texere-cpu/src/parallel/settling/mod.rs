@@ -1,4 +1,4 @@
-//! Settling in lanes on all cores: the same bits as the reference.
+//! Settling in lanes on all cores, with the same bits as the reference.
 
 mod bends;
 mod chords;
@@ -34,21 +34,22 @@ pub(crate) struct ParallelSettler {
     set: InstructionSet,
     plan: Arc<SettlingPlan>,
     fixed: Fixed,
-    /// The places as they are now, between [`FRONT`] entries more before the first and [`BACK`]
-    /// behind the last.
+    /// The present places. [`FRONT`] more entries come before the first, and [`BACK`] behind the
+    /// last.
     places: Vec<Place>,
-    /// The places that the last pass has seen, likewise. During a pass it takes the next places.
+    /// The places that the last pass measured, before it moved them, with as many more entries.
+    /// During a pass the next places are written here.
     seen: Vec<Place>,
-    /// The places that were kept, likewise; empty before that.
+    /// The places that were kept, with as many more entries. Empty until places are kept.
     kept: Vec<Place>,
-    /// The step that each point has taken last, mm.
+    /// The last step of each point, mm.
     steps: Vec<[f32; 4]>,
-    /// The length that each interval shall have, mm.
+    /// The length that each interval should have, mm.
     lengths: Vec<f32>,
     intervals: Vec<IntervalRow>,
     chords: Vec<ChordRow>,
     lists: Lists,
-    /// The pulls at all intervals, behind [`FRONT`] entries more.
+    /// The pulls of all intervals. [`FRONT`] more entries come before the first.
     pulls: Vec<PullRow>,
 }
 
@@ -78,7 +79,7 @@ impl ParallelSettler {
         }
     }
 
-    /// Works out all intervals and their chords.
+    /// Works out all intervals and their chords from the places.
     fn renew(&mut self) {
         let Self { set, plan, fixed, places, intervals, chords, .. } = self;
         let (plan, fixed, places) = (&**plan, &*fixed, places.as_slice());
@@ -97,7 +98,7 @@ impl ParallelSettler {
     }
 }
 
-/// Works out the pulls at a task's intervals.
+/// Works out the pulls of a task's intervals.
 struct PullJob<'a> {
     source: Source<'a>,
     own: Own<'a>,
@@ -218,8 +219,8 @@ impl Settler for ParallelSettler {
     }
 }
 
-/// Copies pulls to the intervals beyond a yarn's ends, where the yarn goes on. The points at its
-/// ends also steer those intervals.
+/// Copies pulls to the intervals beyond a yarn's ends, if the yarn goes on in the next repeat. The
+/// points at the yarn's ends follow these intervals, too.
 fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     if strand.shift().is_some() {
         let first = FRONT + strand.first as usize;
@@ -229,7 +230,7 @@ fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     }
 }
 
-/// Renews the lengths that intervals shall have, where lengths are free.
+/// Renews the lengths that intervals should have. It is called if lengths are free.
 fn free(plan: &SettlingPlan, pulls: &[PullRow], lengths: &mut [f32], tension: f32) {
     let tasks = lengths[..plan.tags().len()].par_iter_mut().enumerate();
     tasks.filter(|(place, _)| plan.tags()[*place] & tag::INTERVAL != 0).for_each(|(place, length)| {

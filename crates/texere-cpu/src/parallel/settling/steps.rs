@@ -7,18 +7,20 @@ use crate::parallel::simd::{
     Floats, IN_TURN, Integers, LANES_MAX, Simd, difference, dot, plus, rounded, scale, select, share,
 };
 
-/// The input of a step.
+/// The input of all steps of a pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gather<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) pass: &'a Pass,
-    /// All places, behind [`FRONT`] entries more; `pulls` is laid out likewise.
+    /// All places. [`FRONT`] entries come before the first.
     pub(super) places: &'a [Place],
+    /// The pulls of all intervals. [`FRONT`] entries come before the first.
     pub(super) pulls: &'a [PullRow],
 }
 
 impl Gather<'_> {
-    /// Moves the places from `first` on, one for each of `steps`, and returns the longest step, mm.
+    /// Moves the places from number `first` on, one for each of `steps`, and returns the longest
+    /// step, mm.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn step<S: Simd>(
         &self,
@@ -111,7 +113,7 @@ impl Gather<'_> {
     }
 }
 
-/// The core's function of that name.
+/// `solved` of the core.
 #[cfg_attr(optimized, inline(always))]
 fn solved<S: Simd>(
     simd: S,

@@ -1,5 +1,5 @@
-//! The tables that the lanes of a settling read. Rows have four floats, so that a vector of rows is
-//! four loads and a transposition.
+//! The tables that the lanes of a settling read. Rows have four floats, so that a vector of rows
+//! takes four loads and a transposition.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::settling::{SettlingPlan, tag};
@@ -7,21 +7,21 @@ use texere_core::settling::{SettlingPlan, tag};
 use crate::cells::owners;
 use crate::parallel::simd::LANES_MAX;
 
-/// Places that one task works on.
+/// The number of places that one task works on.
 pub(super) const TASK: usize = 512;
 
 /// Tables that never change during a settling.
 #[derive(Debug)]
 pub(super) struct Fixed {
-    /// For each place's interval: the growth of its half width, its half width and its half height
-    /// at the beginning, and the growth of its half height, mm.
+    /// For the interval at each place: the growth of its half width, its half width and its half
+    /// height at the beginning, and the growth of its half height, mm.
     pub(super) halves: Vec<[f32; 4]>,
-    /// For each place's interval: the largest half width or half height, mm.
+    /// For the interval at each place: the largest half width or half height, mm.
     pub(super) thickest: Vec<f32>,
-    /// The place of each chord's interval.
+    /// For each chord, the place at which its interval begins.
     pub(super) owners: Vec<u32>,
-    /// For each chord: where along its interval it begins and ends, its number in the interval, and
-    /// one over the number of the interval's chords.
+    /// For each chord: the shares of its interval at which it begins and ends, its number in the
+    /// interval, and one over the number of the interval's chords.
     pub(super) shares: Vec<[f32; 4]>,
 }
 
@@ -50,15 +50,15 @@ impl Fixed {
     }
 }
 
-/// An interval, in four rows. Each has a vector and a number: the beginning (as bits of `i32`) and
-/// the growth of the half width; the coefficient of u and the half width; that of u² and the half
-/// height; that of u³ and the growth of the half height.
+/// An interval, in four rows of a vector and a number each: the beginning (as bits of `i32`) and
+/// the growth of the half width; the coefficient of u and the half width; the coefficient of u² and
+/// the half height; the coefficient of u³ and the growth of the half height.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct IntervalRow(pub(super) [[f32; 4]; 4]);
 
-/// A chord, in two rows: where it begins and the place of its interval (as bits); its span and the
-/// interval's thickest half.
+/// A chord, in two rows: the point where it begins and the place of its interval (both as bits);
+/// its span and the largest half of its interval.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct ChordRow(pub(super) [[f32; 4]; 2]);
@@ -69,10 +69,12 @@ pub(super) struct ChordRow(pub(super) [[f32; 4]; 2]);
 pub(super) struct PullRow {
     /// The slots of the core's `Pull`. Each has twelve numbers, of which the last three are 0.
     pub(super) slots: [[[f32; 4]; 3]; 4],
-    /// Half of the interval's surplus length, as a vector along its chord, and its length, mm.
+    /// Half of the interval's surplus length, as a vector along its chord, and the interval's
+    /// length, mm.
     pub(super) length: [f32; 4],
-    /// The least distance to another yarn, mm; the least distance over the sum of both reaches; the
-    /// least radius of curvature, in diameters; the share by which the length is off.
+    /// Four measures: the least distance to another yarn, mm; the least of those distances divided
+    /// by the sum of both reaches; the least radius of curvature, in diameters; the share by which
+    /// the length is off.
     pub(super) seen: [f32; 4],
 }
 
@@ -83,17 +85,19 @@ impl PullRow {
         seen: [f32::INFINITY, f32::INFINITY, f32::INFINITY, 0.0],
     };
 
-    /// The number of the row `length`, and of the row `seen`.
+    /// The number of the row `length` in [`PullRow::rows`].
     pub(super) const LENGTH: usize = 12;
+    /// The number of the row `seen` in [`PullRow::rows`].
     pub(super) const SEEN: usize = 13;
 
-    /// All of `pulls` as rows of four.
+    /// All of `pulls` as rows of four numbers.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn rows(pulls: &[Self]) -> &[[[f32; 4]; 14]] {
         bytemuck::cast_slice(pulls)
     }
 
-    /// Notes a distance to another yarn.
+    /// Takes a distance to another yarn, and its ratio to the sum of both reaches, into the
+    /// measures.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn see(&mut self, distance: f32, ratio: f32) {
         self.seen[0] = self.seen[0].min(distance);
@@ -101,6 +105,7 @@ impl PullRow {
     }
 }
 
-/// Entries before the first place's and behind the last place's, so that no vector reaches outside.
+/// The number of entries before the first place's, so that no vector reaches outside.
 pub(super) const FRONT: usize = 4;
+/// The number of entries behind the last place's, so that no vector reaches outside.
 pub(super) const BACK: usize = 2 * LANES_MAX;

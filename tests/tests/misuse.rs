@@ -146,7 +146,7 @@ fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
 }
 
 /// A chunk of another plan is refused, even if both plans have the same yarns and settings: a chunk
-/// knows its plan, and tables are not compared.
+/// carries its plan's identity, and tables are not compared.
 #[test]
 fn a_chunk_of_another_plan() {
     on_every_device(|device, plan, chunks, mut session| {

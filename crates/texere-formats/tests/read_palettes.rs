@@ -98,7 +98,8 @@ enum Bmp {
     Lists,
 }
 
-/// A BMP with an info header that states `told` colours. 0 means as many as its bits can number.
+/// A BMP with an info header that states `told` colours. 0 stands for as many colours as its bits
+/// can number.
 fn bmp(
     bits: usize,
     [colors, told]: [usize; 2],

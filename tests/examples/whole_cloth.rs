@@ -77,7 +77,7 @@ fn compare(yarns: &Yarns, device: &dyn Backend) -> Worst {
         ControlFlow::Continue(())
     });
     let _: ControlFlow<()> = flow.unwrap();
-    // The comparison above would not notice a chunk whose pieces never came.
+    // The comparison above does not notice a chunk without pieces.
     assert!(
         worst.vertices >= plan.counts().vertices,
         "{} vertices of {}",
@@ -114,7 +114,7 @@ impl Worst {
                         let apart =
                             (found.position[axis] - gold.position[axis]).abs() / (1e-4 * radius + 4.0 * ulp);
                         let turned = (found.normal[axis] - gold.normal[axis]).abs() / 1e-4;
-                        // A comparison must not lose a NaN.
+                        // A NaN has to be kept, so the comparisons are written to fail for it.
                         self.position = if apart <= self.position { self.position } else { apart };
                         self.normal = if turned <= self.normal { self.normal } else { turned };
                     }

@@ -62,7 +62,7 @@ fn cloths_are_put_together_and_taken_apart() {
     let both = Yarns::merged([&one, &other, &one]).unwrap();
     let counts = [&one, &other].map(|cloth| cloth.layout().yarns().len());
     assert_eq!(both.layout().yarns().len(), 2 * counts[0] + counts[1]);
-    // The third cloth adds nothing new.
+    // The third cloth is the first one again. It adds no section.
     assert_eq!(both.layout().sections(), Yarns::merged([&one, &other]).unwrap().layout().sections());
     for (cloth, first) in [(&one, 0), (&other, counts[0]), (&one, counts[0] + counts[1])] {
         let own = both.only(first..first + cloth.layout().yarns().len()).unwrap();
@@ -111,7 +111,7 @@ fn yarns_keep_their_tension_wherever_they_go() {
         moved,
     ];
     assert_eq!(kept.map(|yarns| yarns.tension()), [0.3; 7]);
-    // Nothing else has changed: with the first tension the mesh is the first one again.
+    // Only the tension has changed: with the first tension back, the mesh equals the first mesh.
     assert!(vertices(&taut.clone().with_tension(0.0).unwrap()) == vertices(&slack));
     let refused = Yarns::merged([&taut, &slack]).unwrap_err();
     assert_eq!(refused, YarnError::OtherTension { given: 0.0, tension: 0.3 });

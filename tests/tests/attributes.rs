@@ -139,7 +139,7 @@ fn attributes_agree_with_the_oracle_on_every_backend_and_however_it_is_cut() {
     assert!(cases.len() > 50 && cut > 10, "{} cases, {cut} of them in several chunks", cases.len());
 }
 
-/// Lengths of the old points are out of date.
+/// After an upload, the lengths that were measured along the old points are out of date.
 #[test]
 fn yarns_are_measured_before_attributes_and_again_after_uploads() {
     let device = SerialBackend::new();

@@ -286,7 +286,7 @@ fn a_polygon_needs_its_own_number_of_sides() {
     assert!(matches!(error, PipelineError::Plan(error) if error == expected));
 }
 
-/// A plan needs only a layout, so that these take no memory at all.
+/// A plan needs only a layout, so these yarns take no memory for their points.
 #[test]
 fn more_rings_than_can_be_counted() {
     let plan = |offsets: Vec<u64>, subdivisions| {
@@ -338,7 +338,8 @@ fn limits_that_hold_no_block() {
     }
 }
 
-/// The largest and the smallest numbers that are taken give finite output, and normals of length 1.
+/// The largest and the smallest numbers that are allowed give finite output, and normals of length
+/// 1.
 #[test]
 fn the_edges_of_what_is_taken() {
     let line = |points: &[(f32, f32)]| -> Vec<ControlPoint> {
@@ -348,7 +349,7 @@ fn the_edges_of_what_is_taken() {
     let tiny = line(&[(0.0, 1e-4), (1e-30, 1e-4), (1e-20, 1e-4), (1.0, 1e-4)]);
     // A step in the radius: a growth of 1e19, whose square f32 can't hold.
     let steep = line(&[(0.0, 1e-4), (1e-15, 3e4), (2e-15, 1e-4), (3e-15, 3e4)]);
-    // Yarns as flat as possible, and on edge.
+    // Yarns as flat as allowed, lying flat and on edge.
     let flat = |points: &[ControlPoint], height: f32| -> Vec<ControlPoint> {
         points.iter().map(|point| point.flattened(point.half_width(), height)).collect()
     };

@@ -327,7 +327,7 @@ fn draws_make_the_triangles_of_the_whole() {
     });
 }
 
-/// A shared pattern is only as long as it has to be, also for a yarn longer than it covers.
+/// A shared pattern is only as long as it has to be, even if a yarn is longer than the pattern.
 #[test]
 fn a_yarn_longer_than_the_shared_pattern_is_drawn_in_several_goes() {
     let yarns = winding(1_000, Yarn::default());

@@ -1,5 +1,5 @@
 //! Settling of crossings on every device of the registry, against `cpu-serial`: positions of
-//! threads, what passes see, and whole courses.
+//! threads, the measures of passes, and whole courses.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -78,7 +78,7 @@ fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
     Crossings::new(ups, warp, weft)
 }
 
-/// Cloths that together have everything that passes distinguish.
+/// Cloths that together have every case that a pass treats differently.
 fn cloths() -> Vec<(&'static str, Crossings)> {
     let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);
     let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
@@ -170,7 +170,7 @@ fn reference(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32) -> 
     eight_passes(serial.as_mut(), begin, first).expect("a course")
 }
 
-/// The largest difference in what two passes saw.
+/// The larger difference of the measures of two passes, of the step or of the clearance.
 fn seen_apart(one: &CrossingsSeen, other: &CrossingsSeen) -> f32 {
     (one.step - other.step).abs().max((one.clearance - other.clearance).abs())
 }
@@ -233,7 +233,7 @@ fn devices_move_crossings_as_the_reference_does() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// The comparison can fail: each broken settler is caught, and a sound one is not.
+/// The comparison can fail: each broken settler is caught, and a correct one is not.
 #[test]
 fn broken_settlers_are_caught() {
     let problem = uneven(7, 6);
@@ -341,8 +341,8 @@ fn passes_end_where_they_should() {
     }
 }
 
-/// A device with little memory, in each buffer or in all, gives the same result or says what is too
-/// large.
+/// A device with little memory, in each buffer or in all, gives the same result, or an error that
+/// names what is too large.
 #[test]
 fn small_memories_do_the_same_or_are_refused_by_name() {
     type Held = fn(Limits) -> Option<Box<dyn Backend>>;

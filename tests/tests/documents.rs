@@ -1,4 +1,5 @@
-//! What documents show is what runs, and the map of the sources is true.
+//! The code in docs/BACKENDS.md is code that runs, and the files and names in docs/ARCHITECTURE.md
+//! exist.
 
 use std::path::Path;
 
@@ -18,14 +19,14 @@ fn the_backend_of_the_document_is_the_one_that_is_proved() {
     assert_eq!(shown.filter(code).collect::<Vec<_>>(), run.filter(code).collect::<Vec<_>>());
 }
 
-/// What a path with alternatives in braces stands for.
+/// The paths that `path` stands for, which may have alternatives in braces.
 fn alternatives(path: &str) -> Vec<String> {
     let Some((before, rest)) = path.split_once('{') else { return vec![path.into()] };
     let (inside, after) = rest.split_once('}').unwrap();
     inside.split(',').flat_map(|one| alternatives(&format!("{before}{one}{after}"))).collect()
 }
 
-/// Whether there is such a file or folder. A star in the last part stands for any letters.
+/// Whether `path` is a file or a folder. A star in its last part stands for any letters.
 fn is_there(path: &Path) -> bool {
     let name = path.file_name().unwrap().to_str().unwrap();
     let Some((start, end)) = name.split_once('*') else { return path.exists() };
@@ -34,7 +35,7 @@ fn is_there(path: &Path) -> bool {
     names.any(|name| name.starts_with(start) && name.ends_with(end))
 }
 
-/// A path of the map is one from the root or from `crates`.
+/// A path in the map begins at the root of the repository or in `crates`.
 #[test]
 fn every_path_of_the_map_is_there() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

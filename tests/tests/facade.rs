@@ -1,5 +1,5 @@
-//! The facade is easy to read: few names at its root, each name in one room, and each public type's
-//! name once.
+//! The facade is easy to read: it has few names at its root, each name is in one room, and each
+//! public type's name occurs once. A room is the root of a crate or one of its public modules.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -119,8 +119,8 @@ fn the_root_of_the_facade_has_few_names() {
 
 #[test]
 fn each_name_lies_in_one_room() {
-    // Settling and crossings are two stages with the same vocabulary: both have a `settle`, a
-    // margin, a bend.
+    // The modules `settling` and `crossings` use the same words for two stages: both have a
+    // `settle`, a margin, a bend.
     let core = |room: &str| !matches!(room, "settling" | "crossings");
     let facade = rooms_of(&crates().join("texere/src"), |_| true);
     for (room, found) in

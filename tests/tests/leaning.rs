@@ -25,7 +25,7 @@ fn cloth(section: Section, twist: f32) -> Yarns {
     Woven::new(plain, warp, weft, vec![Material::default()], vec![section]).unwrap().yarns().unwrap()
 }
 
-/// Turned about x, then about z, rad.
+/// `yarns` turned about x and then about z, rad, and the matrix of both turns.
 fn turned(yarns: &Yarns, [x, z]: [f64; 2]) -> (Yarns, DMat3) {
     let turn = DMat3::from_rotation_z(z) * DMat3::from_rotation_x(x);
     (yarns.mapped(|place| (turn * DVec3::from_array(place)).to_array()).unwrap(), turn)
@@ -35,7 +35,8 @@ fn least(yarns: &Yarns) -> f64 {
     clearance(yarns, &Settings::default()).unwrap().min
 }
 
-/// Bent around a cylinder of this radius, mm, whose axis has this direction in the plane.
+/// `yarns` bent around a cylinder of this radius, mm. Its axis lies in the plane of the cloth,
+/// `way` radians from y.
 fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     let (sin, cos) = way.sin_cos();
     let map = |[x, y, z]: [f64; 3]| {
@@ -47,8 +48,8 @@ fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     yarns.mapped(map).unwrap()
 }
 
-/// Bent over a saddle: down along x and up along y, with this radius, mm, in the middle of the
-/// cloth.
+/// `yarns` bent over a saddle: down along x and up along y, with this radius, mm, in the middle of
+/// the cloth.
 fn saddle(yarns: &Yarns, radius: f64) -> Yarns {
     saddle_about(yarns, radius, [1.65; 2])
 }
@@ -113,7 +114,7 @@ fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
     assert!((after - before).abs() < 0.01, "saddle: {after} for {before}");
 }
 
-/// The yarns with this width over height.
+/// `yarns` with this width over height.
 fn flattened(yarns: &Yarns, flatness: f32) -> Yarns {
     let flattened = |point: &ControlPoint| {
         let radius = (point.half_width() * point.half_height()).sqrt();
@@ -281,7 +282,8 @@ fn flat_yarns_that_are_raised_are_live() {
         for (number, yarns) in edits.iter().enumerate() {
             let points = yarns.yarn_points(1).unwrap();
             let first = live.plan().layout().offsets()[1];
-            // Equally many points are a move; more or fewer are another yarn.
+            // If the number of points is the same, they are uploaded. Otherwise the yarn is
+            // replaced.
             if points.len() as u64 == live.plan().layout().offsets()[2] - first {
                 live.upload(first, points).unwrap();
             } else {
@@ -296,7 +298,7 @@ fn flat_yarns_that_are_raised_are_live() {
     }
 }
 
-/// The whole mesh of a live one.
+/// The whole mesh that `live` keeps.
 fn kept(live: &mut LiveMesh) -> Mesh {
     let mut kept = Mesh {
         plan: live.plan().clone(),
@@ -404,8 +406,8 @@ fn ups_that_are_none_are_named() {
     assert!(flat.mapped(|[x, _, _]| [x, x, x]).is_err());
 }
 
-/// A live mesh of bent cloth equals a fresh one. A moved yarn takes another plan, and a ray from
-/// outside hits the surface that lies there.
+/// A live mesh of bent cloth equals a fresh one. It refuses to move a yarn within its plan. A ray
+/// from outside hits the surface that lies there.
 #[test]
 fn bent_cloth_is_kept_live_and_picked() {
     let bent = saddle(&cloth(Section::Circle, 0.0), 6.0);

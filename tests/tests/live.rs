@@ -41,7 +41,8 @@ enum Edit {
         material: usize,
         srgb: [u8; 3],
     },
-    /// All yarns move as if settled, except those whose number is a multiple of this.
+    /// All yarns move as if they had settled, except those whose number is a multiple of
+    /// `multiple`.
     Rest {
         lower: f32,
         multiple: usize,
@@ -132,7 +133,7 @@ fn yarns_of(yarns: &Yarns) -> Vec<(Yarn, Vec<ControlPoint>)> {
     yarns.layout().yarns().iter().enumerate().map(|(yarn, what)| (*what, points(yarn))).collect()
 }
 
-/// Applies an edit to both. Returns the edits that take it back.
+/// Applies an edit to `live` and to `model`.
 fn apply(live: &mut Live, model: &mut Model, edit: &Edit) {
     match *edit {
         Edit::Lift { end, pick, up } => {
@@ -370,7 +371,8 @@ fn a_lift_makes_two_yarns_again() {
     assert_eq!((vertices, update.anew), (rings * 6, false));
 }
 
-/// Cloth is shown as woven, and again at rest. A lift after that lies as woven among yarns at rest.
+/// A cloth is shown as woven, and then at rest. The two yarns of a later lift lie as woven, among
+/// yarns at rest.
 #[test]
 fn cloth_at_rest_keeps_its_weave() {
     let threads = |count| vec![Thread::new(0.35, 0.15); count];

@@ -28,8 +28,8 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
     peak
 }
 
-/// A mesh of 600 MB is streamed. The bound has the control points and two chunks with their tables.
-/// A chunk has two buffers of 64 MiB at most.
+/// A mesh of 600 MB is streamed. The bound counts the control points and two chunks with their
+/// tables. A chunk has two buffers of 64 MiB at most.
 fn a_stream_peaks_at_two_chunks() {
     let yarns = cases::winding(1_000_000, Yarn::default());
     let points = size_of_val(yarns.points());

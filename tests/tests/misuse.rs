@@ -14,8 +14,8 @@ fn straight(points: usize) -> Vec<ControlPoint> {
     (0..points).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect()
 }
 
-/// A twisted yarn of several blocks, with a session that has its points but no scan yet. It runs on
-/// every device that takes it, and on the null device.
+/// Calls `check` for a twisted yarn of several blocks, on every device that can make its mesh and
+/// on the null device. The session has the yarn's points, but no scan yet.
 fn on_every_device(check: impl Fn(&dyn Backend, &Arc<Plan>, &[Chunk], Session)) {
     let points = straight(200);
     let mut yarns = Yarns::builder();
@@ -146,7 +146,7 @@ fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
 }
 
 /// A chunk of another plan is refused, even if both plans have the same yarns and settings: a chunk
-/// knows its plan, and tables are not compared.
+/// carries its plan's identity, and tables are not compared.
 #[test]
 fn a_chunk_of_another_plan() {
     on_every_device(|device, plan, chunks, mut session| {
@@ -197,8 +197,8 @@ fn the_backend_that_does_nothing_streams_any_number_of_chunks() {
         })
         .stream(&NullBackend::default(), |_, _| ControlFlow::<()>::Continue(()));
     assert!(ended.unwrap().is_continue());
-    // One for the upload, and one for each block except the last, which shares a chunk with the
-    // block before.
+    // One step for the upload, and one for each block except the last, which shares a chunk with
+    // the block before.
     assert_eq!(steps, 1 + 3999u32.div_ceil(64) - 1);
 }
 

@@ -74,7 +74,8 @@ fn each_package_names_the_oldest_rust_that_builds_it() {
             newer.insert((name, claimed));
         }
     }
-    // Otherwise no dependency was followed.
+    // A dependency of texere-view needs a newer Rust than texere. If it is not found, dependencies
+    // were not followed.
     assert!(newer.contains(&("texere-view", "1.95")), "{newer:?}");
     let workflow = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows/ci.yml");
     let workflow = std::fs::read_to_string(workflow).unwrap();
@@ -149,8 +150,8 @@ fn what_gpu_backends_share_names_no_interface() {
     }
 }
 
-/// The crate that measures yarns knows no structures. Of texere's packages it depends on the core
-/// only.
+/// The crate that measures yarns does not depend on the crate of structures. The core is the only
+/// one of texere's packages on which it depends.
 #[test]
 fn contacts_know_no_structure() {
     let needs = needs("texere-contact", "--all-features");
@@ -179,7 +180,7 @@ fn the_cores_sources_name_no_gpu_interface() {
     assert!(read > 10, "{read} files");
 }
 
-/// The facade depends on a GPU backend exactly where its feature is on.
+/// The facade depends on a GPU backend exactly if that backend's feature is on.
 #[test]
 fn the_facade_has_the_backends_that_it_is_asked_for() {
     let all = needs("texere", "--all-features");

@@ -58,7 +58,8 @@ fn packed_vertices_are_the_meshs_on_every_backend_and_however_it_is_cut() {
     assert!(cases.len() > 50 && cut > 10, "{} cases, {cut} of them in several chunks", cases.len());
 }
 
-/// Runs of blocks that bypass the caches, and cache lines that two runs share.
+/// A large cloth has runs of blocks whose vertices bypass the caches, and cache lines that two runs
+/// share.
 #[test]
 fn a_large_cloth_is_packed_as_its_mesh() {
     let yarns = cases::design("paper/489x450.toml").yarns().unwrap();
@@ -75,8 +76,8 @@ fn a_large_cloth_is_packed_as_its_mesh() {
     }
 }
 
-/// A yarn of ten metres. Each block is unpacked near its own control point, and the grid begins
-/// again many times along the yarn.
+/// A yarn of ten metres. Each block is unpacked near its own control point, and packed coordinates
+/// wrap round many times along the yarn.
 #[test]
 fn a_cloth_may_be_larger_than_the_quantum_reaches() {
     let points: Vec<_> =
@@ -146,7 +147,7 @@ fn turned(normal: DVec3) -> f64 {
     normal.cross(unpacked).length().atan2(normal.dot(unpacked))
 }
 
-/// Axes, edges and faces of the octahedron: the places of its fold, and those where a step turns a
+/// Normals on the axes, edges and faces of the octahedron: on its folds, and where a step turns a
 /// normal most.
 #[test]
 fn normals_at_the_folds_keep_their_direction() {

@@ -174,7 +174,7 @@ proptest! {
         }
     }
 
-    /// Any yarns that are taken give finite numbers, tangents and normals of length 1, and radii
+    /// Any yarns that are allowed give finite numbers, tangents and normals of length 1, and radii
     /// above zero.
     #[test]
     fn output_is_sound(yarns in yarns(), settings in settings()) {

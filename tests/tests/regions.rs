@@ -16,7 +16,7 @@ use texere_core::{
 type Corner = (u32, u64, u32);
 
 /// Fabrics whose blocks are scattered over a box: many yarns, and single yarns that wind through
-/// it.
+/// the box.
 fn fabrics() -> Vec<(&'static str, Yarns)> {
     let straight = |y: usize| {
         let points: Vec<_> = (0..150).map(|x| ControlPoint::new(x as f32, y as f32, 0.0, 0.2)).collect();

@@ -31,7 +31,7 @@ fn settled(piece: &Piece) -> Settled {
     settle(piece, &Finish::default(), &cpu, |_| ControlFlow::Continue(())).expect("a settling")
 }
 
-/// The nearest contact without a cut end.
+/// The ratio of the nearest contact that is not at a cut end.
 fn inner(yarns: &Yarns, found: &Clearance) -> f64 {
     let is_cut = |place: &texere_core::YarnPlace| {
         let points = yarns.yarn_points(place.yarn).map_or(0, <[_]>::len);
@@ -50,9 +50,9 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     }
     let copied = repeat.placed(&one.yarns).expect("copies");
     assert_eq!(copied.layout().offsets(), whole.yarns.layout().offsets());
-    // Any clear cloth without tight bends is at rest, so that both need not end in one place. Each
-    // point starts up to 0.01 diameters off along each axis, in its own direction, which puts it up
-    // to 0.035 mm from the same point of the other.
+    // Any clear cloth without tight bends is at rest, so both cloths need not end in the same
+    // place. At the start each point is moved by up to 0.01 diameters along each axis, in its own
+    // direction. Equal points of both cloths may therefore be up to 0.035 mm apart.
     let apart = |one: &Yarns, other: &Yarns| {
         let pairs = one.points().iter().zip(other.points());
         pairs.map(|(one, other)| one.position().distance(other.position())).fold(0.0, f32::max)

@@ -1,4 +1,4 @@
-//! Starts for settling, and the checks of settled cloth: tests that both can be trusted.
+//! Tests of the starts for settling, and of the checks of settled cloth.
 
 use std::f64::consts::TAU;
 
@@ -73,7 +73,7 @@ fn lengths_are_against_the_start() {
 
 #[test]
 fn a_yarn_is_near_itself_only_further_along() {
-    // A tight ring is this near itself everywhere. Places count from half way round on.
+    // Every place of a tight ring is near to others. Two places count only from half way round on.
     let ring = start(vec![circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 0.6, 24, 0.5)]);
     let report = check(&ring, &ring.points());
     let chord = 1.2 * (TAU / 4.0 / 1.2f64).sin();
@@ -97,7 +97,7 @@ fn straight_yarns_are_as_far_apart_as_they_are() {
     assert!((apart.clearance - 1.0 / 0.75).abs() < 1e-9, "{apart:?}");
     assert_eq!(apart.bend, f64::INFINITY);
 
-    // The result over the seam does not depend on where yarns begin.
+    // The distance across the seam of the repeat does not depend on where the yarns begin.
     for repeats in [0.0, 3.0, -2.0] {
         pair.repeat = [10.0; 2];
         let mut points = pair.points();
@@ -298,7 +298,7 @@ fn lace_hangs_together() {
     }
 }
 
-/// A loop of each bar in every warp knit, also with thin yarn.
+/// In every warp knit, also of thin yarn, a loop of each bar is drawn through others.
 #[test]
 fn warp_loops_are_drawn_through() {
     let is_tested = |start: &Start| start.repeat == [4.0, 3.0] && start.yarns[0].radius > 0.045;

@@ -46,7 +46,8 @@ fn starts_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Cloths without equal repeats, and with many moving points, of which the worst decide.
+/// Large cloths that nowhere repeat, with many moving points. The worst points decide whether they
+/// are at rest.
 #[test]
 fn large_cloths_come_to_rest() {
     let failed: Vec<_> = [random_misses(30, 1), lace(25)].iter().filter_map(lacking).collect();
@@ -68,7 +69,7 @@ fn flattened_plain(pitch: f64) -> (Start, Yarns) {
     (start, yarns.build().expect("yarns"))
 }
 
-/// Plans that together have everything that passes distinguish.
+/// Plans that together have every case that a pass treats differently.
 fn plans() -> Vec<(&'static str, Arc<SettlingPlan>)> {
     let mut plans: Vec<_> = starts()
         .iter()
@@ -109,8 +110,8 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
-/// Eight passes of either form, in which neighbours are listed twice. The result is what each pass
-/// saw, and the positions after it.
+/// Eight passes of either form, in which neighbours are listed twice. The result has the measures
+/// of each pass, and the positions after it.
 fn eight_passes(
     plan: &SettlingPlan,
     settler: &mut dyn Settler,

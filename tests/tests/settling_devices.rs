@@ -1,5 +1,5 @@
-//! Settling on every device of the registry, against `cpu-serial`: positions, what passes see,
-//! neighbours, and whole courses.
+//! Settling on every device of the registry, against `cpu-serial`: positions, the measures of
+//! passes, neighbours, and whole courses.
 
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ fn linked_rings() -> SettlingPlan {
     SettlingPlan::new(&Settling::new(&rings.build().expect("yarns"))).expect("a plan")
 }
 
-/// Plans that together have everything that passes distinguish.
+/// Plans that together have every case that a pass treats differently.
 fn plans() -> Vec<(String, Arc<SettlingPlan>)> {
     let mut plans: Vec<_> =
         starts().into_iter().map(|start| (start.name.clone(), settling_plan(&start))).collect();
@@ -219,7 +219,7 @@ fn devices_settle_as_the_reference_does() {
     assert!(certain >= 40, "{certain} of 82 are held to {OFF} diameters");
 }
 
-/// The comparison can fail: each broken settler is caught in either form, and a sound one is not.
+/// The comparison can fail: each broken settler is caught in either form, and a correct one is not.
 #[test]
 fn broken_settlers_are_caught() {
     let plan = settling_plan(&start("tuck-5"));
@@ -267,8 +267,8 @@ fn yarns_too_thick_on_one_another_are_refused() {
     }
 }
 
-/// A device with little memory, in each buffer or in all, gives the same result or says what is too
-/// large.
+/// A device with little memory, in each buffer or in all, gives the same result, or an error that
+/// names what is too large.
 #[test]
 fn small_memories_settle_the_same_or_are_refused_by_name() {
     let Ok(device) = OpenClBackend::open(0, Schedule::PerRing) else { return };
@@ -371,7 +371,7 @@ fn starts_come_to_rest_on_every_device() {
     assert_eq!(held, 20, "starts with one way to rest");
 }
 
-/// Yarns that meet nowhere have no neighbours, and passes see nothing.
+/// Yarns that meet nowhere have no neighbours, and passes measure no distance.
 #[test]
 fn a_lone_yarn_sees_nothing() {
     let yarn =

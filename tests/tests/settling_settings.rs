@@ -10,7 +10,8 @@ use texere_core::settling::{Length, Rest, Settling, SettlingPlan, settle, settle
 use texere_core::{Backend, Boundary, ControlPoint, Ends, Settings, SettlingError, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
-/// The yarns of a start with their boundary. Yarn number `yarn` has the halves `halves(yarn)`, mm.
+/// The yarns of a start with their boundary. Yarn number `yarn` has the half width and the half
+/// height `halves(yarn)`, mm.
 fn cloth(start: &Start, halves: impl Fn(usize) -> [f32; 2]) -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     for (number, yarn) in start.yarns.iter().enumerate() {

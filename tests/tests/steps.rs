@@ -17,8 +17,8 @@ fn yarns() -> Yarns {
 /// The default limit of a chunk's buffer, bytes, by the docs of `Limits`.
 const CHUNK_BUFFER: u64 = 64 << 20;
 
-/// Rings of six sides in such a buffer: four bytes for each of 36 indices, or 24 for each of six
-/// vertices.
+/// The number of rings of six sides that fit this buffer. A ring has 36 indices of 4 bytes, or 6
+/// vertices of 24 bytes.
 const STEP_RINGS: u64 = CHUNK_BUFFER / 144;
 
 fn device() -> Box<dyn Backend> {

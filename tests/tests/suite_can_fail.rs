@@ -57,7 +57,7 @@ fn an_honest_backend_passes() {
 
 #[test]
 fn a_backend_that_ignores_leans_is_caught() {
-    // Half of them stay upright, so that both ways in which a section leans occur.
+    // Half of the yarns stay upright, so that both ways in which a section leans occur.
     let steep: Vec<_> = (0..8).map(|yarn| leaning().layout().is_steep(yarn)).collect();
     assert_eq!(steep, [false, false, false, false, true, true, true, true]);
     for frame in [Frame::Upright, Frame::RotationMinimizing] {
@@ -257,7 +257,7 @@ fn a_backend_taken_out_of_the_registry_fails_by_name_where_it_is_required() {
     }
 }
 
-/// A schedule that leaves something out has to leave out exactly that.
+/// A schedule that refuses some cases has to refuse exactly these.
 #[test]
 fn a_backend_that_refuses_too_little_or_too_much_fails() {
     let failures = |name: &str, registry: &[Entry]| failures(&format!("{name}::upright::"), registry, "");

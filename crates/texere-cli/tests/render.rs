@@ -1,5 +1,4 @@
-//! `texere render` as a user runs it. It draws on whatever Vulkan device there is; lavapipe will
-//! do.
+//! `texere render` as a user runs it. It draws on any Vulkan device; lavapipe suffices.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs::File;
@@ -14,7 +13,7 @@ fn render(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_texere")).current_dir(folder).arg("render").args(args).output().unwrap()
 }
 
-/// Width and height, as a PNG file's header has them.
+/// Width and height by the header of a PNG file.
 fn png_size(path: &PathBuf) -> [u32; 2] {
     let bytes = std::fs::read(path).unwrap();
     assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
@@ -26,8 +25,8 @@ fn a_picture_has_the_size_that_was_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plain.png");
     let out = path.to_str().unwrap();
-    // Round threads: 64 ends of 191 points and 48 picks of 255, 24 triangles an interval, and 4 for
-    // each cap.
+    // Threads are round in shape: 64 ends of 191 points and 48 picks of 255. There are 24 triangles
+    // an interval, and 4 for each cap.
     let output = render(&[
         PLAIN,
         "-o",
@@ -161,7 +160,7 @@ fn what_is_seen_where_no_yarn_is_can_be_chosen() {
     }
 }
 
-/// With an even number of threads the middle of the cloth lies between two of them.
+/// If the number of threads is even, the middle of the cloth lies between two threads.
 #[test]
 fn a_cut_goes_through_a_thread_if_it_is_not_told_where() {
     let folder = tempfile::tempdir().unwrap();
@@ -175,7 +174,8 @@ fn a_cut_goes_through_a_thread_if_it_is_not_told_where() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         std::fs::read(out).unwrap()
     };
-    // The middle is 3.6, 2.7: pick 3 lies at 2.25, pick 4 at 3.15; end 4 at 3.15, end 5 at 4.05.
+    // The middle is (3.6, 2.7). Pick 3 lies at 2.25, pick 4 at 3.15, end 4 at 3.15, and end 5 at
+    // 4.05.
     for (view, either) in [("cut-warp", ["3.6,2.25", "3.6,3.15"]), ("cut-weft", ["3.15,2.7", "4.05,2.7"])] {
         let drawn = picture(view, &cut, &[]);
         assert!(either.iter().any(|at| picture(view, &thread, &["--at", at]) == drawn), "{view}");
@@ -268,7 +268,7 @@ fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pix
     counts.map(|count| f64::from(count) / f64::from(counts.iter().sum::<u32>()))
 }
 
-/// Denim and sateen hide the ground, and on their faces most of the weft; an open cloth hides
+/// Denim and sateen hide the ground, and most of the weft on their faces. An open cloth hides
 /// neither. The test counts pixels.
 #[test]
 fn denim_and_sateen_show_no_ground() {

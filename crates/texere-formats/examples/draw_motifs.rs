@@ -1,8 +1,9 @@
 //! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields,
-//! lozenges for a knit, a stitched double cloth.
+//! lozenges and an ornament for knits, rings for Jacquard bars, and a stitched double cloth.
 //!
-//! `cargo run -p texere-formats --example draw_motifs` writes them where they belong. Nothing but
-//! sums, products and square roots goes into them, so that every machine draws the same.
+//! `cargo run -p texere-formats --example draw_motifs` writes them to that folder. They are
+//! computed from sums, products and square roots alone, so that every machine draws the same
+//! pictures.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -15,10 +16,10 @@ type Point = [f64; 2];
 /// The size of a repeat as drawn.
 const REPEAT: [f64; 2] = [240.0, 320.0];
 
-/// Steps along a stroke: finer than pixels at any size drawn here.
+/// Steps along a stroke. They are finer than pixels at every size drawn here.
 const STEPS: usize = 600;
 
-/// What a pixel belongs to.
+/// The part of the motif that a pixel belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Tone {
     Ground,
@@ -31,13 +32,13 @@ enum Tone {
 enum Profile {
     /// Widest at a third, pointed at its end.
     Leaf,
-    /// A leaf with so many teeth.
+    /// A leaf with this number of teeth.
     Acanthus(f64),
     /// An oval.
     Fruit,
     /// Thin at both ends.
     Vine,
-    /// Thick at its start, thin at its end, yet as wide as some threads.
+    /// Thick at its start and thin at its end, where it is still several threads wide.
     Vein,
 }
 
@@ -54,7 +55,7 @@ impl Profile {
     }
 }
 
-/// A repeat on paper; what leaves it on one side comes in on the other.
+/// A repeat on paper. A shape that leaves the paper on one side comes in on the other.
 struct Paper {
     size: [usize; 2],
     pixels: Vec<Tone>,
@@ -98,7 +99,7 @@ impl Paper {
         }
     }
 
-    /// A leaf with ground round it and its midrib.
+    /// Paints a leaf with a rim of ground and a midrib.
     fn leaf(&mut self, spine: [Point; 4], width: f64, profile: Profile, rib: Tone) {
         self.stroke(spine, width + 2.6, Profile::Leaf, Tone::Ground);
         self.stroke(spine, width, profile, Tone::Figure);
@@ -131,7 +132,8 @@ fn bezier(spine: [Point; 4], t: f64) -> Point {
 /// The part of a Bézier curve between two of its parameters.
 fn part(spine: [Point; 4], from: f64, to: f64) -> [Point; 4] {
     let mix = |a: Point, b: Point, t: f64| [0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * t);
-    // The blossom of the curve: each of the parameters is used once.
+    // The blossom of the curve (its polar form): each step of de Casteljau's construction uses
+    // another parameter.
     let blossom = |u: f64, v: f64, w: f64| {
         let [a, b, c] = [0, 1, 2].map(|k| mix(spine[k], spine[k + 1], u));
         mix(mix(a, b, v), mix(b, c, v), w)
@@ -139,14 +141,14 @@ fn part(spine: [Point; 4], from: f64, to: f64) -> [Point; 4] {
     [blossom(from, from, from), blossom(from, from, to), blossom(from, to, to), blossom(to, to, to)]
 }
 
-/// The ornament, from what lies behind to what lies in front.
+/// The ornament. Parts that lie behind are painted first.
 fn ornament(size: [usize; 2]) -> Paper {
     use Profile::{Acanthus, Fruit, Leaf, Vine};
     use Tone::{Figure, Ground, Shade};
     let mut paper = Paper::new(size);
 
-    // The lattice: two vines that part above a rosette, and meet those of the next fields beside
-    // it.
+    // The lattice: two vines that part above a rosette, and meet the vines of the next fields
+    // beside it.
     let vine = [[0.0, -160.0], [12.0, -108.0], [108.0, -52.0], [120.0, 0.0]];
     for t in [0.24, 0.42, 0.60] {
         let [x, y] = bezier(vine, t);
@@ -189,7 +191,7 @@ fn ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
-/// Nested lozenges of two colours, both in each row, for a knitted Jacquard: no colour runs on for
+/// Nested lozenges for a knitted Jacquard. Each row has both colours, and no colour runs on for
 /// more than five wales.
 fn lozenges([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
@@ -203,7 +205,7 @@ fn lozenges([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
-/// A thick ring with a mesh in it on thin ground, for a Jacquard bar.
+/// A figure for a Jacquard bar: a ring of thick places round open ones, on a ground of thin places.
 fn rings([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
@@ -218,8 +220,8 @@ fn rings([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
-/// The ornament for a knitted Jacquard: in figure and ground alike each fifth wale is of the other
-/// colour, shifted from row to row, so that no yarn floats on for long.
+/// The ornament for a knitted Jacquard. In figure and ground each fifth wale has the other colour,
+/// shifted from row to row, so that floats stay short.
 fn bound_ornament(size: [usize; 2]) -> Paper {
     let mut paper = ornament(size);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
@@ -229,9 +231,10 @@ fn bound_ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
-/// Every crossing of a double cloth: a 2/2 twill over another one, their ends and picks by turns,
-/// the face's first. An end of the back is lifted over a pick of the face where the ends beside it
-/// float over that, and it lies over the picks beside it: so stitches show little.
+/// Every crossing of a double cloth: a 2/2 twill over another 2/2 twill, whose ends and picks
+/// alternate, the face's first. An end of the back is lifted over a pick of the face if the ends
+/// beside it float over that pick and it lies over the picks beside it. Stitches therefore hardly
+/// show.
 fn double_twill([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
@@ -249,12 +252,12 @@ fn double_twill([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
-/// A point paper of the repository.
+/// A point paper that the repository holds.
 struct Drawing {
     file: &'static str,
     size: [usize; 2],
     draw: fn([usize; 2]) -> Paper,
-    /// Colours of ground, figure and shade. Where only two are given, shade is ground.
+    /// Colours of ground, figure and shade. If only two are given, shade has the colour of ground.
     palette: &'static [[u8; 3]],
 }
 

@@ -1,4 +1,4 @@
-//! Abandoned output of a program that is about to end. The test has a process of its own, because
+//! Output that a program abandons before it ends. The test has a process of its own, because
 //! nothing is written after it.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

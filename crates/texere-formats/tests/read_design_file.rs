@@ -1,4 +1,4 @@
-//! Design files of texere: what is taken, and faults that are named with their lines.
+//! Design files of texere: values that are accepted, and faults that are named with their lines.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use texere_core::Section;
@@ -120,7 +120,7 @@ fn threads_lie_as_the_cloth_table_says() {
         (woven.shape(), woven.crimp(), woven.selvedge()),
         (Shape::Crossing, Crimp::WarpShare(0.25), true)
     );
-    // A whole number is taken as a number, too.
+    // A number may be written as a whole number, without a point.
     assert_eq!(cloth(&format!("{DENIM}[cloth]\nwarp_crimp = 1\n")).crimp(), Crimp::WarpShare(1.0));
     // One weft yarn instead of five equal ones.
     let yarns = |text: &str| read_text(text).unwrap().yarns().unwrap().layout().yarns().len();
@@ -140,7 +140,7 @@ fn yarns_settle_as_the_finish_table_says() {
         let design = read_text(&format!("{text}[finish]\n{table}")).unwrap();
         (design.settle, design.finish)
     };
-    // Keys for the way of settling do not decide whether yarns settle.
+    // Keys that say how yarns settle do not decide whether they settle.
     let pressed = Finish { press_mm: Some(0.4), ..Finish::default() };
     assert_eq!(finished(JERSEY, "settle = false\npress = 0.4\n"), (false, pressed));
     let of = |length| Finish { length: Some(length), ..Finish::default() };
@@ -191,7 +191,7 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
         &["line 21", "finish.stretch_weft", "not both"],
     );
     refused(JERSEY, "stretch_warp = 1.1\n", &["line 7", "finish.stretch_warp", "only in woven cloth"]);
-    // Keys that only the other kind of cloth has.
+    // Keys that only another kind of cloth has are refused.
     for table in ["length = 1.2\n", "tension = 0.01\n", "press = 1.0\n"] {
         refused(DENIM, table, &["line 20", "finish.", "only in a knit", "calender"]);
     }
@@ -232,7 +232,7 @@ fn yarns_and_setts_are_told_as_mills_do() {
     // Peirce: 1/28 inch over the root of the count.
     assert!((f64::from(woven.warp()[0].radius_mm) * 2.0 - 25.4 / 28.0 / 10f64.sqrt()).abs() < 1e-3);
     assert!((woven.warp()[0].spacing_mm - 1.27).abs() < 1e-9);
-    // A quarter of the density is twice the diameter.
+    // A quarter of the density gives twice the diameter.
     let fluffy = read_text(&text("tex = 59.05\ndensity = 0.2272727", "per_inch = 20.0")).unwrap();
     let ratio = fluffy.structure.woven().unwrap().cloth().warp()[0].radius_mm / woven.warp()[0].radius_mm;
     assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
@@ -264,7 +264,8 @@ fn jammed_threads_are_relieved_as_the_design_says() {
         told.contains("threads that cross pierce one another") && told.contains("has 0.4000 mm"),
         "{told}"
     );
-    // Plies can't be flattened. The dense ends take more of the crimp, which suffices.
+    // Plies can't be flattened. The dense ends take a larger share of the crimp, which makes enough
+    // room.
     for jam in ["jam = \"flatten\"\n", "jam = \"shrink\"\n"] {
         let relieved = read(jam);
         assert_eq!(jams(&relieved).before, jams(&report).before);
@@ -529,7 +530,7 @@ fn bytes_that_are_not_text_are_refused() {
     assert!(error.contains("line 2"), "{error}");
 }
 
-/// The limit that a refusal names is itself taken.
+/// The limit that a refusal names is itself allowed.
 #[test]
 fn limits_themselves_are_taken() {
     let limits = ["stiffness", "flatness", "hairiness"].map(|key| {

@@ -25,7 +25,7 @@ fn picture(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The picture in one channel, which TIFF readers take in another way.
+/// The picture in one channel, which readers of TIFF decode in another way.
 fn grey() -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     DynamicImage::from(DynamicImage::from(RgbImage::new(2, 3)).to_luma8())
@@ -125,7 +125,7 @@ fn each_kind_of_design_is_the_same_from_memory_as_from_its_file() {
         let files = names.into_iter().fold(vec![name], |files, named| [files, vec![named]].concat());
         assert_eq!(from_file.files(), files.iter().map(|file| folder.path().join(file)).collect::<Vec<_>>());
 
-        // There is no such folder.
+        // The folder `looms/2026` does not exist.
         let looms = Path::new("looms/2026");
         let asked = RefCell::new(Vec::<PathBuf>::new());
         let from_memory = read_from(looms.join(name), text, |path| {
@@ -155,7 +155,7 @@ fn what_is_refused_of_a_named_file_names_both() {
             read_from(name, text.clone(), |_| Err(io::Error::other("the row is locked")))
                 .is_err_and(|error| chain(&error).ends_with("the row is locked"))
         );
-        // A file of another kind.
+        // The named file is of another kind.
         let error = read_from(name, text, |_| Ok(b"\x89 no file at all".to_vec())).unwrap_err();
         assert!(chain(&error).contains(named), "{}", chain(&error));
     }

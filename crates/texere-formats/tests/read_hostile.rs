@@ -20,14 +20,14 @@ static HEAP: PeakAlloc = PeakAlloc;
 const THREADS: &str = "[yarns.a]\ndiameter_mm = 0.2\n[warp]\nyarns = [\"a\"]\nspacing_mm = 0.6\n\
     [weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n";
 
-/// The result of `work`, which has to come before a user would take it for hanging.
+/// The result of `work`. It has to come before a user would think that the program hangs.
 fn soon<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
     let (done, wait) = mpsc::channel();
     std::thread::spawn(move || done.send(work()));
     wait.recv_timeout(Duration::from_secs(30)).expect("hangs")
 }
 
-/// `name` in a folder of its own.
+/// A folder of its own with the file `name`.
 fn file(name: &str, bytes: impl AsRef<[u8]>) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(name), bytes).unwrap();
@@ -95,7 +95,8 @@ fn thousands_of_weaves() {
     std::fs::write(&path, text).unwrap();
     let peak = peak_mib(move || {
         let design = soon(move || read(path)).unwrap();
-        // Few threads of such large weaves do not hang together, either.
+        // The few threads that the cloth has of its large weaves fall apart into layers. The second
+        // warning says so.
         let [warning, layers] = &design.warnings()[..] else { panic!("{:?}", design.warnings()) };
         assert!(layers.contains("layers (") && layers.chars().count() < 300, "{layers}");
         assert!(warning.contains("4984 colours") && warning.chars().count() < 300, "{warning}");
@@ -329,7 +330,8 @@ mod unix {
             "[weave]\nnotation = \"plain\"\nends = 65536\npicks = 65536\n".to_owned(),
             300_000,
         )];
-        // Too little memory for the pixels; and enough for the pixels, but not for the cloth.
+        // The limits leave too little memory for the pixels, or enough for the pixels but not for
+        // the cloth.
         for (image, kilobytes) in [("motif.png", 200_000), ("motif.png", 450_000), ("motif.tif", 500_000)] {
             designs.push((
                 format!("{image}-{kilobytes}.toml"),

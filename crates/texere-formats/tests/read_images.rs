@@ -1,5 +1,5 @@
 //! Cloth is woven as an image looks, with transparency, palettes and orientation. Images that can't
-//! be shown are refused by name. The bytes of TIFF files are made here, by TIFF 6.0.
+//! be shown are refused by name. The test makes the bytes of TIFF files itself, by TIFF 6.0.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -97,7 +97,7 @@ impl Tiff {
             tags.push((if tiled { 324 } else { 273 }, vec![strip]));
             tags.push((if tiled { 325 } else { 279 }, vec![data.len() as u32]));
             if tags.iter().any(|(tag, values)| *tag == 284 && values == &[2]) {
-                // Planes of equal length follow one another.
+                // Planes have equal lengths and follow one another.
                 let samples = tags.iter().find(|(tag, _)| *tag == 277).unwrap().1[0];
                 let each = data.len() as u32 / samples;
                 for (tag, values) in &mut tags {
@@ -140,7 +140,7 @@ impl Tiff {
                 let here = file.len() as u32;
                 let is_last = std::ptr::eq(data, &self.pages[self.pages.len() - 1].1);
                 if !is_last {
-                    // The pixels come first, after four bytes.
+                    // Before the next directory come four bytes, and then the pixels of its page.
                     let (_, following) = &self.pages[1];
                     let directory = here + 4 + following.len() as u32 + (following.len() % 2) as u32;
                     file[next_place..next_place + 4].copy_from_slice(&self.long(directory));
@@ -217,17 +217,17 @@ fn an_indexed_tiff_shows_the_colours_of_its_palette() {
         (16, [300, 40_000]),
     ] {
         assert_eq!(woven("a.tif", &indexed(bits, numbers).bytes()), SHOWN, "{bits} {numbers:?}");
-        // The other order of bytes.
+        // The same file in the other order of bytes.
         let mut other = indexed(bits, numbers);
         other.big_endian = true;
         other.pages[0].1 =
             packed(bits, true, &rows(|column, row| vec![numbers[usize::from(!is_dark(column, row))] as u32]));
         assert_eq!(woven("a.tif", &other.bytes()), SHOWN, "{bits} {numbers:?}");
     }
-    // A palette of 255, as some programs write it.
+    // A palette of values up to 255, as some programs write it.
     let map: Vec<_> = palette(8, [200, 7]).iter().map(|value| value / 257).collect();
     assert_eq!(woven("a.tif", &indexed(8, [200, 7]).with(320, &map).bytes()), SHOWN);
-    // A number that the palette lacks, and a missing palette.
+    // A number that the palette lacks, and a missing palette, are refused.
     refused(
         "a.tif",
         &indexed(8, [200, 7]).with(320, &[0; 30]).bytes(),
@@ -237,14 +237,14 @@ fn an_indexed_tiff_shows_the_colours_of_its_palette() {
     let mut none = indexed(8, [200, 7]);
     none.pages[0].0.retain(|(tag, _)| *tag != 320);
     refused("a.tif", &none.bytes(), "", &["ColorMap"]);
-    // By the colours of a table.
+    // The palette's colours are found in a table of colours.
     let table = "[weave.colors]\n\"#0a145a\" = \"3/1\"\n\"#faf03c\" = \"1/3\"\n";
     assert!(design("a.tif", &indexed(4, [9, 14]).bytes(), table).is_ok());
 }
 
 #[test]
 fn an_indexed_tiff_may_be_compressed_tiled_and_in_planes() {
-    // PackBits, where each row is a run of literal bytes.
+    // Compression by PackBits, with each row as a run of literal bytes.
     let mut compressed = indexed(8, [200, 7]).with(259, &[32_773]);
     compressed.pages[0].1 =
         compressed.pages[0].1.chunks(5).flat_map(|row| [&[4u8][..], row].concat()).collect();
@@ -381,8 +381,8 @@ fn a_bigtiff_is_a_tiff() {
     assert_eq!(woven("a.tif", file.get_ref()), SHOWN);
 }
 
-/// The picture of a file that holds `held` with this orientation, by TIFF 6.0: it states the sides
-/// of row 0 and of column 0.
+/// The picture that a file shows whose rows are `held` and whose orientation is `orientation`. TIFF
+/// 6.0 defines an orientation by the sides at which row 0 and column 0 lie.
 fn turned(held: &[&str], orientation: u32) -> Vec<String> {
     let rows = || held.iter().map(|row| row.chars().collect::<Vec<_>>());
     let columns = || (0..held[0].len()).map(|column| rows().map(|row| row[column]).collect::<Vec<_>>());
@@ -399,7 +399,7 @@ fn turned(held: &[&str], orientation: u32) -> Vec<String> {
 
 #[test]
 fn an_image_is_turned_as_it_says() {
-    // A quarter turn clockwise: the bottom comes to the left.
+    // Orientation 6 is a quarter turn clockwise: the bottom comes to the left.
     assert_eq!(turned(&["ab", "cd"], 6), ["ca", "db"]);
     assert_eq!(turned(&["ab", "cd"], 8), ["bd", "ac"]);
     let color = Tiff::one(

@@ -55,7 +55,8 @@ fn a_chart_in_symbols() {
     let names: Vec<_> = yarns.materials().iter().map(|material| material.name.as_str()).collect();
     assert_eq!(names, ["red", "white"]);
     assert!(design.settle && design.warnings().is_empty());
-    // The cell in row 1 from the top, column 2. The first row that is read is the first course.
+    // Source 3 is the purl, in row 1 from the top and column 2. The lowest row of a chart is
+    // knitted first.
     let place = design.program_place(3).unwrap();
     assert!(place.place.ends_with("a.toml, row 1 from the top, column 2"), "{}", place.place);
     assert!(place.instructions.contains(&"knit - b1 red".into()), "{:?}", place.instructions);
@@ -86,7 +87,7 @@ fn a_picture_is_jacquard_or_a_chart() {
     let read = |more: &str, colors: &str| {
         read_in(folder.path(), &format!("image = \"motif.png\"\n{CLOSE}{more}\n{colors}"))
     };
-    // The lower row takes a course of each yarn, and the upper row takes one.
+    // The lower row is knitted in two courses, one for each yarn, and the upper row in one course.
     let single = read("", &colors("red", "white")).unwrap();
     assert_eq!(knitted(&single).size(), [3, 2]);
     assert_eq!(single.yarns().unwrap().layout().yarns().len(), 3);
@@ -187,7 +188,7 @@ fn faults_of_a_machine_are_told_by_place() {
             "{errors:?}"
         );
     }
-    // A float of eight needles, in the terms of a picture or of a chart.
+    // A float of eight needles is warned of, with its place in the picture or the chart.
     let float = format!("chart = \"\"\"\nkkkkkkkkkk\nkmmmmmmmmk\n\"\"\"\nyarns = [\"red\"]\n{CLOSE}");
     let warnings = knit(&float).unwrap().warnings();
     assert!(warnings.len() == 1 && warnings[0].contains("row 2 from the top"), "{warnings:?}");
@@ -264,7 +265,7 @@ fn what_no_machine_takes_is_named_by_its_place() {
     let said = chain(&read(folder.path().join("a.k")).unwrap_err());
     assert!(said.ends_with("a.k, line 260 can't be knitted: 257 loops on a needle in a knitting program; 256 are taken at most"), "{said}");
 
-    // A stitch of the back bed in the top row, which may be the first course.
+    // A stitch of the back bed in the top row, which may be the first course or the last.
     let colors = [[255, 0, 0], [0, 0, 255]].map(Rgb);
     RgbImage::from_fn(2, 3, |x, y| colors[usize::from(x == 1 && y == 0)])
         .save(folder.path().join("a.png"))

@@ -1,5 +1,5 @@
 //! Images of palette numbers. Each pixel has the colour of its number, and a number without a
-//! colour is refused by name. The bytes of the pixels are made here.
+//! colour is refused by name. The test makes the bytes of the pixels itself.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 use std::error::Error;
@@ -7,7 +7,8 @@ use std::io::Write;
 
 use texere_formats::{Design, ReadError, read};
 
-/// Number of columns and of rows: more pixels than a byte holds, and not a whole number of bytes.
+/// Number of columns and of rows. A row has more pixels than a byte holds, and does not fill whole
+/// bytes.
 const SIZE: [usize; 2] = [11, 9];
 
 fn design(name: &str, bytes: &[u8]) -> Result<Design, ReadError> {
@@ -45,7 +46,8 @@ fn refuses(name: &str, bytes: &[u8], number: usize, colors: &str) {
     assert!(told.contains(name) && told.contains(&why), "\"{told}\" lacks \"{name}\" or \"{why}\"");
 }
 
-/// A row of numbers with this number of bits. Unused bits of the last byte are ones, and no pixels.
+/// A row of numbers with this number of bits. Unused bits of the last byte are ones, which are no
+/// pixels.
 fn packed(bits: usize, row: &[usize]) -> Vec<u8> {
     let mut line = vec![0u8; (row.len() * bits).div_ceil(8)];
     for place in 0..line.len() * 8 / bits {
@@ -55,7 +57,7 @@ fn packed(bits: usize, row: &[usize]) -> Vec<u8> {
     line
 }
 
-/// Light at 0, dark at 1, and then light again.
+/// A palette that is dark at number 1 and light at all other numbers.
 fn palette(colors: usize) -> Vec<u8> {
     (0..colors).flat_map(|number| if number == 1 { [20, 10, 60] } else { [250, 240, 60] }).collect()
 }
@@ -96,7 +98,8 @@ enum Bmp {
     Lists,
 }
 
-/// A BMP with an info header that states `told` colours. 0 means as many as its bits can number.
+/// A BMP with an info header that states `told` colours. 0 stands for as many colours as its bits
+/// can number.
 fn bmp(
     bits: usize,
     [colors, told]: [usize; 2],

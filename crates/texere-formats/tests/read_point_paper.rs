@@ -101,7 +101,7 @@ fn kinds_of_image_read_alike() {
     let bits = [0b1001_0000, 0b1100_0000, 0b0011_1000];
     encoder.write_header().unwrap().write_image_data(&bits).unwrap();
     assert_eq!(rows(&cloth(folder.path(), "")), DRAWING);
-    // The picture as an indexed BMP, written by hand: rows from the bottom, padded to four bytes.
+    // The picture as an indexed BMP, made byte by byte: rows from the bottom, padded to four bytes.
     let mut bmp = b"BM".to_vec();
     for word in [74u32, 0, 62, 40, 5, 3, 1 | 1 << 16, 0, 12, 2835, 2835, 2, 2, 0x00ff_ffff, 0] {
         bmp.extend(word.to_le_bytes());
@@ -258,7 +258,7 @@ fn what_is_no_image_is_refused() {
             && missing.innermost().to_string().contains("motif.png"),
         "{missing}"
     );
-    // The place in the design, and the decoder's message at the end of the chain.
+    // The error has the place in the design, and the decoder's message at the end of its causes.
     std::fs::write(&path, b"\x89PNG\r\n\x1a\n").unwrap();
     let broken = design(folder.path(), "rows = \"last-pick-first\"\n").unwrap_err();
     assert!(broken.to_string().contains("design.toml, line 2: weave.image can't be taken"), "{broken}");

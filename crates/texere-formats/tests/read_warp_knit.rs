@@ -52,8 +52,8 @@ fn bars_with_all_their_keys() {
     assert_eq!(warp_rows(cloth), ["bar 1: 1-0/2-3//", "bar 2: 0-1/2-1//"]);
     assert!((cloth.guide_yarns()[0].radius_mm - 0.045).abs() < 1e-6);
     assert!(design.settle && design.warnings().is_empty());
-    // Eight of twelve guides of the front bar are threaded, and all of the back bar. Each has 9
-    // points a course.
+    // Eight of the front bar's twelve guides are threaded, and all of the back bar's. Each yarn has
+    // 9 points a course.
     let yarns = design.yarns().unwrap();
     assert_eq!((yarns.layout().yarns().len(), yarns.points().len()), (20, 20 * 12 * 9));
 }
@@ -149,7 +149,7 @@ fn lapping_diagrams_show_overlaps_and_underlaps() {
     let (face, back) = (picture(Side::Face, "face.png"), picture(Side::Back, "back.png"));
     let inked = |image: &RgbImage| image.pixels().filter(|pixel| pixel.0 != [255; 3]).count();
     assert!(inked(&face) > 1000);
-    // The picture, turned over.
+    // The back is another picture: the face turned over.
     assert_ne!(face, back);
     assert!(matches!(
         warp_draft(knit(&design), Side::Face, folder.path().join("a.jpg")),

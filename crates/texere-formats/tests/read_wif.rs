@@ -1,4 +1,4 @@
-//! WIF drafts: what is taken, what is refused, and equal cloth from both ways of giving lifts.
+//! WIF drafts: files that are accepted or refused, and equal cloth from both ways of giving lifts.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -52,9 +52,9 @@ fn tie_up_with_treadling_and_lift_plan_give_one_drawdown() {
     assert_eq!(drawdown(TWILL), TWILL_DRAWDOWN);
     let lifted = TWILL.split("[TIEUP]").next().unwrap().to_owned() + LIFT_PLAN;
     assert_eq!(drawdown(&lifted), TWILL_DRAWDOWN);
-    // A lift plan and a treadling that agree, without a warning.
+    // A lift plan and a treadling that agree give no warning.
     assert!(read_text(TWILL.to_owned() + LIFT_PLAN).unwrap().warnings().is_empty());
-    // A lift plan and a treadling that differ. The treadling counts.
+    // If a lift plan and a treadling differ, the treadling counts.
     let odds = TWILL.to_owned() + &LIFT_PLAN.replace("1=1,2", "1=1,3");
     assert_eq!(drawdown(&odds), TWILL_DRAWDOWN);
     assert!(read_text(&odds).unwrap().warnings()[0].contains("lift plan and treadling"));
@@ -95,7 +95,7 @@ fn an_end_on_several_shafts_and_a_pick_on_several_treadles() {
     let text = TWILL
         .replace("5=1\n[TIEUP]", "5=1,3\n[TIEUP]")
         .replace("[TREADLING]\n1=1\n", "[TREADLING]\n1=1,0,3\n");
-    // Pick 1 now lifts shafts 1 to 4. End 5 is up wherever shaft 1 or 3 is.
+    // Pick 1 now lifts shafts 1 to 4. End 5 is up wherever shaft 1 or shaft 3 is up.
     assert_eq!(drawdown(&text), "10011\n00111\n01101\n11111\n");
 }
 
@@ -224,7 +224,7 @@ fn utf_16_is_read() {
         let design = read_text(&bytes).unwrap();
         let woven = design.structure.woven().unwrap().cloth().clone();
         assert_eq!((design.name.as_str(), woven.warp().len()), ("Köper 𝄞", 5));
-        // The file is still text wherever it is cut.
+        // Reading a file that is cut within a character does not panic.
         let _ = read_text(&bytes[..bytes.len() - 1]);
     }
 }
@@ -236,23 +236,23 @@ fn a_loom_has_what_is_set_up_on_it() {
         let [warning] = &warnings[..] else { panic!("{warnings:?}") };
         parts.iter().for_each(|part| assert!(warning.contains(part), "{warning}"));
     };
-    // Ends are on shafts, and the tie-up has rows, beyond the stated counts.
+    // Ends on shafts, and rows of the tie-up, beyond the stated counts give a warning.
     warned(&TWILL.replace("Shafts=4", "Shafts=2"), &["[WEAVING] Shafts is 2", "[THREADING] goes up to 4"]);
     warned(&TWILL.replace("Treadles=4", "Treadles=2"), &["[WEAVING] Treadles is 2", "[TIEUP] goes up to 4"]);
     assert_eq!(drawdown(&TWILL.replace("Shafts=4", "Shafts=2")), TWILL_DRAWDOWN);
-    // A lifted shaft and a pressed treadle that are neither counted nor set up.
+    // A lifted shaft, or a pressed treadle, that is neither counted nor set up is refused.
     let [lifted, pressed] = [("[TIEUP]\n1=1,2", "[TIEUP]\n1=1,5"), ("[TREADLING]\n1=1", "[TREADLING]\n1=5")]
         .map(|(from, to)| TWILL.replace(from, to));
     refused(&lifted, &["[TIEUP] 1 is 5, outside 0 to 4"]);
     refused(&pressed, &["[TREADLING] 1 is 5, outside 0 to 4"]);
-    // Without a count nothing lies beyond it.
+    // Without a count, no shaft or treadle is refused.
     for (text, count) in [(lifted, "Shafts=4\n"), (pressed, "Treadles=4\n")] {
         let warnings = read_text(text.replace(count, "")).unwrap().warnings();
         assert!(warnings.iter().all(|warning| warning.contains("nothing binds")), "{warnings:?}");
     }
 }
 
-/// Threads as thick as they are spaced, as programs write drafts.
+/// Some programs write the spacing of threads as their thickness.
 #[test]
 fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     let stated = |warp: &str, weft: &str, more: &str| {
@@ -284,7 +284,7 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
         assert!(warning.starts_with(set) && warning.contains("as thick as they are spaced"), "{warning}");
     }
     assert_eq!(warnings.len(), 2);
-    // Thin threads stay thin beside the others. All threads are thinner where some lie close.
+    // Thin threads stay thinner than the others. All threads are made thinner if some lie close.
     let design = stated(both.0, both.1, "[WARP THICKNESS]\n2=.106\n[WARP SPACING]\n2=.106\n");
     let [warp, weft] = diameters(&design);
     near(&warp, &[warp[0], warp[0] / 2.0, warp[0], warp[0], warp[0]]);
@@ -295,13 +295,13 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     assert!(design.warnings()[0].starts_with("[WARP] has") && design.warnings().len() == 1);
     let [warp, weft] = diameters(&design);
     near(&[warp[0], weft[0]], &[1.0, 0.8]);
-    // A draft that can be woven is not changed. Threads that the draft makes jam are reported, not
-    // changed.
+    // A draft that can be woven is not changed. Threads that jam by the draft's own thickness are
+    // reported, not changed.
     near(&diameters(&stated("Spacing=.2\nThickness=.1", "Spacing=.3\nThickness=.1", ""))[0], &[1.0]);
     near(&diameters(&stated("Spacing=.2\nThickness=.19", "Spacing=.3\nThickness=.19", ""))[0], &[1.9]);
 }
 
-/// Common spacings beside one another, in drafts of every kind. Scaled cloths are clear.
+/// Cloths of every kind of draft, with common spacings beside one another, are clear after scaling.
 #[test]
 fn what_is_given_room_does_not_pierce() {
     let tie_ups = [
@@ -319,7 +319,7 @@ fn what_is_given_room_does_not_pierce() {
     ];
     let straight: String = (1..=12).map(|thread| format!("{thread}={}\n", (thread - 1) % 4 + 1)).collect();
     let straight = &straight;
-    // Values for a whole set, and values for single threads.
+    // Lines with values for a whole set and for single threads.
     let set = |name: &str, spacing: &str, own: &str, stated: bool| {
         let thickness =
             if stated { format!("Thickness={spacing}\n[{name} THICKNESS]\n{own}") } else { String::new() };
@@ -339,20 +339,20 @@ fn what_is_given_room_does_not_pierce() {
                 let design = read_text(format!("{warp}{weft}{draft}")).unwrap();
                 let clearance =
                     texere_contact::clearance(&design.yarns().unwrap(), &Settings::default()).unwrap().min;
-                // Splines through threads that touch by construction come to 0.99.
+                // If threads touch by construction, the splines between their control points come
+                // to 0.99 of touching.
                 assert!(clearance > 0.985, "{clearance}: {warp}{weft}{draft}");
             }
         }
     }
 }
 
-/// Thick and thin ends by turns, in columns as wide as they are drawn. Ends that are three times as
-/// thick stay so.
+/// Thick and thin ends in turn, in columns as wide as the threads are drawn. Ends that are three
+/// times as thick stay three times as thick.
 #[test]
 fn thick_and_thin_drafts_keep_their_thick_threads() {
     let own = |what: &str, thick: &str| format!("[WARP {what}]\n2={thick}\n4={thick}\n");
-    // All threads as thick as their columns; and thick threads in a set whose other threads are as
-    // thick as their columns.
+    // First all threads are as thick as their columns are wide. Then only the thin threads are.
     for more in [own("SPACING", "0.6") + &own("THICKNESS", "0.6"), own("THICKNESS", "0.6")] {
         let text = TWILL.replace("Spacing=0.2\nThickness=0.1", "Spacing=0.2\nThickness=0.2") + &more;
         let design = read_text(&text).unwrap();
@@ -366,8 +366,8 @@ fn thick_and_thin_drafts_keep_their_thick_threads() {
     }
 }
 
-/// Ends 1 mm and 2 mm wide by turns, as in thick-and-thin drafts. Each is 1.5 mm from both
-/// neighbours.
+/// Columns of ends are 1 mm and 2 mm wide in turn, as in thick-and-thin drafts. Each is 1.5 mm from
+/// both neighbours.
 #[test]
 fn threads_lie_in_the_middle_of_their_columns() {
     let own = "[WARP SPACING]\n2=0.2\n4=0.2\n[WARP THICKNESS]\n2=0.12\n4=0.12\n";
@@ -424,11 +424,10 @@ fn a_loom_without_treadles_is_woven_by_its_lift_plan() {
     let odd = none.replace("4=4,1\n[TREADLING]", "4=99,1\n[TREADLING]") + LIFT_PLAN;
     assert_eq!(drawdown(&odd), TWILL_DRAWDOWN);
     assert!(read_text(&odd).unwrap().warnings()[0].contains("Treadles is 0; the lift plan is taken"));
-    // No other section gives lifts. The treadles of the tie-up are taken, as if too few were
-    // declared.
+    // Without a lift plan the treadles of the tie-up are used, as if too few were declared.
     assert_eq!(drawdown(&none), TWILL_DRAWDOWN);
     assert!(read_text(&none).unwrap().warnings()[0].contains("Treadles is 0, but [TIEUP] goes up to 4"));
-    // Shafts are taken in the same way; none if no end is on one.
+    // Shafts are counted in the same way. There are none if no end is on one.
     let shafts = TWILL.replace("Shafts=4", "Shafts=0");
     assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
     assert!(read_text(&shafts).unwrap().warnings()[0].contains("Shafts is 0, but [THREADING] goes up to 4"));
@@ -449,15 +448,16 @@ fn a_file_that_counts_from_0_is_told_so() {
     let shafts =
         shafts.replace("[TIEUP]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n", "[TIEUP]\n1=0,1\n2=1,2\n3=2,3\n4=3,0\n");
     refused(&shafts, &["[THREADING] 1 is \"0\"", "shafts are counted from 1", "from 0"]);
-    // A loom with more shafts, or with an unknown number. An end may be on no shaft, and a treadle
-    // tied to none.
+    // If the loom has more shafts, or an unknown number, the file is read: an end may be on no
+    // shaft, and a treadle tied to none.
     for weaving in ["Shafts=8\n", ""] {
         let design = read_text(shafts.replace("Shafts=4\n", weaving)).unwrap();
         let told =
             |warning: &String| warning.contains("[THREADING] 1 is shaft 0") && warning.contains("from 1");
         assert!(design.warnings().iter().any(told), "{weaving:?}: {:?}", design.warnings());
     }
-    // Treadles in both lists; and in the treadling alone, where the tie-up has no row 0.
+    // Treadles counted from 0 are refused in both lists, and in the treadling alone if the tie-up
+    // has no row 0.
     let pressed = treadles.replace("[TREADLING]\n1=1\n2=2\n3=3\n4=4\n", "[TREADLING]\n1=0\n2=1\n3=2\n4=3\n");
     refused(&pressed, &["counts from 0"]);
     // A surplus line without a value is left out.
@@ -466,7 +466,7 @@ fn a_file_that_counts_from_0_is_told_so() {
 
 #[test]
 fn a_number_with_zeros_or_a_sign_before_it_is_the_same_key() {
-    // The key alone, and after the key in its usual spelling, whose value it replaces.
+    // The key is tried alone, and after the key in its usual spelling, whose value it replaces.
     for key in ["01", "0001", "+1"] {
         let alone = TWILL.replace("[THREADING]\n1=1\n", &format!("[THREADING]\n{key}=1\n"));
         assert_eq!(drawdown(&alone), TWILL_DRAWDOWN, "{key}");
@@ -475,7 +475,7 @@ fn a_number_with_zeros_or_a_sign_before_it_is_the_same_key() {
     }
     let shafts = TWILL.replace("[TIEUP]\n1=1,2\n2=2,3\n", "[TIEUP]\n01=4\n1=1,2\n2=2,3\n");
     assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
-    // Colours with several such keys, too.
+    // The same holds for colours with several such keys.
     let colors = TWILL.to_owned() + "[COLOR TABLE]\n9=9,9,9\n09=1,1,1\n[WARP COLORS]\n1=9\n+1=9\n";
     for _ in 0..10 {
         let cloth = cloth(&colors);

@@ -1,5 +1,5 @@
-//! Cloth that can't be made, or that can't come to rest, is refused with file, line and key, by
-//! whichever part finds the fault.
+//! Cloth that can't be made, or that can't come to rest, is refused with file, line and key,
+//! whichever part of texere finds the fault.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -146,7 +146,7 @@ fn refused_drafts_name_line_section_and_key() {
     ] {
         let said = said_of("draft.wif", &draft, &draft);
         assert!(said.contains(&format!("draft.wif, {key}")) && said.contains(why), "{key}: {said}");
-        // The message for a design that names the draft also has the place in the draft.
+        // The message for a design that names the draft has the place in the draft, too.
         let named = said_of("design.toml", &format!("weave.wif = \"draft.wif\"\n{YARN}"), &draft);
         assert!(named.contains(&format!("draft.wif, {key}")) && named.contains(why), "{key}: {named}");
     }
@@ -158,7 +158,8 @@ fn a_yarn_that_goes_too_far_names_its_line() {
     let knitout =
         format!(";!knitout-2\n;;Carriers: 1 3\ninhook 3\nknit + f1 3\nknit + f2 3\n{far}outhook 3\n");
     let said = said_of("design.k", &knitout, "");
-    // The first of the longest ways of a yarn is from needle 60000 back to needle 1.
+    // Several ways of the yarn are equally long. The first of them goes from needle 60000 back to
+    // needle 1.
     assert!(said.contains("design.k, line 7") && said.contains("yarns pass"), "{said}");
 }
 

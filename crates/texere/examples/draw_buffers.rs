@@ -1,4 +1,4 @@
-//! Draws cloth with a pipeline of its own, from the very buffers that texere wrote:
+//! Draws cloth with a render pipeline of the program, from the buffers that texere wrote:
 //! `cargo run --example draw_buffers --features wgpu,pictures`.
 
 use std::sync::Arc;
@@ -19,7 +19,7 @@ struct Corner { @builtin(position) at: vec4<f32>, @location(0) normal: vec3<f32>
 }";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // texere's part: a fabric on a device, which may also be the program's own
+    // texere makes a fabric on a device, which may also be the program's own
     // (WgpuBackend::from_device).
     let design = texere::read("designs/herringbone.wif")?;
     let backend = Arc::new(WgpuBackend::open(0, Schedule::PerRing)?);
@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     texere::gpu::draw(live.mesh(), &mut pass).ok_or("not a mesh of wgpu's")?;
     drop(pass);
 
-    // The picture, back to the host and into a file.
+    // Copies the picture to the host and writes it to a file.
     let host = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: u64::from(SIZE * SIZE * 4),

@@ -1,4 +1,4 @@
-//! Edits a lift of cloth whose mesh stays on a device, and prints what was made again:
+//! Edits a lift of cloth whose mesh stays on a device, and prints which parts were made again:
 //! `cargo run --example live_lift`.
 
 use std::sync::Arc;

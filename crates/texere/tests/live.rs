@@ -81,7 +81,7 @@ fn yarns_that_outgrow_their_room_take_one_mesh_together() {
     live.set_yarns(finer(&yarns, 7)).unwrap();
     assert_eq!(meshes(), 3, "others");
     assert!(live.update().unwrap().anew);
-    // The mesh stays where all yarns have room.
+    // The mesh stays if all yarns have room.
     live.set_yarns(finer(&yarns, 6)).unwrap();
     assert_eq!(meshes(), 3, "shorter ones");
     assert!(!live.update().unwrap().anew);
@@ -108,7 +108,7 @@ fn sources_stay_when_yarns_are_set() {
         let range = rest.range(end).unwrap();
         assert_eq!(now.sources().unwrap()[range.clone()], rest.sources().unwrap()[range], "end {end}");
     }
-    // Names of the middles of its crossings, with all yarns and with that yarn alone.
+    // The names of places on the moved yarn, with all yarns set and with this yarn alone.
     let intervals = yarns.yarn_points(number).unwrap().len();
     let mut crossings = 0;
     for interval in 0..intervals {
@@ -150,9 +150,9 @@ fn what_is_set_reaches_the_cloth() {
     assert_eq!(woven.materials()[1], red);
     assert_eq!((woven.warp()[5].material, woven.warp()[5].section), (1, 1));
     assert_eq!((woven.warp()[4].material, woven.warp()[4].section), (0, 0));
-    // The cloth's own yarns have the new section, too, and lie as before.
+    // The yarns of the cloth itself have the new section, too, and lie as before.
     assert_eq!(woven.yarns().unwrap().layout().yarns()[5], what);
-    // A yarn that is lifted is that of the weave again.
+    // After a lift, the yarn is that of the weave again.
     live.set_lift(5, 0, !live.woven().unwrap().drawdown().up(5, 0)).unwrap();
     assert_eq!(live.woven().unwrap().warp()[5].material, 0);
     assert_eq!(live.yarns().unwrap().layout().yarns()[5], before);
@@ -165,8 +165,8 @@ fn ribbons() -> Woven {
     Woven::new(plain, threads(5), threads(4), vec![Material::default()], vec![Section::Circle]).unwrap()
 }
 
-/// `yarns` with up directions. Those of the yarns that `turn` selects are turned about the y axis,
-/// further along x by more.
+/// `yarns` with up directions. The up directions of the yarns that `turn` selects are turned about
+/// the y axis, by more the larger x is.
 fn turned(yarns: &Yarns, turn: impl Fn(usize) -> bool) -> Yarns {
     let mut ups = Vec::new();
     for yarn in 0..yarns.layout().yarns().len() {

@@ -20,7 +20,7 @@ const JERSEY: &str =
 const TRICOT: &str = "yarns.white.diameter_mm = 0.1\n[warp_knit]\nwales = 2\ncourses = 2\nwales_per_cm = 10.0\n\
     courses_per_cm = 13.333\n[[warp_knit.bars]]\nlapping = \"tricot\"\n";
 
-/// The global pool of this program does not start, so work outside the caller's pool would panic.
+/// rayon's global pool can't start in this program, so work outside the caller's pool would panic.
 #[test]
 fn no_work_leaves_the_pool_that_texere_is_called_in() {
     let never = |_| Err(std::io::Error::other("the global pool is not to be used"));

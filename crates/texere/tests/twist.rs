@@ -9,11 +9,11 @@ use texere::mesh::{TWIST_STEP, Undersampled};
 use texere::yarn::Section;
 use texere::{ControlPoint, Mesh, Pipeline, Settings, Yarn, Yarns};
 
-/// Woollen yarn of two plies, loosely woven: three turns and more between two crossings.
+/// An open cloth of woollen yarn of two plies, which turns about once between two crossings.
 const TWEED: &str = "[weave]\nnotation = \"2/2\"\nends = 8\npicks = 8\n[finish]\nsettle = false\n\
     [yarns.wool]\ndiameter_mm = 0.9\nplies = 2\ntwist_per_m = 340\n[warp]\nyarns = [\"wool\"]\nspacing_mm = 3.1\n\
     [weft]\nyarns = [\"wool\"]\nspacing_mm = 2.3\n";
-/// A knit of hard-twisted yarn of three plies, the other way round.
+/// A knit of hard-twisted yarn of three plies, with S twist.
 const JERSEY: &str = "knit = { chart = \"k\", repeat = [4, 4], loop_length_mm = 7.0 }\nfinish.settle = false\n\
     yarns.worsted = { diameter_mm = 0.4, plies = 3, twist_per_m = -1500 }\n";
 
@@ -69,7 +69,7 @@ fn turns(mesh: &Mesh, yarn: usize) -> (Vec<f64>, f64) {
         let ((here, normal, arm), (next, next_normal, next_arm)) = (pair[0], pair[1]);
         let chord = sum(next, here, -1.0);
         length += dot(chord, chord).sqrt();
-        // Rodrigues' turn that takes one normal to the other.
+        // The turn that takes one normal to the other, by Rodrigues' formula.
         let axis = cross(normal, next_normal);
         let carried = sum(
             sum(arm.map(|each| each * dot(normal, next_normal)), cross(axis, arm), 1.0),
@@ -88,8 +88,8 @@ fn follows(mesh: &Mesh, what: &str) {
         let (turns, length) = turns(mesh, number);
         assert!(turns.iter().all(|turn| turn.abs() < 30.1), "{what}, yarn {number}: {turns:?}");
         let (all, asked) = (turns.iter().sum::<f64>(), f64::from(yarn.twist).to_degrees() * length);
-        // A closed yarn gives back up to half a turn; frames of crimped yarns turn a little by
-        // themselves.
+        // A closed yarn loses up to half a turn, which is shared out over its rings. Frames of
+        // crimped yarns turn a little even without twist.
         let off = if yarn.closed { 181.0 } else { 2.0 + 0.002 * asked.abs() };
         assert!((all - asked).abs() < off, "{what}, yarn {number}: {all} for {asked}");
     }
@@ -104,8 +104,8 @@ fn rings_follow_the_twist_of_cloth() {
     }
 }
 
-/// Every section whose outline is no circle, yarns whose points lie near and far, bends, rings, and
-/// any tension.
+/// Yarns of every section whose outline is no circle, with points near and far apart, bent and
+/// closed, at any tension.
 #[test]
 fn rings_follow_the_twist_of_every_section_and_way() {
     let sections = [
@@ -194,7 +194,7 @@ fn what_shows_no_twist_has_no_more_rings() {
         assert!(usual.vertices == fixed.vertices && usual.indices == fixed.indices, "{name}");
         assert_eq!(Undersampled::of(&yarns, &Settings::default()), None, "{name}");
     }
-    // The fibres of a picture show it all the same.
+    // In a picture the fibres show the twist of a round yarn, too.
     let yarns = yarns_of(&round.replace("= 100", "= 300"), "fibres");
     assert!(Settings::default().following_fibres(&yarns).subdivisions > Settings::of(&yarns).subdivisions);
 }

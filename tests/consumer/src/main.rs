@@ -1,5 +1,5 @@
-//! The README's five lines with a draft, then every backend of the CPU, with every kind of vectors,
-//! on threads with little stack.
+//! Runs the README's five lines with a draft, and then every backend of the CPU, with every kind of
+//! vectors, on threads with little stack.
 
 use std::error::Error;
 use std::thread;
@@ -39,8 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Makes meshes of every topology and frame, called from a thread with little stack and worked on
-/// by threads with as little.
+/// Makes meshes of every topology and frame, called from a thread with little stack, with worker
+/// threads that have as little.
 fn on_little_stack(yarns: &Yarns, device: &dyn Backend) -> Result<(), Box<dyn Error>> {
     let name = &device.info().name;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).stack_size(STACK).build()?;

@@ -1,4 +1,4 @@
-//! The corpus: sound designs from which inputs are mutated.
+//! The corpus: valid designs from which inputs are mutated.
 
 /// Small drafts, each with something that the others lack.
 pub(crate) const WIF: &[&str] = &[
@@ -99,7 +99,7 @@ pub(crate) const NOTATIONS: &[&str] = &[
     "twill 2/1",
 ];
 
-/// A design that is sound but for its weave `notation`, which may be anything.
+/// A design that is valid except for its weave `notation`, which may be anything.
 pub(crate) fn design_of(notation: &str) -> String {
     let quoted: String = notation
         .chars()

@@ -1,4 +1,4 @@
-//! Drives a file through everything that is made of it.
+//! Drives a file through everything that texere makes from a file.
 
 use std::error::Error;
 use std::io::sink;
@@ -27,7 +27,7 @@ pub enum Outcome {
     Large,
     /// The yarns were refused.
     NoYarns(String),
-    /// The design went all the way.
+    /// The design was accepted, and passed through every step.
     Taken,
 }
 
@@ -68,7 +68,7 @@ pub fn drive(path: &Path) -> Outcome {
     }
     sinks(&design);
     let outcome = finished(&design, cloth(&design.structure));
-    // Replace the section, and repeat everything if the new one is taken.
+    // Replaces the section. If the design accepts it, makes the cloth once more.
     if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok() {
         let _ = cloth(&design.structure);
     }
@@ -113,8 +113,8 @@ const STRETCHING: u32 = 100;
 /// The share of the progress at which stretching is done.
 const STRETCHED: f64 = 0.5;
 
-/// Returns `outcome` after the cloth has begun to settle as its design says. An error has to name
-/// the design's file.
+/// Begins to settle the cloth as its design says, and returns `outcome`. An error has to name the
+/// design's file.
 fn finished(design: &Design, outcome: Outcome) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
     if outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {

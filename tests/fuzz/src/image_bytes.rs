@@ -1,4 +1,4 @@
-//! Mutations of image files, which respect their chunks and fields.
+//! Mutations of image files that respect the files' chunks and fields.
 
 use std::io::Cursor;
 
@@ -7,7 +7,7 @@ use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage, Rgba, Rgb
 
 use crate::text::scrambled;
 
-/// Values of fields at which readers change their ways.
+/// Values of fields that readers treat differently from their neighbours.
 const FIELDS: &[u32] = &[
     0,
     1,
@@ -51,8 +51,8 @@ pub(crate) fn mutated(random: &mut Rng) -> Vec<u8> {
     bytes
 }
 
-/// A small picture, which is mutated one time in four. Code that uses its colours is then reached
-/// more often.
+/// A small picture, which is mutated only one time in four, so that inputs more often reach the
+/// code that uses its colours.
 pub(crate) fn plain(random: &mut Rng) -> Vec<u8> {
     if random.u8(0..4) == 0 { mutated(random) } else { seed(random).1 }
 }

@@ -1,4 +1,4 @@
-//! Fuzzing of texere's readers with mutated designs. A design that a reader takes goes on through
+//! Fuzzing of texere's readers with mutated designs. A design that a reader accepts goes on through
 //! yarns, plan, mesh and clearance. A design that it refuses has a short error. Nothing may panic,
 //! hang or take much memory.
 //!
@@ -20,16 +20,16 @@ mod yarn_bytes;
 pub use drive::{Outcome, drive};
 pub use watch::fuzz;
 
-/// A reader that is fed.
+/// A reader that gets mutated inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reader {
     /// WIF drafts.
     Wif,
     /// Design files with a notation.
     Design,
-    /// The notation of a weave, in an otherwise sound design.
+    /// The notation of a weave, in an otherwise valid design.
     Notation,
-    /// Point paper, in an otherwise sound design.
+    /// Point paper, in an otherwise valid design.
     Image,
     /// Design files with an image or a WIF draft, both mutated.
     Paper,
@@ -77,7 +77,7 @@ impl Reader {
 /// A mutated design: files of one folder. The first one is the file that is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Input {
-    /// Names and bytes.
+    /// Names and bytes of the files.
     pub files: Vec<(&'static str, Vec<u8>)>,
 }
 

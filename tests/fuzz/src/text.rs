@@ -1,10 +1,10 @@
-//! Mutations of text, which respect its lines, sections, keys, numbers and lists.
+//! Mutations of text that respect its lines, sections, keys, numbers and lists.
 
 use fastrand::Rng;
 
 use crate::corpus;
 
-/// Numbers at which readers or number types change their ways.
+/// Numbers that readers or number types treat differently from their neighbours.
 const NUMBERS: &[&str] = &[
     "0",
     "-1",
@@ -153,7 +153,8 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
             lines.extend_from_slice(&other[random.usize(..=other.len())..]);
         }
         5 => lines.truncate(here),
-        // A section moves to the end. If it occurs twice, another one counts then.
+        // A section moves to the end. If the section occurs twice, the move changes which of the
+        // two counts.
         6 if !lines.is_empty() => {
             let start = (0..=line).rev().find(|&at| lines[at].starts_with('[')).unwrap_or(0);
             let end = (start + 1..lines.len()).find(|&at| lines[at].starts_with('[')).unwrap_or(lines.len());
@@ -169,7 +170,7 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
     }
 }
 
-/// Replaces one of the numbers and words of a line, or inserts one where there is none.
+/// Replaces one of the numbers and words of a line, or inserts one if there is none.
 fn with_token(line: &str, random: &mut Rng) -> String {
     let is_part = |letter: char| letter.is_ascii_alphanumeric() || ".-#_".contains(letter);
     let mut tokens: Vec<(usize, usize)> = Vec::new();

@@ -17,7 +17,8 @@ const LIMIT: Duration = Duration::from_secs(20);
 /// The most memory of the whole program with an input, MiB.
 const MEMORY_MIB: f32 = 1024.0;
 
-/// Runs the inputs with these numbers. Returns how many of them were taken.
+/// Runs the inputs with these numbers. Returns the number of inputs that were accepted and passed
+/// through every step.
 ///
 /// `heap` counts the program's memory. The files of an input that fails are kept in `kept`, a
 /// folder.
@@ -25,7 +26,7 @@ const MEMORY_MIB: f32 = 1024.0;
 /// # Panics
 ///
 /// At the first input that panics or takes too much memory. An input that hangs ends the program,
-/// because nothing else can stop it. Its files are kept before.
+/// because nothing else can stop it. Its files are kept first.
 #[must_use]
 pub fn fuzz(reader: Reader, numbers: std::ops::Range<u64>, heap: &PeakAlloc, kept: &Path) -> u64 {
     let folder = tempfile::tempdir().expect("a folder for inputs");
@@ -92,7 +93,7 @@ fn write(input: &Input, folder: &Path) -> PathBuf {
     folder.join(input.files[0].0)
 }
 
-/// Keeps an input's files.
+/// Writes an input's files to a folder in `kept`. Returns the path of that folder.
 fn keep(reader: Reader, number: u64, kept: &Path) -> String {
     let folder = kept.join(format!("{}-{number}", reader.name()));
     std::fs::create_dir_all(&folder).expect("a folder for what failed");

@@ -18,7 +18,7 @@ pub(crate) fn mutated(random: &mut Rng) -> Vec<u8> {
         match random.u8(0..8) {
             0 => scrambled(&mut bytes, random),
             1..4 => field(&mut bytes, random),
-            // A single bit, which leaves most numbers sound.
+            // A change of a single bit leaves most numbers valid.
             _ if bytes.is_empty() => {}
             _ => {
                 let at = random.usize(..bytes.len());

@@ -1,5 +1,5 @@
-//! Inputs that failed once. Each has a folder, whose name says whether it has to be taken or
-//! refused.
+//! Inputs that failed once. Each has a folder, whose name says whether the input has to be accepted
+//! (`taken-`) or refused (`refused-`).
 
 use std::path::Path;
 

@@ -11,8 +11,8 @@ static HEAP: PeakAlloc = PeakAlloc;
 
 fn ten_thousand(reader: Reader) {
     let taken = fuzz(reader, 0..10_000, &HEAP, Path::new(env!("CARGO_TARGET_TMPDIR")));
-    // Mutations are small, so that many inputs get far. Fewest do where a design and its image are
-    // both mutated.
+    // Mutations are small, so many inputs are accepted. The fewest are accepted if a design and its
+    // image are both mutated.
     assert!(taken > 300, "only {taken} were taken");
 }
 

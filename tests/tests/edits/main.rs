@@ -26,7 +26,7 @@ enum Edit {
     Yarns(Vec<(usize, f32, u32, Vec<ControlPoint>)>),
     /// Some points of a yarn move, from this share of the yarn on.
     Points { yarn: usize, from: f64, points: Vec<ControlPoint> },
-    /// Changed parts of the mesh are made again.
+    /// The parts of the mesh that earlier edits have changed are made again.
     Update,
 }
 
@@ -122,8 +122,8 @@ fn read(live: &mut LiveMesh) -> Mesh {
     Mesh { vertices, indices, chunks, plan, materials: Vec::new().into() }
 }
 
-/// The triangles of each yarn by their corners, sorted. The cut into chunks decides where caps come
-/// between them.
+/// The triangles of each yarn by their corners, sorted. They are sorted, because the cut into
+/// chunks decides where caps come between other triangles.
 fn triangles(mesh: &Mesh) -> Vec<Vec<[Vertex; 3]>> {
     let mut yarns = vec![Vec::new(); mesh.plan.layout().yarns().len()];
     for draw in mesh.draws() {
@@ -185,7 +185,7 @@ fn apply(live: &mut LiveMesh, fabric: &mut Fabric, edit: &Edit) {
     match edit {
         Edit::Yarn { yarn, twist, section, points } => {
             let yarn = yarn % fabric.len();
-            // A fabric without twisted yarns takes no twist.
+            // The fabric's plan has no scan, so it can't get a twisted yarn.
             let twist = if live.plan().needs_scan() { *twist } else { 0.0 };
             let what = Yarn { twist, section: *section, ..fabric[yarn].0 };
             live.set_yarn(yarn, what, points).unwrap();
@@ -296,7 +296,7 @@ fn edited_yarns_end_as_a_fresh_mesh() {
         let (devices, missing) = entry.devices();
         assert!(missing.is_empty(), "{missing:?}");
         for device in &devices {
-            // The suite checks that this is refused.
+            // A device that can't edit has to refuse a live mesh, and attributes.
             if !device.info().can.edit {
                 let plan = Arc::new(Plan::new(short().layout().clone(), Settings::default()).unwrap());
                 let refused = LiveMesh::new(&**device, plan).unwrap_err();
@@ -317,7 +317,7 @@ fn edited_yarns_end_as_a_fresh_mesh() {
     }
 }
 
-/// A round yarn has the same vertices, whether another yarn is flattened or not.
+/// A round yarn has the same vertices whether or not another yarn is flattened.
 #[test]
 fn a_round_yarn_does_not_hang_on_flattened_ones() {
     let line = |wide: f32| -> Vec<_> {
@@ -389,7 +389,8 @@ fn what_a_plan_has_no_room_for_is_named() {
     assert_eq!(said(0, turned, 3), "yarn 0 can't be twisted, where no other yarn is: that takes a new plan");
 }
 
-/// A mesh that is read before it is made again would be the one before the edit.
+/// Before an update the device has the mesh before the edit, or none. Reading is refused until
+/// then.
 #[test]
 fn reading_comes_after_an_update() {
     let device = &texere_cpu::SerialBackend::new();

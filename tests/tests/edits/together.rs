@@ -32,7 +32,7 @@ fn yarns_that_are_edited_together_end_as_a_fresh_mesh() {
     let back = [1, 2, 3, 9, 13].map(|yarn| (yarn, 0.0, 1, laid(yarn as f32, 12 + yarn, false, round)));
     let layout = yarns_of(&together.iter().map(|other| (Yarn::default(), other.3.clone())).collect());
     let stand = |at: usize| (layout.layout().is_steep(at), layout.layout().ups(at).is_some());
-    // Yarns 0, 1 and 9.
+    // How yarns 0, 1 and 9 stand.
     assert_eq!([0, 1, 5].map(stand), [(false, false), (true, false), (false, true)]);
     for device in editing() {
         for frame in [Frame::Upright, Frame::RotationMinimizing] {
@@ -84,7 +84,7 @@ fn one_yarn_that_is_refused_leaves_all_as_they_were() {
             assert_eq!((live.traffic().uploaded, live.update().unwrap()), (sent, Vec::new()), "{said}");
         }
         assert!(read(&mut live).vertices == mesh.vertices);
-        // The two sound yarns are taken without the third.
+        // The two valid yarns are accepted without the third.
         let edits = BTreeMap::from([(0, line(0, 33)), (2, line(2, 7))]);
         live.set_yarns(&edits_of(&edits)).unwrap();
         live.update().unwrap();

@@ -33,7 +33,7 @@ fn stitches(chart: &Chart) -> Stitches {
     stitches
 }
 
-/// Every kind of stitch, each in a repeat of its own.
+/// Charts of every kind of stitch, each a repeat of its own.
 fn charts() -> Vec<(&'static str, Chart)> {
     let one = |text: &str| Chart::parse(text, Beds::One).expect("a chart");
     let two = |text: &str| Chart::parse(text, Beds::Two).expect("a chart");
@@ -99,7 +99,7 @@ fn loops_are_drawn_through_what_the_chart_says() {
     }
 }
 
-/// The check of topology sees a head that has slipped off the loop which it holds.
+/// The check of topology reports a head that has slipped off the loop which it holds.
 #[test]
 fn a_dropped_stitch_is_seen() {
     let chart = Chart::parse("kkkk\nkkkk\nkkkk\nkkkk", Beds::One).expect("a chart");

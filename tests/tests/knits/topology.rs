@@ -46,7 +46,7 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
                     continue;
                 }
                 let parent = stitches.parents_of(other).contains(&LoopRef { number, repeat });
-                // Neighbours share arcs. Chains begin just beside them.
+                // Neighbours share arcs. The legs begin just beside these arcs.
                 let (points, end) = (&stretch.points, stretch.points.len());
                 let legs = [&points[PARTS / 2..=stretch.head], &points[stretch.head..end - PARTS / 2]];
                 let through = legs.map(|leg| span.through(leg));
@@ -83,7 +83,8 @@ fn stretches(piece: &Piece, yarns: &Yarns, yarn: usize) -> Vec<Stretch> {
     cells.push(sources.len());
     let stretch = |cell: &[usize]| Stretch {
         points: curve[cell[0] * PARTS..=cell[1] * PARTS].to_vec(),
-        // The arc before a loop, one leg, the head, the other leg.
+        // A cell has the arc before a loop, one leg, the head, and the other leg, so that the head
+        // is in its middle.
         head: (cell[1] - cell[0]) / 2 * PARTS,
     };
     cells.windows(2).map(stretch).collect()

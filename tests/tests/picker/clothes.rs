@@ -31,7 +31,8 @@ pub(crate) struct Cloth {
     pub(crate) rays: usize,
 }
 
-/// Cloths with everything that matters to a picker. Together they get 100,000 rays.
+/// Cloths that together have every case that a picker treats differently. They get 100,000 rays in
+/// all.
 pub(crate) fn clothes() -> Vec<Cloth> {
     let capped = Settings { caps: true, ..Settings::default() };
     let turning = Settings { frame: Frame::RotationMinimizing, ..capped };

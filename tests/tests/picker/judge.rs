@@ -129,8 +129,8 @@ pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> u
         if hit.is_none() && truth.is_none() {
             return [0, 0];
         }
-        // At an edge either triangle may be hit, or one behind them that only one of both codes
-        // sees.
+        // At an edge either triangle may be hit. The judge or the picker alone may also miss both,
+        // and hit a triangle behind them.
         let found = hit.map_or(f64::INFINITY, |hit| hit.distance);
         let nowhere = (f64::INFINITY, MeshPlace { yarn: 0, ring: 0, side: 0, cap: None }, 0.0);
         let [wide, narrow] = [1e-9, -1e-9].map(|slack| nearest(&ray, &all, slack).unwrap_or(nowhere));
@@ -144,7 +144,7 @@ pub(crate) fn compare(picker: &Picker, mesh: &Mesh, rays: usize, seed: u64) -> u
     edges
 }
 
-/// Checks the other values of a hit.
+/// Checks the values of a hit other than its distance.
 pub(crate) fn sound(plan: &Plan, ray: &Ray, hit: &Hit) {
     let point = sum(ray.origin, ray.direction, hit.distance);
     let off = sum(hit.position, point, -1.0);

@@ -196,8 +196,8 @@ fn boxes_are_tight() {
     }
 }
 
-/// On a straight yarn with a point every millimetre, the interval and the place along it give the
-/// distance itself.
+/// On a straight yarn with a point every millimetre, the interval and the place within it give the
+/// distance along the yarn, mm.
 #[test]
 fn the_way_along_the_yarn_is_exact() {
     let mut yarns = Yarns::builder();
@@ -267,7 +267,7 @@ fn rays_that_are_none_hit_nothing_and_wrong_yarns_are_refused() {
         "39 control points, but the plan has 40"
     );
     assert!(matches!(picker.set_yarn(plan.clone(), 1, &unsound[40..80]), Err(PickError::Points(_))));
-    // Another plan of the same yarns, and a plan in which another yarn is edited, too.
+    // Another plan of the same yarns is refused, and so is a plan in which another yarn is edited.
     let other = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
     let twice =
         plan.edited(0, *plan.yarn(0), &points[..20]).unwrap().edited(1, *plan.yarn(1), points).unwrap();

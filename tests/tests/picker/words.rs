@@ -65,8 +65,8 @@ fn stitches_are_where_their_yarns_go() {
                 };
                 told += 1;
                 assert_eq!(course, in_repeat + below, "{name}: {place:?}");
-                // Yarns are cut beyond the edges. The nearest stitch of the cloth may be a repeat
-                // away there.
+                // Yarns are cut beyond the edges of the cloth. There the nearest stitch of the
+                // cloth may be a repeat away.
                 let at = place.position[0] / knit.gauge().wale_mm;
                 let (off, inside) =
                     (at - (f64::from(wale) - 0.5), (1.0..f64::from(wales) - 1.0).contains(&at));
@@ -77,8 +77,8 @@ fn stitches_are_where_their_yarns_go() {
     }
 }
 
-/// A ray from above hits the head of a stitch. It is named by wale and course and by the chart's
-/// cell; in a warp knit by its guide.
+/// A ray from above hits the head of a stitch. The stitch is named by wale and course and by the
+/// chart's cell. In a warp knit it is named by its guide.
 #[test]
 fn stitches_are_told_with_what_made_them() {
     let design = cases::design("rib.toml");

@@ -54,7 +54,8 @@ fn stitches(words: &str) -> Stitches {
 const KNIT: &str = "k0 k1 k2 k3 ";
 const PLATED: &str = "K0 K1 K2 K3 ";
 
-/// Held loops are held before and after settling, and come to rest.
+/// Checks that loops go through the loops that they are drawn through, before and after settling,
+/// and that they come to rest.
 fn holds(name: &str, words: &str, wales: &[f64]) {
     for &wale in wales {
         let knit = knitted(stitches(words), wale, 0.75 * wale);

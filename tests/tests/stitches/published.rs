@@ -1,4 +1,4 @@
-//! Loop lengths and thicknesses of knits at rest, against published figures. docs/SETTLING.md has
+//! Loop lengths and thicknesses of knits at rest, against published figures. docs/BENCHMARKS.md has
 //! the sources.
 
 use texere_fabric::weft::{Beds, Chart, Machine};
@@ -10,8 +10,8 @@ const JERSEY: &str = "kkkk\nkkkk\nkkkk\nkkkk";
 const RIB: &str = "kpkp\nkpkp\nkpkp\nkpkp";
 const INTERLOCK: &str = "pkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp";
 
-/// Length of Peirce's loop with these distances of wales and courses, in diameters. Its round parts
-/// are 5.94 diameters long for yarn as dense as he assumes, and 4.56 for measured diameters.
+/// Lengths of Peirce's loop with these distances of wales and courses, in diameters. Its round
+/// parts are 5.94 diameters long for yarn as dense as he assumes, and 4.56 for measured diameters.
 fn peirce(wale: f64, course: f64) -> [f64; 2] {
     [4.56, 5.94].map(|round| 2.0 * course + wale + round)
 }

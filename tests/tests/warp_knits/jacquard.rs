@@ -41,8 +41,7 @@ fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> W
 /// equal and unequal rows.
 #[test]
 fn every_colour_rests_between_all_others() {
-    // The sequence has every run of three colours once (de Bruijn, 1946). Its end goes on into its
-    // beginning.
+    // The sequence is cyclic, and has every run of three colours once (de Bruijn, 1946).
     let colours = b"000100201101202102211121222";
     let row = |wale: u32| colours[wale as usize % colours.len()] - b'0';
     let size = [colours.len() as u32, 3];
@@ -79,7 +78,8 @@ fn figures_are_as_clear_where_they_are_cut_off() {
     }
 }
 
-/// Its loops are drawn through those below from the start, and its cut edges are clear.
+/// The loops of any figure are drawn through those below from the start, and its cut edges are
+/// clear.
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);

@@ -42,9 +42,9 @@ impl Design {
     }
 }
 
-/// The least radius of curvature in diameters. Settling goes on up to 0.594 while it has passes,
-/// and of all results takes the best up to 0.585. The rest is for differences of measurement. These
-/// lappings reach it.
+/// The least radius of curvature in diameters that these lappings have to reach. Settling aims at
+/// 0.594, and bends of 0.585 and more count as equal when it chooses the best pass. 0.58 leaves
+/// room for differences of measurement.
 const AIM: f64 = 0.58;
 
 /// Four wales and four courses of yarns of this diameter, with wales 1 mm apart.
@@ -81,7 +81,7 @@ fn cut_edges_are_as_clear_as_the_repeat() {
     }
 }
 
-/// The check of topology sees a head that has slipped off the loop which it holds.
+/// The check of topology reports a head that has slipped off the loop which it holds.
 #[test]
 fn a_dropped_stitch_is_seen() {
     let cloth = cloth(DESIGNS[0].bars(), 0.1);
@@ -94,8 +94,8 @@ fn a_dropped_stitch_is_seen() {
     assert!(!topology::faults(&cloth, &piece, &yarns).is_empty());
 }
 
-/// Settles a cloth. Returns its faults at rest, if it has any. Its bends need this radius at least,
-/// in diameters.
+/// Settles a cloth. Returns its faults at rest, if it has any. Its bends have to have at least the
+/// radius `bend`, in diameters.
 fn fault(name: &str, cloth: &WarpKnitted, diameter: f64, bend: f64) -> Option<String> {
     rest(name, cloth, diameter, bend, None).err()
 }
@@ -128,8 +128,8 @@ fn rest(
         settled.rest.passes
     );
     let rests = report.clearance >= 0.98 && report.bend >= bend && report.growth.abs() < 0.02;
-    // Whether surfaces as drawn fold, by the limit of the verdict. The whole verdict also depends
-    // on cut edges.
+    // Surfaces as drawn fold below 1, as in the library's verdict. The whole verdict is not used,
+    // because it also depends on cut edges.
     let folds = settled.clearance.curvature_min < 1.0;
     let sound = rests && !folds && linked < CROSSED && settled.is_linked();
     if sound {

@@ -78,7 +78,7 @@ fn loops(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<Loop> {
         for laid in laps {
             let first = own.iter().position(|source| *source == laid.course + 1).expect("a lap");
             let needles: Vec<_> = laid.lap.needles().collect();
-            // The yarn goes from one loop of a lap to the next as in an underlap.
+            // Between the two loops of a lap the yarn has points as in an underlap.
             let next = if needles.len() == 2 { second(&curve, first + LOOP) } else { first };
             for (needle, point) in needles.into_iter().zip([first, next]) {
                 let curve = curve[point * PARTS..=(point + LOOP - 1) * PARTS].to_vec();

@@ -62,7 +62,7 @@ fn sampled(curve: impl Fn(f64) -> DVec3, closed: bool, bend: f64) -> Vec<DVec3> 
 /// by `over` radians.
 fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     let way = |t: f64| {
-        // The slope swings from straight up to straight down, and a little further.
+        // The slope goes from straight up to straight down, and a little further either way.
         let slope = (PI / 2.0 + over) * (TAU * t).sin().clamp(-0.9, 0.9) / 0.9;
         DVec3::new(slope.cos(), lean * (3.0 * TAU * t).sin(), slope.sin())
     };
@@ -143,7 +143,8 @@ fn flat_rings_on_end_are_not_wrung() {
     check_flat("straight up", &ribbon(&up, false, 0.1));
 }
 
-/// A flat yarn follows the upright frame where that turns slowly, whatever it does elsewhere.
+/// A flat yarn follows the upright frame where that frame turns slowly, whatever the yarn does
+/// elsewhere.
 #[test]
 fn a_flat_yarn_stands_upright_where_it_lies_flat() {
     // The yarn runs along x, down, along x, up and along x again.

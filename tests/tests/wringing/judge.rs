@@ -1,10 +1,10 @@
-//! The turn of a mesh from ring to ring, in f64 and from its vertices alone. It uses nothing of
+//! The turn of a mesh from ring to ring, in f64 and from its vertices alone. Nothing here uses
 //! texere's frames.
 
 use glam::DVec3;
 use texere_core::{Backend, Pipeline, Settings, Topology, Yarns};
 
-/// Rings that are closer than this share of the radius nearly cut one another: the yarn folds
+/// Rings that are closer than this share of the radius count as cutting one another: the yarn folds
 /// there.
 const CLEAR: f64 = 0.02;
 

@@ -19,7 +19,7 @@ const WIDTH: f64 = 0.965_925;
 
 const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
 
-/// Few rings with few sides, and many.
+/// Pairs of subdivisions and sides: few rings with few sides, and many.
 const DRAWN: [(u32, u32); 5] = [(0, 6), (1, 6), (1, 3), (3, 8), (7, 13)];
 
 /// Checks a mesh of `yarns` with either frame. Returns the larger number of triangles that face
@@ -46,7 +46,7 @@ fn check(name: &str, yarns: &Yarns) -> usize {
     inwards
 }
 
-/// A yarn of radius 0.1 mm through `places`, closed where these go round.
+/// A yarn of radius 0.1 mm through `places`, a closed one if `closed`.
 fn yarn(places: &[[f64; 3]], closed: bool) -> Yarns {
     let points: Vec<_> = places
         .iter()

@@ -1,4 +1,5 @@
-//! Small designs that ask for more than any cloth has are refused by name, in little memory.
+//! Small designs that ask for far more than any cloth has are refused by name, and in little
+//! memory.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -7,20 +8,22 @@ use std::process::{Command, Output};
 
 use crate::{stderr, texere};
 
-/// Underlaps over 511 needles of a cloth of four wales: 128 yarns of a course behind each needle.
+/// A cloth of four wales with underlaps over 511 needles. In each course 128 yarns lie behind each
+/// needle.
 pub(crate) const UNDERLAPS: &str = "[warp_knit]\nwales = 4\ncourses = 4\nwales_per_cm = 10\ncourses_per_cm = 13\n\
                                     [[warp_knit.bars]]\nlapping = \"0-1/511-512//\"\n[yarns.a]\ndiameter_mm = 0.1\n";
 
-/// The output for a design with this many kB of memory.
+/// The output of `command` for a design, with this many kB of memory.
 fn within(kilobytes: u32, command: &str, design: &str) -> Output {
     within_in(tempfile::tempdir().unwrap().path(), kilobytes, command, design)
 }
 
-/// The output for a design in a folder with the files that it names.
+/// The output of `command` for a design in `folder`, which has the files that the design names,
+/// with this many kB of memory.
 fn within_in(folder: &Path, kilobytes: u32, command: &str, design: &str) -> Output {
     let path = folder.join("design.toml");
     fs::write(&path, design).unwrap();
-    // Threads have stacks of their own.
+    // One thread, because each has a stack of its own.
     Command::new("sh")
         .args(["-c", &format!("ulimit -v {kilobytes}; exec \"$0\" {command} \"$1\"")])
         .args([env!("CARGO_BIN_EXE_texere"), path.to_str().unwrap()])
@@ -118,8 +121,8 @@ fn a_repeat_that_no_gigabyte_holds_is_refused_before_it_is_laid() {
     assert!(output.status.code() == Some(3) && error.contains("a repeat of "), "{error}");
 }
 
-/// A Jacquard of two yarns on 1,024 needles and rows, of which one floats all the way: it takes
-/// less than a gigabyte beside what threads reserve.
+/// A Jacquard of two yarns on 1,024 needles and rows, one of which floats all the way. It takes
+/// less than a gigabyte beside the memory that threads reserve.
 #[test]
 fn a_repeat_that_a_gigabyte_holds_is_laid() {
     let folder = picture(1024);
@@ -171,7 +174,7 @@ fn help_that_can_t_be_written_is_a_failure() {
     }
 }
 
-/// A file that is no knitting program may hold a secret, which is not printed.
+/// A file that is no knitting program may hold a secret, so its text is not printed.
 #[test]
 fn a_file_that_is_no_program_is_not_quoted() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! `texere check`: its faults, and that its cures cure.
+//! `texere check`: the faults that it finds, and that its cures work.
 
 use std::path::{Path, PathBuf};
 
@@ -106,7 +106,7 @@ fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
         text.contains(" or yarns 1.13 times as thin") && text.matches("beyond it").count() == 1,
         "{text}"
     );
-    // With the printed spacing it is within the limit.
+    // With the printed spacing the sett is within the limit.
     let (_, told) = text.split_once("flatten: ").unwrap();
     let spacing = told.split(' ').next().unwrap().parse().unwrap();
     let text = beyond(&twill(folder.path(), "", spacing, 0.66));
@@ -132,8 +132,8 @@ fn how_exact_touching_is_can_be_said() {
 #[test]
 fn the_papers_shape_is_cured_by_the_round_one() {
     let folder = TempDir::new().unwrap();
-    // Less than two diameters apart: with one point a crossing corners are cut, while round threads
-    // just pass.
+    // Threads are less than two diameters apart. With one control point a crossing the spline cuts
+    // corners and threads pierce; threads of the round shape just pass.
     let path = twill(folder.path(), "shape = \"crossing\"", 0.59, 0.59);
     let (code, report) = check(&path, &[]);
     assert_eq!(code, 4);
@@ -176,7 +176,7 @@ fn yarns_thicker_than_several_pitches_are_named_and_cured_by_numbers() {
         let thin = thin["value"].as_str().unwrap().parse().unwrap();
         let (code, after) = check(&thick(folder.path(), size, thin, spacing), &[]);
         assert_eq!((code, &after["crowded"]), (0, &Value::Null), "{after}");
-        // Or with its spacing, if a design file allows it.
+        // It is clean with the spacing of the cure, too, if a design file allows that spacing.
         if let Some(wide) = cure(&report, "warp.spacing_mm, weft.spacing_mm") {
             let (wide, _) = wide["value"].as_str().unwrap().split_once(", ").unwrap();
             let (code, after) = check(&thick(folder.path(), size, diameter, wide.parse().unwrap()), &[]);
@@ -231,9 +231,9 @@ fn knits_that_fall_apart_are_named_as_woven_cloth_is() {
     }
 }
 
-/// Rings follow even a hard twist, so that no tube is wrung: 2,000 turns a metre are four turns
-/// from pick to pick. 80,000 are half a turn from ring to ring in the finest mesh, which is
-/// reported.
+/// Rings follow even a hard twist of 2,000 turns a metre, four turns from pick to pick, so that no
+/// tube is wrung. 80,000 turns a metre are half a turn from ring to ring even in the finest mesh,
+/// and are reported.
 #[test]
 fn a_mesh_that_twist_wrings_is_told() {
     let folder = TempDir::new().unwrap();

@@ -6,10 +6,10 @@ use serde_json::Value;
 
 use crate::{design, inspect, stderr, stdout, texere};
 
-/// The paper's benchmark cloths: yarns, control points, rings, facets. Derived from its text: a
-/// yarn has a control point at each crossing and one at each end, K = 1 inserts one between two,
-/// and nc = 6 sides make 12 facets between rings. They add up to the 254.47 million facets that it
-/// states for 2880 x 1840.
+/// The paper's benchmark cloths: yarns, control points, rings, facets. They follow from the paper's
+/// text: a yarn has a control point at each crossing and one at each end, K = 1 inserts one ring
+/// between two points, and nc = 6 sides make 12 facets between rings. For 2880 x 1840 they give the
+/// 254.47 million facets that the paper states.
 #[test]
 fn the_papers_cloths_have_the_papers_sizes() {
     for (size, yarns, control_points, rings, facets) in [
@@ -45,8 +45,8 @@ fn settings_change_what_is_counted() {
         "indexed",
         &plain,
     ]);
-    // 64 ends of 50 control points, 48 picks of 66, and three each time that one changes sides,
-    // between any two crossings; 4 rings an interval.
+    // There are 64 ends of 50 control points and 48 picks of 66. Three more stand where a thread
+    // changes sides, which is between any two crossings. There are 4 rings an interval.
     let rings = 64 * ((49 + 3 * 47) * 4 + 1) + 48 * ((65 + 3 * 63) * 4 + 1);
     assert_eq!(report["rings"], rings);
     assert_eq!(report["vertices"], rings * 8 + 112 * 2 * 8);
@@ -63,8 +63,8 @@ fn a_drafts_text_has_the_last_pick_on_top_and_end_1_on_the_left() {
                 [warp]\nyarns = [\"a\"]\nper_cm = 8.0\n[weft]\nyarns = [\"a\"]\nper_cm = 8.0\n";
     std::fs::write(&path, text).unwrap();
     let output = texere(&["draft", path.to_str().unwrap(), "--text"]);
-    // Right-hand twill: the weft's float moves one end to the right with each pick, and up the
-    // page.
+    // A right-hand twill: in the next pick, one row further up the page, the weft's float lies one
+    // end further to the right.
     assert_eq!(stdout(&output), "110111\n101110\n011101\n111011\n");
 }
 
@@ -90,7 +90,7 @@ fn devices_are_listed_by_the_names_that_open_them() {
         all["found"].as_array().unwrap().iter().map(|device| device["name"].as_str().unwrap()).collect();
     assert!(names.ends_with(&["cpu", "cpu-serial"]), "{names:?}");
     assert!(names.contains(&all["auto"].as_str().unwrap()), "{all}");
-    // A family is either found, or missing with a reason.
+    // Devices of a family are either found, or the family is missing with a reason.
     for family in ["opencl", "wgpu"] {
         let found = names.iter().any(|name| name.starts_with(family));
         let missing = all["missing"].as_array().unwrap().iter().any(|each| each["family"] == family);

@@ -43,7 +43,7 @@ fn what_can_not_be_converted_is_said_and_nothing_written() {
         assert!(stderr(&output).contains(said), "{name}: {}", stderr(&output));
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    // The design itself is not replaced either.
+    // A design is not replaced by its own conversion.
     fs::copy(design("denim.toml"), at("denim.toml")).unwrap();
     let output = texere(&["convert", &at("denim.toml"), &at("denim.toml")]);
     assert_eq!(output.status.code(), Some(2));

@@ -37,7 +37,7 @@ fn no_float_of_the_jacquards_is_longer_than_their_weaves() {
         let column = |end: usize| rows.iter().map(|row| row[end]).collect::<Vec<_>>();
         let along = (0..size.0).map(|end| longest(&column(end))).max();
         assert_eq!(along.max(rows.iter().map(|row| longest(row)).max()), Some(float), "{name}");
-        // A figure and its ground, not one weave all over.
+        // The drawdown has a figure and its ground, not one weave all over.
         let up = text.bytes().filter(|&sign| sign == b'1').count() as f64 / (size.0 * size.1) as f64;
         assert!((0.3..0.6).contains(&up), "{name}: {up}");
     }
@@ -64,7 +64,8 @@ fn an_image_a_notation_and_a_wif_draw_the_same() {
         let path = path.to_str().unwrap();
         let face = stdout(&texere(&["draft", path, "--text"]));
         assert_eq!(face, "110111\n101110\n011101\n111011\n", "{name}");
-        // Turned over sideways: mirrored, and what was up is down.
+        // The back is the face turned over sideways: it is mirrored, and ends that were up are
+        // down.
         let back = stdout(&texere(&["draft", path, "--text", "--back"]));
         assert_eq!(back, "000100\n100010\n010001\n001000\n", "{name}");
         let picture = folder.path().join(name).with_extension("png");
@@ -142,7 +143,7 @@ fn a_knits_draft_is_its_chart() {
     let text = stdout(&texere(&["draft", &design("tuck.toml"), "--text", "-o", path.to_str().unwrap()]));
     assert_eq!(text, "kkkk\nkktk\nkkkk\ntkkk\n");
     let [width, height] = png_size(&path);
-    // Below squares of 16 pixels stands the needle diagram.
+    // The needle diagram stands below the chart's squares of 16 pixels.
     assert!(width > 4 * 16 && height > 4 * 7 * 16, "{width} x {height}");
     let back = stdout(&texere(&["draft", &design("rib.toml"), "--text", "--back"]));
     assert_eq!(back, "kp\n");

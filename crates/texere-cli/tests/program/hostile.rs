@@ -71,7 +71,8 @@ fn errors_are_a_line_or_two_and_tame() {
     }
 }
 
-/// Runs the program as on a system without threads: stacks of this size can't be had.
+/// Runs the program as on a system without threads: stacks of the size in `RUST_MIN_STACK` can't be
+/// had.
 fn without_threads(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_texere"))
         .args(args)
@@ -124,8 +125,8 @@ fn a_drafts_text_needs_no_memory_beside_the_design() {
     assert_eq!(stdout(&output), "10".repeat(8000) + "\n");
 }
 
-/// Mesa's layers complain of the environment whenever drivers are listed. A command that succeeds
-/// does not show that.
+/// Mesa's layers print warnings about the environment whenever drivers are listed. A command that
+/// succeeds does not show these warnings.
 #[test]
 fn what_drivers_write_is_not_the_programs() {
     let folder = tempfile::tempdir().unwrap();

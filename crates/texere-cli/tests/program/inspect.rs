@@ -35,7 +35,7 @@ fn measures_add_up() {
     // Two yarns of one colour.
     assert!((number(&measures["colors"]["#c81020"]) - red - rust).abs() < 1e-6);
     assert_eq!(number(&measures["colors"]["#e9dfc7"]), ecru);
-    // 20 ends of red and 10 of rust; crimp lengthens all of them alike.
+    // There are 20 ends of red and 10 of rust, and crimp lengthens all ends equally.
     let crimp = &measures["crimp"];
     assert!(((red + rust) / (30.0 * 24.0) - 1.0 - number(&crimp["warp"])).abs() < 1e-9);
     assert!((ecru / (24.0 * 24.0) - 1.0 - number(&crimp["weft"])).abs() < 1e-9);
@@ -45,7 +45,8 @@ fn measures_add_up() {
     assert!((number(&measures["areal_weight_g_per_m2"]) / (grams / 576e-6) - 1.0).abs() < 1e-6);
     let weights: f64 = yarns.iter().map(|yarn| number(&yarn["weight_g"])).sum();
     assert!((weights / grams - 1.0).abs() < 1e-6);
-    // Cotton of 40, 50 and 60 tex, 1.1 cm³/g, over spacings: tex × 1.1e-3 mm² across.
+    // Diameters of cotton of 40, 50 and 60 tex, 1.1 cm³/g, divided by spacings: a section has tex ×
+    // 1.1e-3 mm².
     let root = (4.0 * 1.1e-3 / std::f64::consts::PI).sqrt();
     let [warp, weft] = [(2.0 * 40f64.sqrt() + 50f64.sqrt()) / 2.4, 60f64.sqrt()].map(|roots| root * roots);
     let cover = &measures["cover"];
@@ -53,11 +54,11 @@ fn measures_add_up() {
     assert!((number(&cover["fraction"]["weft"]) / weft - 1.0).abs() < 2e-3);
     assert!((number(&cover["cloth"]) / (warp + weft - warp * weft) - 1.0).abs() < 3e-3);
     assert!(number(&cover["factor"]["warp"]) > 0.0 && number(&cover["cloth_factor"]) < 28.0);
-    // Between one and two threads thicker than the thickest.
+    // The cloth is thicker than its thickest thread, by less than two threads.
     assert!((0.29..3.0 * 0.29).contains(&number(&measures["thickness_mm"])));
 }
 
-/// Settled and as it is woven, without options for the mesh.
+/// Both at rest and as it is woven, without options for the mesh.
 #[test]
 fn a_polygon_has_as_many_sides_as_corners() {
     let folder = tempfile::tempdir().unwrap();
@@ -98,7 +99,8 @@ fn the_worst_places_have_a_weavers_names() {
                 continue;
             };
             crossings += 1;
-            // Half the first spacing in, then one spacing after another.
+            // The first thread lies half a spacing from the edge, and each other thread one spacing
+            // further.
             assert!((x - (end - 0.5) * 0.8).abs() < 0.41 && (y - (pick - 0.5)).abs() < 0.51, "{contact}");
             // The weft is one yarn of many picks.
             assert!(*name == format!("end {end}") || *name == format!("pick {pick}"), "{contact}");
@@ -110,14 +112,15 @@ fn the_worst_places_have_a_weavers_names() {
     assert!(
         curvature["yarn"].as_str().is_some_and(|name| name.starts_with("end ") || name.starts_with("pick "))
     );
-    // √3 diameters would be the least of ends alike; these have thicker picks between.
+    // If all threads were alike, √3 diameters would be the least pitch. These ends have thicker
+    // picks between them.
     let ends = &report["jam"]["after"]["warp"];
     assert_eq!((ends["jammed"].as_u64(), number(&ends["pitch_mm"])), (Some(0), 0.8));
     assert!((0.4..0.6).contains(&number(&ends["pitch_min_mm"])), "{ends}");
 }
 
-/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end. So an
-/// end takes its own diameter and half a pick's.
+/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end. An
+/// end therefore takes its own diameter and half a pick's.
 #[test]
 fn setts_stand_beside_the_greatest_of_the_weave() {
     let report = cloth();
@@ -143,7 +146,7 @@ fn text_says_the_same() {
     }
 }
 
-/// 10.6 million control points.
+/// The paper's Jacquard has 10.6 million control points.
 #[test]
 fn the_papers_jacquard_has_the_papers_size_and_is_clear() {
     let report = inspect(&[&design("paper/figure-7a.toml")]);

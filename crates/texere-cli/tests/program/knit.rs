@@ -44,7 +44,7 @@ fn loops_courses_and_wales_are_counted() {
     assert!(text.contains("576 in 24 courses of 24 wales"), "{text}");
 }
 
-/// Each cell, knit or float, has twelve control points: 400 wales are the paper's 4,800.
+/// Each cell, knit or float, has twelve control points, so 400 wales have the paper's 4,800.
 #[test]
 fn the_papers_knit_has_the_papers_size() {
     let report = inspect(&["--counts", &design("paper/figure-7b.toml")]);
@@ -69,7 +69,8 @@ fn the_instruction_under_a_point_is_named() {
         })
         .collect();
     std::fs::write(&path, format!(";!knitout-2\n;;Carriers: 1\n;;Gauge: 25.4\nin 1\n{courses}")).unwrap();
-    // Needle 2 of the second course, 1 mm a needle: its loop's legs lie at both sides of x 2.5 mm.
+    // The point lies on needle 2 of the second course. Needles are 1 mm apart, so the legs of its
+    // loop lie at both sides of x = 2.5 mm.
     let path = path.to_str().unwrap();
     let report = inspect(&["--no-settle", "--at", "2.25,1.4", path]);
     let at = report["at"].as_array().unwrap();

@@ -10,7 +10,7 @@ use crate::{design, stderr, texere};
 const THREADS: &str = "[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\nper_cm = 8.0\n\
                        [weft]\nyarns = [\"a\"]\nper_cm = 8.0\n";
 
-/// A design by an image, `motif.png`, in a folder of its own.
+/// A folder with a design by an image, `motif.png`.
 fn by_image() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
@@ -85,7 +85,7 @@ mod unix {
 
     use super::*;
 
-    /// Waits until there is an unfinished file: the program is at work then.
+    /// Waits until there is an unfinished file, which shows that the program is at work.
     fn at_work(folder: &Path, program: &mut Child) {
         let start = Instant::now();
         while !names(folder).iter().any(|name| name.starts_with(".texere-")) {
@@ -95,7 +95,7 @@ mod unix {
         }
     }
 
-    /// The program, making a mesh that takes it seconds.
+    /// The program while it makes a mesh, which takes seconds.
     fn meshing(folder: &Path, shell: &str) -> Child {
         // The tests may run with ignored signals, as jobs in a shell's background do.
         let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP,USR1,XFSZ"]);
@@ -133,7 +133,7 @@ mod unix {
         }
     }
 
-    /// Started as by `nohup`.
+    /// The program is started as `nohup` starts it, with a signal ignored.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_signal_that_was_ignored_stays_ignored() {
@@ -156,7 +156,8 @@ mod unix {
         send("KILL", &killed);
         assert_eq!(killed.wait().unwrap().signal(), Some(9));
         assert_eq!(names(folder.path()).len(), 1);
-        // Another program is at work: its file must stay, that of the killed one must go.
+        // Another program is at work: its file must stay, and the file of the killed program must
+        // go.
         let left = names(folder.path());
         let mut working = meshing(folder.path(), "");
         let start = Instant::now();
@@ -174,7 +175,7 @@ mod unix {
         assert_eq!(names(folder.path()), ["plain.ply"]);
     }
 
-    /// A user who is not root, and a file of root's.
+    /// A user who is not root may not replace a file of root's.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_that_its_user_may_not_write_is_not_replaced() {

@@ -10,19 +10,19 @@ const LIFTED: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=2\nTreadles=0\nRisin
                       Thickness=0.04\n[COLOR PALETTE]\nEntries=1\nRange=255\n[COLOR TABLE]\n1=32,32,32\n[THREADING]\n1=1\n2=2\n3=1\n\
                       4=2\n[TIEUP]\n1=1\n[TREADLING]\n1=1\n[LIFTPLAN]\n1=1\n2=2\n3=1\n4=2\n";
 
-/// A needle in the middle that never has a loop.
+/// A knit with a needle in the middle that never has a loop.
 const EMPTY: &str = "[knit]\nchart = \"\"\"\nkmk\nkmk\n\"\"\"\nrepeat = [2, 2]\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\n\
                      diameter_mm = 0.1\n";
 
-/// Yarns that the hook can't take, one that is used before it is brought in, and loops that are
-/// left on needles.
+/// A program whose hook can't take a yarn, because it still holds another one. The yarn is then
+/// used without having been brought in, and loops are left on needles.
 const HOOKED: &str = ";!knitout-2\n;;Carriers: 1 2\ninhook 1\ninhook 2\nknit + f1 1\nknit + f2 1\nknit - f2 1\nknit - f1 1\nouthook 1\n";
 
 /// Two layers that nothing binds.
 const LAYERS: &str = "[weave]\ndrawdown = \"\"\"\n0010\n1011\n1110\n1000\n\"\"\"\n[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\n\
                       spacing_mm = 0.6\n[weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n";
 
-/// On a terminal both outputs are seen, so neither repeats the other.
+/// A terminal shows standard output and standard error together, so neither repeats the other.
 #[test]
 fn reports_do_not_repeat_what_was_said_as_the_design_was_read() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! The command line and the library go the same way from a design to its cloth.
+//! The command line and the library make the same cloth of a design.
 
 use texere::rest::RestReport;
 use texere::{Pipeline, Settings};

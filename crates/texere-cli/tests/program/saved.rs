@@ -1,4 +1,4 @@
-//! Cloth at rest that is saved, and taken in place of a design.
+//! Cloth at rest that is saved, and then given to commands in place of a design.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
             assert!(fs::read(own).unwrap() == fs::read(other).unwrap(), "{name}: another {ending}");
         }
         let again = path(&format!("{name}-again.yarns"));
-        // Nothing settles here, so a device that there is not is none too few.
+        // Nothing settles here, so a device that does not exist is not missed.
         stdout(&texere(&["mesh", &saved, "-o", &again, "--device", "none"]));
         assert!(fs::read(&saved).unwrap() == fs::read(again).unwrap(), "{name} is saved otherwise");
     }

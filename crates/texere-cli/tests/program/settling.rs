@@ -15,8 +15,8 @@ fn folder(name: &str, text: &str) -> TempDir {
     folder
 }
 
-/// Threads of 0.3 mm. Of every three, two lie `near` mm apart, too near for crossing threads; the
-/// third lies 0.78 mm from both.
+/// A cloth of threads of 0.3 mm. In each group of three, two threads lie `near` mm apart, too near
+/// for threads to cross between them. The third lies 0.78 mm from both.
 fn doubled(near: f64, finish: &str) -> TempDir {
     let far = 1.56 - near;
     folder(
@@ -82,7 +82,7 @@ fn a_cloth_that_pierces_itself_comes_to_rest_and_is_clean() {
     // The warning that crossing threads pierce one another is gone.
     let warnings = |report: &Value| report["warnings"].as_array().unwrap().len();
     assert_eq!((warnings(&plain), warnings(&settled)), (2, 0), "{settled}");
-    // Peirce's pitches are not reported for settled threads.
+    // The jams by Peirce's pitches are not reported for settled threads.
     assert!(plain["jam"].is_object() && settled.get("jam").is_none());
     let covered = |report: &Value| report["measures"]["cover"]["cloth"].as_f64().unwrap();
     assert!(covered(&settled) > covered(&plain) + 0.01, "{plain} {settled}");
@@ -90,7 +90,7 @@ fn a_cloth_that_pierces_itself_comes_to_rest_and_is_clean() {
 
 #[test]
 fn what_has_no_room_says_so_and_is_still_checked() {
-    // Threads three times as thick as they lie apart.
+    // Threads are three times as thick as their distance.
     let folder = doubled(0.1, "");
     let cloth = at(&folder, "doubled.toml");
     let text = fs::read_to_string(&cloth).unwrap().replace("1.46", "0.1");
@@ -100,7 +100,7 @@ fn what_has_no_room_says_so_and_is_still_checked() {
     assert!(report["settling"]["clearance"].as_f64().unwrap() < 0.98 && report["jams"].is_null(), "{report}");
     let text = stdout(&texere(&["check", &cloth]));
     assert!(text.contains("% beyond it they jam") && text.contains("cure  warp.spacing_mm"), "{text}");
-    // With the spacing of the cure it is clean.
+    // With the spacing of the cure the cloth is clean.
     let spacing = &report["cures"][0];
     assert_eq!(spacing["key"], "warp.spacing_mm, weft.spacing_mm", "{report}");
     let (wider, _) = spacing["value"].as_str().unwrap().split_once(", ").unwrap();
@@ -142,7 +142,7 @@ fn a_plot_shows_every_pass_and_marks_the_stages() {
     {
         assert!(svg.contains(part), "{part}: {svg}");
     }
-    // Every pass has a step. In the other lines infinity and 0 leave a gap.
+    // Every pass has a step, so its line has no gaps. In the other lines infinity and 0 leave gaps.
     let line = svg.lines().find(|line| line.contains("#cc79a7\" stroke-width=\"1.5\"")).unwrap();
     let passes = line.matches(['M', 'L']).count() as u64;
     assert_eq!(Value::from(passes), report["settling"]["passes"]);
@@ -177,8 +177,8 @@ fn flags_that_make_no_sense_are_refused() {
     assert_eq!(fs::read(&plot).unwrap(), b"old");
 }
 
-/// A cloth that is stretched along its warp is longer and narrower, with as much yarn in it. A
-/// stretch that its threads don't allow is refused.
+/// A cloth that is stretched along its warp becomes longer and narrower, and keeps the length of
+/// its yarns. A stretch that its threads don't allow is refused.
 #[test]
 fn stretched_cloth_keeps_its_yarn() {
     let sheeting = |finish: &str| {
@@ -214,7 +214,8 @@ fn stretched_cloth_keeps_its_yarn() {
     assert!(!output.status.success() && stderr(&output).contains("straight at 1.06"), "{}", stderr(&output));
 }
 
-/// Settling measures upright ellipses on one repeat; plies of the whole cloth are drawn.
+/// A warp knit that pierces as it is drawn. Settling measures upright ellipses of one repeat, while
+/// the drawn surfaces of the whole cloth have plies.
 const PIERCES_AS_DRAWN: &str = "[warp_knit]\nwales = 2\ncourses = 4\nneedles_per_inch = 20.0388\ncourses_per_cm = 15.3001\ncompression = 0.8019\n\
     [[warp_knit.bars]]\nlapping = \"tricot\"\nstep = 2\nthreading = [\"b\", \"b\"]\n\
     [[warp_knit.bars]]\nlapping = \"8-10//\"\nstep = 2\nthreading = [\"a\", \"b\"]\nrun_in_mm = 865.8104\n[finish]\nlength = 1.8704\n\
@@ -259,7 +260,7 @@ fn a_press_that_is_not_reached_is_said() {
     assert!(report["warnings"].as_array().unwrap().iter().any(|said| *said == warning[..]), "{words}");
     assert_eq!(report["settling"]["press"]["reached_mm"].as_f64(), Some(thick));
     assert!(said("check", PRESSED).1.contains(&warning));
-    // Plates that hardly touch it.
+    // Plates 2 mm apart hardly touch the cloth.
     let (report, words) = said("inspect", &PRESSED.replace("press = 0.2\n", "press = 2.0\n"));
     assert!(report["warnings"].as_array().unwrap().is_empty(), "{words}");
 }

@@ -6,7 +6,8 @@ use tempfile::TempDir;
 
 use crate::{inspect, stderr, stdout, texere};
 
-/// A cloth of ten ends and ten picks of a yarn, 3 mm apart: `yarn` has its section and its twist.
+/// A cloth of ten ends and ten picks, 3 mm apart. `yarn` has the lines of the yarn's section and
+/// twist.
 fn cloth(folder: &Path, yarn: &str) -> PathBuf {
     let path = folder.join("cloth.toml");
     let text = format!(
@@ -17,7 +18,7 @@ fn cloth(folder: &Path, yarn: &str) -> PathBuf {
     path
 }
 
-/// The bytes of a mesh, and what was printed.
+/// The bytes of a design's mesh, and the text on standard output.
 fn mesh(design: &Path, more: &[&str]) -> (Vec<u8>, String) {
     let out = design.with_extension("ply");
     let own = ["mesh", design.to_str().unwrap(), "-o", out.to_str().unwrap(), "--device", "cpu"];
@@ -26,8 +27,8 @@ fn mesh(design: &Path, more: &[&str]) -> (Vec<u8>, String) {
     (std::fs::read(out).unwrap(), stdout(&output))
 }
 
-/// The corners of the rings of a PLY file, yarn after yarn: the tubes have six sides, and a yarn
-/// ends where the next ring is far away.
+/// The corners of the rings of a PLY file, yarn after yarn. Tubes have six sides. A yarn ends where
+/// the next ring is far away.
 fn tubes(file: &[u8]) -> Vec<Vec<[[f64; 3]; 6]>> {
     let end = b"end_header\n";
     let start = file.windows(end.len()).position(|bytes| bytes == end).unwrap() + end.len();
@@ -70,9 +71,9 @@ fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The turn of a ring against the one before, in degrees, right-handed along the yarn. Both first
-/// corners are compared along the chord, which for short steps is nearly the same as carrying one
-/// to the other.
+/// The turn of the ring `other` against the ring `one` before it, in degrees, right-handed along
+/// the yarn. The first corners of both are compared as seen along the chord. For short steps that
+/// is nearly the turn after one is carried to the other.
 fn turn(one: &[[f64; 3]; 6], other: &[[f64; 3]; 6]) -> f64 {
     let chord = between(centre(one), centre(other));
     let along = chord.map(|each| each / length(chord));

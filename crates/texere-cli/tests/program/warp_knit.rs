@@ -37,15 +37,15 @@ fn bars_are_told_and_the_guide_under_a_point_is_named() {
     // Two bars of 18 guides make 24 courses.
     assert_eq!((&report["loops"], &report["yarns"]), (&(2 * 18 * 24).into(), &36.into()));
     // The left leg of the loops on needle 5, counted from 0, of the course that begins at 6 x 0.75
-    // = 4.5 mm: course 7. At odd courses the front bar laps 1-0, so guide 5 from 0 is there; the
-    // back bar laps 1-2, so guide 4 is.
+    // = 4.5 mm: course 7. In odd courses the front bar laps 1-0, so its guide 5, counted from 0, is
+    // there. The back bar laps 1-2, so its guide 4 is there.
     let at = report["at"].as_array().unwrap();
     let told: Vec<_> = at.iter().map(|under| (&under["yarn"], &under["place"])).collect();
     let [front, back, course] = ["guide bar 1, guide 6", "guide bar 2, guide 5", "course 7"].map(Value::from);
     assert_eq!(told, [(&front, &course), (&back, &course)]);
 }
 
-/// Within a hundredth of the paper's 381.71 million facets.
+/// The number of facets is within 1 % of the paper's 381.71 million.
 #[test]
 fn the_papers_warp_knit_has_the_papers_size() {
     let report = inspect(&["--counts", &design("paper/figure-7c.toml")]);

@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use screen::{DEADLINE, Picture, Screen, wait_for};
 
-/// The window's size, and where its panel ends and the cloth may begin.
+/// The window's size, and the x at which its panel ends and the cloth may begin, pixels.
 const SIZE: [u32; 2] = [620, 420];
 const PANEL: u32 = 250;
 
@@ -26,12 +26,12 @@ const ENDS: [(&str, [u8; 3]); 4] =
 const PICKS: [(&str, [u8; 3]); 4] =
     [("blue", [30, 40, 220]), ("violet", [150, 20, 220]), ("black", [8, 8, 8]), ("orange", [240, 120, 10])];
 
-/// Two pictures of the same cloth differ by less than this, levels of 255; pictures of different
-/// cloths by more.
+/// Two pictures of the same cloth differ by less than `ALIKE` levels of 255, pictures of different
+/// cloths by more than `UNLIKE`.
 const ALIKE: f32 = 2.5;
 const UNLIKE: f32 = 8.0;
 
-/// X11's number of a key that is no letter.
+/// X11's number of the left control key.
 const CONTROL: u32 = 0xffe3;
 
 fn design(notation: &str, picks: usize) -> String {
@@ -72,7 +72,7 @@ impl Viewer {
             .arg(design)
             .env("DISPLAY", &screen.name)
             .env_remove("WAYLAND_DISPLAY")
-            // Without this, drivers print complaints.
+            // If this variable is set, drivers print warnings.
             .env_remove("XDG_RUNTIME_DIR")
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -92,7 +92,7 @@ impl Viewer {
         line
     }
 
-    /// Waits for the program's end. Asserts that it succeeds without complaints.
+    /// Waits for the program's end. Asserts that it succeeds and prints no error.
     fn ends(&mut self) {
         let status = wait_for("the program's end", || self.program.try_wait().unwrap());
         let mut errors = String::new();
@@ -108,8 +108,8 @@ impl Drop for Viewer {
     }
 }
 
-/// The rectangle of the cloth in a picture of its face: its least and greatest x and y. None where
-/// there is nothing coloured.
+/// The rectangle of the cloth in a picture of its face: its least and greatest x and y. None if
+/// nothing is coloured.
 fn cloth(picture: &Picture) -> Option<[[u32; 2]; 2]> {
     let is_yarn = |at: &[u32; 2]| {
         let color = picture.at(*at);
@@ -123,7 +123,7 @@ fn cloth(picture: &Picture) -> Option<[[u32; 2]; 2]> {
     (low[0] < high[0]).then_some([low, high])
 }
 
-/// The middle of a crossing of four ends and four picks, both from 1.
+/// The middle of a crossing in a cloth of four ends and four picks, which are counted from 1.
 fn crossing(picture: &Picture, end: u32, pick: u32) -> [u32; 2] {
     let [low, high] = cloth(picture).unwrap();
     let half = |axis: usize, number: u32| (high[axis] - low[axis]) * (2 * number - 1) / 8;
@@ -202,7 +202,7 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     // Plain weave: neighbours differ.
     assert_eq!(seen, [seen[0], !seen[0], !seen[0], seen[0]]);
 
-    // A click on a lift turns it over, and back.
+    // A click on a crossing changes its lift, and Ctrl+Z changes it back.
     screen.press(&[u32::from(b'l')]);
     let at = crossing(&face, 3, 2);
     screen.point_at(at);
@@ -290,7 +290,7 @@ fn a_window_is_resized_while_its_cloth_is_read_again() {
         thread::sleep(Duration::from_millis(40));
         assert_eq!(viewer.program.try_wait().unwrap(), None, "after {turn} sizes");
     }
-    // It still works: a last cloth is shown, in a window of a last size.
+    // The window still works: a last cloth is shown, in a window of a last size.
     fs::write(&file, design("plain", 9)).unwrap();
     let is_last = |line: String| line.contains("13 yarns").then_some(());
     wait_for("the last cloth", || is_last(viewer.lines.recv_timeout(DEADLINE).unwrap()));

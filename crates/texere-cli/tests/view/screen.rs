@@ -1,4 +1,4 @@
-//! A virtual screen, and hands that move the pointer and press keys on it.
+//! A virtual screen, with a pointer that the test moves and keys that it presses.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -70,7 +70,7 @@ impl Screen {
         self.fake(if is_down { BUTTON_PRESS } else { BUTTON_RELEASE }, 1, [0, 0]);
     }
 
-    /// Presses keys, by their symbols in Latin 1 or X11's numbers, and lets them go.
+    /// Presses keys and releases them. `keys` are their symbols in Latin 1, or X11's numbers.
     pub(crate) fn press(&self, keys: &[u32]) {
         let setup = self.connection.setup();
         let (first, last) = (setup.min_keycode, setup.max_keycode);
@@ -87,7 +87,7 @@ impl Screen {
 
     fn fake(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
         self.connection.xtest_fake_input(kind, detail, 0, self.root, x, y, 0).unwrap().check().unwrap();
-        // A hand takes its time.
+        // Events come no faster than from a hand.
         sleep(Duration::from_millis(20));
     }
 

@@ -8,7 +8,7 @@ use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, Relief, Structure, Thread, Weave, Woven, WovenDesign};
 use texere_formats::{Design, WriteError, read, write};
 
-/// The woven design in a design.
+/// The woven design in `design`.
 pub(crate) fn woven(design: &Design) -> &WovenDesign {
     design.structure.woven().unwrap()
 }
@@ -241,7 +241,8 @@ fn our_own_designs_are_read_again() {
         if let Structure::Woven(_) = design.structure {
             println!("{}", path.display());
             check_toml(&design);
-            // The larger cloths of the paper are the same weave.
+            // The other plain cloths of the paper have the same weave in other sizes, so WIF skips
+            // them.
             if path.to_string_lossy().contains("figure") || !path.to_string_lossy().contains("paper") {
                 check_wif(&design);
             }
@@ -293,7 +294,8 @@ fn many_kinds_of_picks_take_a_lift_plan() {
 
 #[test]
 fn threads_as_thick_as_their_spacing_stay_so() {
-    // Files of other programs give the cloth that these programs draw.
+    // The same text without texere's name as its source is read as a file of another program, whose
+    // threads are only drawn as thick.
     let cloth = small(Weave::parse("plain").unwrap().drawdown(4, 4).unwrap(), Thread::new(0.2, 0.1));
     let (read, _, text) = as_wif(&design(cloth));
     assert_eq!(woven(&read).cloth().warp()[0].radius_mm, 0.1);
@@ -305,8 +307,9 @@ fn threads_as_thick_as_their_spacing_stay_so() {
 
 #[test]
 fn sizes_that_no_unit_holds_to_the_bit_have_the_same_text_again() {
-    // Each unit is inexact in two of these, and decipoints have the fewest digits. Values read from
-    // them have as many digits in centimeters, which are tried first.
+    // Each unit holds two of these sizes only inexactly, and decipoints need the fewest digits.
+    // Sizes that were read from decipoints need as many digits in centimetres, which are tried
+    // first.
     let sizes = [(819.4922889486355, 214.85893), (10.0 / 12.0, 305.75195), (232.13929242082267, 159.15794)];
     let warp = sizes.map(|(spacing_mm, radius_mm)| Thread::new(spacing_mm, radius_mm)).to_vec();
     let drawdown = Weave::parse("plain").unwrap().drawdown(3, 2).unwrap();

@@ -26,7 +26,7 @@ fn cloth(drawdown: Drawdown) -> Woven {
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
     let material = |srgb| Material { srgb, ..Material::default() };
     let warp = vec![Thread::new(0.6, 0.1); ends];
-    // The first pick is of the warp's yarn.
+    // The first pick has the yarn of the warp.
     let mut weft = vec![Thread { material: 1, ..Thread::new(0.6, 0.1) }; picks];
     weft[0].material = 0;
     Woven::new(drawdown, warp, weft, vec![material(WARP), material(WEFT)], vec![Section::Circle]).unwrap()
@@ -96,7 +96,7 @@ fn a_lift_plan_stands_where_the_treadling_would() {
     let picture = drawn(&cloth, Some(&shafts), Side::Face);
     assert_eq!(squares(&picture, TREADLES_LEFT, CLOTH_TOP, 4, 4), ["....", "..#.", ".#.#", "#..."]);
     assert_eq!(squares(&picture, TREADLES_LEFT, THREADING_TOP, 4, 4), ["...."; 4]);
-    // A sinking shed: marked shafts go down.
+    // The shed is a sinking one: marked shafts go down.
     assert_eq!(squares(&picture, LEFT, CLOTH_TOP, 6, 4), ["######", "##.###", "#.#..#", ".####."]);
 }
 
@@ -114,7 +114,7 @@ fn the_back_is_turned_over_sideways() {
         }
         assert_eq!(*picture.get_pixel(TREADLES_LEFT + 8, THREADING_TOP + 3 * 16 + 8), Rgb(WARP));
     }
-    // A draft is written for the face.
+    // A draft describes the face, so the back is drawn without it.
     let back = drawn(&cloth, Some(&shafts), Side::Back);
     assert_eq!(back, drawn(&cloth, None, Side::Back));
     // End 1 is on the right.

@@ -1,5 +1,5 @@
-//! A small fabric with everything that files have to get right, and its expected mesh, made without
-//! files.
+//! A small fabric with every case that files have to get right, and its expected mesh, which is
+//! made without files.
 
 use std::collections::BTreeMap;
 
@@ -56,8 +56,8 @@ pub(crate) fn long_yarn() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Buffers for one block of 65 rings, five sides and a cap, 7,920 bytes, and hardly more. Chunks
-/// cut through yarns.
+/// Limits of buffers that hold one block of 65 rings with five sides and a cap (7,920 bytes), and
+/// hardly more. Chunks therefore cut through yarns.
 pub(crate) const TINY: Limits = Limits { binding_bytes: 8000, ..Limits::NONE };
 
 /// Variants that should make no difference to a file: topologies and cuts.
@@ -112,7 +112,7 @@ fn tiny_chunks_cut_where_it_hurts() {
     assert!(chunks.iter().any(|chunk| chunk.caps().len() == 1), "one end of a yarn without the other");
 }
 
-/// A box in the fabric that some blocks of the closed yarn and half of another yarn reach into.
+/// A box in the fabric, which holds some blocks of the closed yarn and half of another yarn.
 pub(crate) fn region() -> Bounds {
     Bounds::rectangle([-12.0, 5.0], [0.4, 12.0])
 }

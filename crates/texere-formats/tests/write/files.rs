@@ -127,7 +127,7 @@ fn a_vertex_that_is_not_finite_leaves_no_trace() {
             |path| write::mesh(&mesh, path).unwrap_err(),
             |error| matches!(error, WriteError::NotFinite { vertex, yarn: 4 } if *vertex == last as u64),
         );
-        // The first vertex of the second yarn, 79 rings of five vertices after the first yarn's.
+        // The first vertex of the second yarn. The first yarn has 79 rings of five vertices.
         mesh.vertices[395].position[0] = f32::INFINITY;
         let error = write::mesh(&mesh, "never.ply").unwrap_err();
         assert_eq!(error.to_string(), "vertex 395, of yarn 1, is not finite");

@@ -136,7 +136,8 @@ fn yarns_of_one_length_share_their_indices() {
         .collect();
     assert_eq!(indices[0], indices[1], "two ends of 40 points");
     assert_eq!(indices.iter().collect::<BTreeSet<_>>().len(), 4, "four lengths");
-    // Indices are the pattern of the longest yarn, 260 gaps of five sides, and occur once.
+    // The indices are the pattern of the longest yarn, 260 gaps of five sides. They are stored
+    // once.
     assert_eq!(gltf.views().next().unwrap().length(), 260 * 5 * 6 * 4);
 }
 

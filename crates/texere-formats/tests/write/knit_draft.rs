@@ -30,7 +30,7 @@ fn a_chart_is_drawn_as_it_was_written() {
     for chart in ["kk\nbb", "bb\nku\nbb\ntp"] {
         assert_eq!(rows(chart, Beds::Two, Side::Face), chart);
     }
-    // Interlock: neither yarn is drawn through the other's loops, so that both lie in one course.
+    // In interlock neither yarn is drawn through the other's loops, so both lie in one course.
     assert_eq!(rows("kp\npk", Beds::Two, Side::Face), "bb");
 }
 

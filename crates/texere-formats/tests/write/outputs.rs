@@ -131,7 +131,7 @@ fn what_a_dead_writer_left_is_removed_and_nothing_else() {
     );
     expected.sort_unstable();
     assert_eq!(names(&folder), expected);
-    // Its writer dies.
+    // The writer of the unfinished file ends.
     drop(alive);
     write::file(b"new", output()).unwrap();
     assert!(!at(".texere-aLive10123456789.unfinished").exists());

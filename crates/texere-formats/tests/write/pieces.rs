@@ -1,5 +1,5 @@
-//! A yarn is one piece for a reader that does not join equal vertices: triangles hang together
-//! where they share the number of a vertex.
+//! A yarn is one piece for a reader that does not join equal vertices. For such a reader triangles
+//! hang together only if they share the number of a vertex.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -146,7 +146,7 @@ fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
     }
 }
 
-/// A box cuts one row of rings out of a yarn, which is one piece.
+/// A box cuts runs of rings out of yarns. Each run is one piece.
 #[test]
 fn a_region_has_a_piece_for_each_run_of_rings() {
     let yarns = leaked(fabric());

@@ -155,7 +155,8 @@ fn design() -> impl Strategy<Value = Design> {
     )
 }
 
-/// Whether relief has made threads thinner or flatter than files take.
+/// Whether files can hold the design: relief may have made threads thinner or flatter than files
+/// allow.
 fn is_held(design: &Design) -> bool {
     let cloth = design.structure.woven().unwrap().cloth();
     let thickness = |thread: &Thread| (1e-3..=1e3).contains(&(2.0 * f64::from(thread.radius_mm)));

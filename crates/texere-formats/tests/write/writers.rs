@@ -1,4 +1,4 @@
-//! Any writer gets the bytes of the file, from its current position on.
+//! Any writer gets the bytes of the file, from the writer's current position on.
 
 use std::fs;
 use std::io::{self, Cursor, ErrorKind, Seek, SeekFrom, Write};
@@ -13,8 +13,8 @@ use crate::fabric::{TINY, fabric, pipeline, ways, whole};
 /// Bytes before and behind the file in the writer. Neither may change.
 const BEFORE: &[u8] = b"what an archive has before it";
 
-/// The output of `write` into a writer that is positioned after `BEFORE`, and whose old bytes reach
-/// further than any file.
+/// The bytes that `write` writes to a writer that stands after `BEFORE` and holds old bytes beyond
+/// the end of any file.
 fn written(write: impl FnOnce(&mut Cursor<Vec<u8>>)) -> Vec<u8> {
     let mut out = Cursor::new([BEFORE, &vec![0xa5; 1 << 20]].concat());
     out.set_position(BEFORE.len() as u64);

@@ -34,8 +34,8 @@ pub(crate) fn repeat(text: &str) -> (Yarns, Boundary) {
     (piece.yarns, piece.boundary)
 }
 
-/// A ring, a ribbon with its own outline, and a loop that goes on. They have every kind of origin
-/// and section, odd materials, and sources.
+/// Yarns with every kind of origin, section and end, odd materials, and sources. Among them are a
+/// ring, a ribbon with its own outline, and a loop that goes on in the next repeat.
 pub(crate) fn odd() -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     for (name, tex, hairiness) in

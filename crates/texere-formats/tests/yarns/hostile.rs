@@ -120,7 +120,7 @@ fn each_bit_that_flips_is_found() {
     }
 }
 
-/// Values are changed under a fitting checksum. The file is refused by its name, with the reason.
+/// Each value is changed, and the checksum fits. The refusal names the file and the reason.
 #[test]
 fn every_field_is_checked() {
     let nan = f32::NAN.to_le_bytes();
@@ -183,7 +183,7 @@ fn every_field_is_checked() {
     }
 }
 
-/// Counts for which the file has no room. Memory grows only with the file.
+/// Counts of more items than the file can hold are refused. Memory grows only with the file.
 #[test]
 fn memory_grows_with_the_file_alone() {
     let file = file();
@@ -200,7 +200,8 @@ fn memory_grows_with_the_file_alone() {
             HEAP.reset_peak_usage();
             let read = yarns_from("cloth.yarns", &bytes);
             let taken = HEAP.peak_usage().saturating_sub(before);
-            // The file has three kilobytes. The rest is for tests that run at the same time.
+            // The file has three kilobytes. The larger limit leaves room for tests that run at the
+            // same time.
             assert!(taken < 1 << 26, "{claim} at byte {at} takes {taken} bytes: {read:?}");
         }
     }

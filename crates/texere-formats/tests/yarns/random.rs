@@ -5,7 +5,7 @@ use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn,
 
 use crate::round_trip::same;
 
-/// A yarn, and the way in which it goes on.
+/// A yarn, and how it ends.
 #[derive(Debug, Clone)]
 struct Made {
     points: Vec<ControlPoint>,

@@ -93,7 +93,8 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// Calls may return before their work is done, except those that read.
 ///
-/// **Errors**: all methods return a [`BackendError`], only for failures that could not be foreseen.
+/// **Errors**: methods that can fail return a [`BackendError`]: one for a failure that could not be
+/// foreseen, or one that says what the engine can't do.
 pub trait Engine: Any + fmt::Debug + Send {
     /// Copies control points to the device. The first of them is number `first` of the fabric.
     /// Returns the bytes sent, virtual ends included.
@@ -253,7 +254,8 @@ pub trait Engine: Any + fmt::Debug + Send {
 
 /// [`Engine::take_settled`] for any settler: reads its control points and uploads them.
 ///
-/// **Errors**: [`BackendError`] of either device.
+/// **Errors**: [`BackendError`] of either device, and [`BackendError::OutOfMemory`] if the host has
+/// no room for the points.
 pub fn take_over_host<E: Engine + ?Sized>(
     engine: &mut E,
     settler: &mut dyn Settler,

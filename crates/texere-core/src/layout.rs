@@ -99,9 +99,10 @@ impl Layout {
     /// control points, and the number of all control points last. The [tension](Layout::tension) of
     /// the splines is 0.
     ///
-    /// **Errors**: [`YarnError`] for no yarns, offsets that are not increasing prefix sums, a yarn
-    /// of fewer than two control points (three when closed), an unknown section, a twist that is
-    /// not finite or beyond [`TWIST_LIMIT`], and a section with invalid parameters.
+    /// **Errors**: [`YarnError`] for no yarns, another number of offsets than yarns and one,
+    /// offsets that do not start at 0 or that fall, a yarn of fewer than two control points (three
+    /// when closed), an unknown section, a twist that is not finite or beyond [`TWIST_LIMIT`], and
+    /// a section with invalid parameters.
     pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
         if yarns.is_empty() {
             return Err(YarnError::NoYarns);

@@ -73,8 +73,8 @@ pub struct Change {
 impl LiveMesh {
     /// Makes room for the whole mesh of `plan` on `device`, in chunks cut to the device's limits.
     ///
-    /// **Errors**: [`SessionError::Backend`] if memory is short, or the device or its schedule
-    /// can't do the work, and the errors of [`LiveMesh::with_engine`].
+    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or it or its
+    /// schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
     }
@@ -86,8 +86,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// [`Engine`].
     ///
     /// **Errors**: [`SessionError::Region`] for a plan of a region, [`SessionError::Plan`] if not
-    /// even one block fits, [`BackendError::OutOfMemory`] if all chunks together do not fit, and
-    /// [`BackendError::NoEditing`] for an engine that is not [editable](Engine::is_editable).
+    /// even one block fits, [`BackendError::OutOfMemory`] if all chunks together do not fit or the
+    /// host's memory is short, and [`BackendError::NoEditing`] for an engine that is not
+    /// [editable](Engine::is_editable).
     pub fn with_engine(engine: Box<E>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, SessionError> {
         if !engine.is_editable() {
             return Err(BackendError::NoEditing.into());

@@ -30,7 +30,7 @@ impl Yarns {
     /// `map` must be smooth. It must not fold space or turn it inside out.
     ///
     /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns exceed the limits of
-    /// size, twist and position, and [`YarnError::Up`] if a mapped up direction is zero.
+    /// size, twist and position.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};

@@ -219,8 +219,8 @@ impl<'a> Pipeline<'a> {
 
     /// The plan for these settings.
     ///
-    /// **Errors**: the errors of [`Plan::new`], and [`PipelineError::Backend`] if memory is short
-    /// while blocks within a box are found.
+    /// **Errors**: [`PipelineError::Plan`] with the errors of [`Plan::new`], and
+    /// [`PipelineError::Backend`] if memory is short while blocks within a box are found.
     pub fn plan(&self) -> Result<Plan, PipelineError> {
         let plan = Plan::new(self.yarns.layout().clone(), self.chosen())?;
         let Some(bounds) = &self.within else { return Ok(plan) };
@@ -237,8 +237,10 @@ impl<'a> Pipeline<'a> {
 
     /// The whole mesh, in host memory.
     ///
-    /// **Errors**: [`PipelineError`] if the settings can't be planned for, memory is short, the
-    /// device fails, or the progress callback asks to stop.
+    /// **Errors**: the errors of [`Pipeline::plan`]; [`PipelineError::Plan`] if not even one block
+    /// fits the limits; [`PipelineError::Backend`] if memory is short, the device fails, or it or
+    /// its schedule can't do the work; [`PipelineError::Session`] for a settler of other yarns; and
+    /// [`PipelineError::Cancelled`] if the progress callback asks to stop.
     pub fn mesh(mut self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
         let (plan, mut session) = self.start(device)?;
         let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();

@@ -82,8 +82,8 @@ impl InFlight {
 impl Session {
     /// Starts a session for a plan on `device`.
     ///
-    /// **Errors**: [`SessionError::Backend`] if memory is short, or the device or its schedule
-    /// can't do the work.
+    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or it or its
+    /// schedule can't do the work.
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Ok(Self::with_engine(device.engine(plan.clone())?, device.info().limits, plan))
     }
@@ -289,8 +289,8 @@ impl<E: Engine + ?Sized> Session<E> {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`], and the errors of
-    /// [`Session::trajectory`].
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`],
+    /// [`SessionError::ForeignChunk`], and [`SessionError::Backend`].
     pub fn attributes(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         self.check_own(chunk)?;
         if !self.measured {
@@ -405,8 +405,8 @@ impl<E: Engine + ?Sized> Session<E> {
 
     /// The slot of the mesh of `chunk`, for a backend that lends its memory.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
-    /// [`Session::mesh`] has been called for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless a
+    /// [`Session::mesh`] of this chunk is in flight.
     pub fn slot_of_mesh(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_mesh)
     }
@@ -414,7 +414,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// The slot of the attributes of `chunk`, for a backend that lends its memory.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
-    /// [`Session::attributes`] has been called for this chunk.
+    /// [`Session::attributes`] of this chunk are in flight.
     pub fn slot_of_attributes(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_attributes)
     }
@@ -422,7 +422,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// The slot of the packed vertices of `chunk`, for a backend that lends its memory.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
-    /// [`Session::packed`] has been called for this chunk.
+    /// vertices of [`Session::packed`] for this chunk are in flight.
     pub fn slot_of_packed(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_packed)
     }

@@ -47,10 +47,10 @@ impl Yarns {
     /// Yarns of a layout, with its materials and its control points. There must be as many points
     /// as the layout says, yarn after yarn.
     ///
-    /// **Errors**: [`YarnError`] for a wrong number of points or materials, a material that
-    /// [`check_material`] refuses, and for the first control point that is not finite, lies beyond
-    /// [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`],
-    /// [`RADIUS_MAX`]\].
+    /// **Errors**: [`YarnError`] for another number of points than the layout's, a yarn whose
+    /// material is missing, a material that [`check_material`] refuses, and for the first control
+    /// point that is not finite, lies beyond [`COORDINATE_LIMIT`], or whose half width or half
+    /// height is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
     pub fn new(
         mut layout: Layout,
         materials: Vec<Material>,

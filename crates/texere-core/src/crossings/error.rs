@@ -56,7 +56,7 @@ pub enum CrossingsError {
         set: &'static str,
         /// The thread's number, counted from 0.
         thread: usize,
-        /// `pitch`, `diameter` or `stiffness`.
+        /// `pitch`, `diameter`, `stiffness` or `level`.
         setting: &'static str,
         /// The value given.
         value: f32,

@@ -62,7 +62,7 @@ impl CrossingsPlan {
     /// Checks a problem and makes its plan.
     ///
     /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a
-    /// set, and values out of range or not finite.
+    /// set, more than 2³¹ crossings, values out of range or not finite, and short memory.
     pub fn new(problem: &Crossings) -> Result<Self, CrossingsError> {
         let [ends, picks] = [0, 1].map(|set| problem.threads[set].len());
         for (what, count) in [("end", ends), ("pick", picks)] {

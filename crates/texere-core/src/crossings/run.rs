@@ -32,7 +32,7 @@ pub struct CrossingsRest {
 /// keep them apart harden. More passes follow until the cloth is at rest, as many as the problem
 /// allows. The device gets as many passes at once as are certainly needed to reach rest.
 ///
-/// **Errors**: [`BackendError`] of the device.
+/// **Errors**: [`BackendError`] of the device, and [`BackendError::OutOfMemory`] of the host.
 pub fn settle(
     plan: &CrossingsPlan,
     settler: &mut dyn CrossingsSettler,

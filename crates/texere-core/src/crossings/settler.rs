@@ -32,7 +32,8 @@ impl CrossingsSeen {
 /// The crossings of a plan on one device. [`settle`](super::settle) calls these methods: first
 /// `upload`, with as many crossings as the plan has.
 ///
-/// **Errors**: all methods return a [`BackendError`], only for failures that could not be foreseen.
+/// **Errors**: methods that can fail return a [`BackendError`], only for failures that could not be
+/// foreseen.
 pub trait CrossingsSettler: Any + Debug + Send {
     /// The plan of the settler.
     fn plan(&self) -> &Arc<CrossingsPlan>;

@@ -9,13 +9,13 @@ use crate::{BackendError, OutOfMemory, PlanError};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PipelineError {
-    /// The settings can't be planned for.
+    /// The settings can't be planned for, or not even one block fits the limits.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The backend failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// A misused session. The pipeline never causes this error.
+    /// A settler of other yarns. The pipeline itself never misuses its session.
     #[error(transparent)]
     Session(SessionError),
     /// The progress callback asked to stop.

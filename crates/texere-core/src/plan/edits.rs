@@ -46,7 +46,7 @@ impl Plan {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// **Errors** and **panics**: as of [`Plan::edited`], for the first yarn that is refused.
+    /// **Errors** and **panics**: those of [`Plan::edited`], for the first yarn that is refused.
     pub fn edited_all(&self, edits: &Edits<'_>) -> Result<Self, PlanError> {
         for (&yarn, (what, points)) in edits {
             self.check_edit(yarn, what, points.len() as u64)?;
@@ -80,7 +80,7 @@ impl Plan {
     /// Checks whether [`Plan::edited`] accepts `what` with `points` control points as yarn number
     /// `yarn`. No plan is made.
     ///
-    /// **Errors** and **panics**: as of [`Plan::edited`].
+    /// **Errors** and **panics**: those of [`Plan::edited`].
     pub fn check_edit(&self, yarn: usize, what: &Yarn, points: u64) -> Result<(), PlanError> {
         let before = self.yarn(yarn);
         let room = self.offsets.room(yarn, before.closed);

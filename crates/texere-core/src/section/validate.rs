@@ -9,7 +9,8 @@ const CORNER_LIMIT: f32 = 100.0;
 impl Section {
     /// Checks the shape's parameters.
     ///
-    /// **Errors**: [`SectionError`] names the number and its limits.
+    /// **Errors**: [`SectionError`] for a number outside its limits, and for a polygon that repeats
+    /// a corner, meets itself or runs clockwise.
     pub fn validate(&self) -> Result<(), SectionError> {
         let within = |field, value: f32, low: f32, high: f32| {
             if (low..=high).contains(&value) {

@@ -91,8 +91,8 @@ pub struct Spans {
 impl SettlingPlan {
     /// Checks a settling and makes its plan.
     ///
-    /// **Errors**: [`SettlingError`] for invalid ends, repeats, pins or settings, and for a cloth
-    /// that is too large.
+    /// **Errors**: [`SettlingError`] for invalid ends, repeats, pins or settings, a yarn of too few
+    /// control points or too long for its thickness, a cloth that is too large, and short memory.
     pub fn new(settling: &Settling<'_>) -> Result<Self, SettlingError> {
         let (layout, points) = (settling.layout(), settling.points());
         let yarns = layout.yarns().len();

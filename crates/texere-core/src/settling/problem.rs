@@ -71,8 +71,8 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// Sets the largest number of passes of either form at full thickness, 1 to a million. Forty
-    /// passes in which yarns grow come before.
+    /// Sets the largest number of passes of either form at full thickness, 1 to a million. One pass
+    /// that measures the start and forty in which yarns grow come before.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

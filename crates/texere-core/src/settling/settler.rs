@@ -30,7 +30,8 @@ pub struct SettlingSeen {
 /// - `list` comes before the first pass. It is called again before chords have moved so far, or
 ///   yarns have grown so much, that neighbours may be missing from the lists.
 ///
-/// **Errors**: all methods return a [`BackendError`], only for failures that could not be foreseen.
+/// **Errors**: methods that can fail return a [`BackendError`], for failures that could not be
+/// foreseen. `list` also returns [`BackendError::Crowded`].
 pub trait Settler: Any + Debug + Send {
     /// The plan of the settler.
     fn plan(&self) -> &Arc<SettlingPlan>;

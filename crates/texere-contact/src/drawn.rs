@@ -32,7 +32,7 @@ pub struct Drawn {
 /// Measures the tubes of a mesh of `yarns` with `settings`, without caps. The memory needed is as
 /// much as the yarns have.
 ///
-/// **Errors**: [`ContactError::Settings`] for settings that no mesh is made with,
+/// **Errors**: [`ContactError::Settings`] for settings that no mesh of `yarns` is made with, and
 /// [`ContactError::OutOfMemory`].
 ///
 /// ```

@@ -10,7 +10,7 @@ pub enum ContactError {
     /// The system refused memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// Settings whose number of points between control points no mesh is made with.
+    /// Settings that no mesh of the yarns is made with.
     #[error(transparent)]
     Settings(#[from] PlanError),
     /// More control points than clearance is measured for.

@@ -101,8 +101,8 @@ pub struct Clearance {
 /// Memory is about 9 bytes a control point beside the yarns, and 4 more if a yarn's roll matters.
 ///
 /// **Errors**: [`ContactError::ClearancePoints`] for more control points than are measured,
-/// [`ContactError::Settings`] for points between control points that no mesh is made with,
-/// [`ContactError::OutOfMemory`].
+/// [`ContactError::Settings`] for more points between control points, or more rings of a yarn, than
+/// a mesh may have, and [`ContactError::OutOfMemory`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
@@ -152,9 +152,11 @@ pub fn clearance_with_progress(
 }
 
 /// Measures the [`clearance()`] of the intervals for which `fresh` holds, among themselves and from
-/// all other intervals. `fresh` gets the number of an interval's first control point.
-/// `[near, ratio]` are limits. No contact beyond `near` is looked for. All contacts up to `ratio`
-/// are listed, worst first, instead of the worst [`CONTACTS_LISTED`].
+/// all other intervals. `fresh` gets the number of an interval's first control point. `[near,
+/// ratio]` are limits. No contact beyond `near` is looked for. If `ratio` is finite, all contacts
+/// up to `ratio` are listed, worst first, instead of the worst [`CONTACTS_LISTED`].
+///
+/// **Errors**: the errors of [`clearance_with_progress`].
 pub fn clearance_up_to(
     yarns: &Yarns,
     settings: &Settings,
@@ -168,7 +170,7 @@ pub fn clearance_up_to(
 /// The intervals for which `fresh` holds and that bend more tightly than `ratio`, in the measure of
 /// [`Clearance::curvature_min`]. Each comes with its ratio and the place of its tightest bend.
 ///
-/// **Errors**: [`ContactError::Settings`], [`ContactError::OutOfMemory`].
+/// **Errors**: [`ContactError::Settings`] as of [`clearance()`], and [`ContactError::OutOfMemory`].
 pub fn bends_up_to(
     yarns: &Yarns,
     settings: &Settings,

@@ -20,9 +20,9 @@
 //! [`settle`] lets any yarns come to rest on a device, and [`Structure::settle`] those of a
 //! structure. A [`Repeat`] settles once and is copied.
 //!
-//! [`Measures`] are what designers ask for: yarn consumption, crimp, cover, weight, thickness.
-//! [`diameter_mm`] gives the diameter of a yarn of known weight. [`texere_contact`] measures yarns
-//! alone, whatever their structure.
+//! [`Measures`] are what designers ask for: yarn consumption, weight, thickness, crimp and cover of
+//! woven cloth, loops of knits. [`diameter_mm`] gives the diameter of a yarn of known weight.
+//! [`texere_contact`] measures yarns alone, whatever their structure.
 //!
 //! ```
 //! use texere_core::{Material, Section};

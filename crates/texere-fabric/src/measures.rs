@@ -1,4 +1,5 @@
-//! Measures that designers and mills ask for: yarn consumption, crimp, cover, weight, thickness.
+//! Measures that designers and mills ask for: yarn consumption, weight, thickness, crimp and cover
+//! of woven cloth, loops of knits.
 
 use std::ops::Range;
 
@@ -137,7 +138,8 @@ impl Measures {
     /// whole cloth is measured.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not the
-    /// cloth's yarns.
+    /// cloth's yarns, and the errors of [`Woven::new`] and [`Woven::yarns`], because a small cloth
+    /// is woven again with more repeats.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         let ratios = Sample::new(cloth, yarns)?.ratios();

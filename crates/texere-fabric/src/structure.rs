@@ -119,8 +119,8 @@ impl Structure {
     /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
     /// [`WarpKnitted::settle`]). `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
-    /// **Errors**: the errors of the method that is called. For woven cloth this is
-    /// [`FinishError::Woven`] if `finish` asks for a length, a press or a course.
+    /// **Errors**: the errors of the method that is called. Only woven cloth gives
+    /// [`FinishError::Woven`], if `finish` asks for a length, a press or a course.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -224,7 +224,7 @@ impl Structure {
     /// Gives every yarn the same section. A woven design relieves its jammed threads again.
     ///
     /// **Errors**: [`FabricError`] if the section's numbers are not valid, or if relief would make
-    /// threads too thin. After an error the structure is unchanged.
+    /// threads too thin or too wide. After an error the structure is unchanged.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         match self {
             Self::Woven(design) => design.set_section(section),
@@ -246,8 +246,7 @@ impl Structure {
     /// Yarn consumption, weight and thickness, the crimp and cover of woven cloth, and the loops of
     /// a knit. `yarns` are the structure's own.
     ///
-    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not
-    /// those of the woven cloth.
+    /// **Errors**: the errors of [`Measures::new`] for woven cloth, and none for a knit.
     pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns),
@@ -260,7 +259,8 @@ impl Structure {
     /// terms: see [`Woven::clearance`](crate::Woven::clearance).
     ///
     /// **Errors**: the errors of
-    /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
+    /// [`clearance_with_progress`](texere_contact::clearance_with_progress) and of
+    /// [`drawn`](texere_contact::drawn()).
     pub fn clearance(
         &self,
         yarns: &Yarns,

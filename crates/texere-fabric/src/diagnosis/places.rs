@@ -1,4 +1,5 @@
-//! Clearance and bends, with places named by thread and crossing as weavers do.
+//! Clearance and bends, with places named as weavers do by thread and crossing. In a knit, places
+//! are named by thread and stitch, or by thread alone.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -118,7 +119,8 @@ pub struct ThreadDrawn {
     pub inwards_at: Option<ThreadPlace>,
 }
 
-/// [`Clearance`](texere_contact::Clearance), with places named by thread and crossing.
+/// [`Clearance`](texere_contact::Clearance), with places named by thread, and in woven cloth by
+/// crossing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClothClearance {
     /// See [`Clearance::min`](texere_contact::Clearance::min).
@@ -146,7 +148,7 @@ impl Woven {
     /// `yarns` are the yarns of this cloth, and are measured as drawn with `settings`. `progress`
     /// gets the share that is done, as in [`clearance_with_progress`].
     ///
-    /// **Errors**: the errors of [`clearance_with_progress`].
+    /// **Errors**: the errors of [`clearance_with_progress`] and of [`drawn()`].
     ///
     /// ```
     /// use std::ops::ControlFlow;

@@ -47,7 +47,7 @@ pub enum FinishError {
     /// Crossings of woven cloth that can't be settled.
     #[error(transparent)]
     Crossings(#[from] CrossingsError),
-    /// A device that failed, or a backend that can't settle.
+    /// A device that failed, a backend that can't settle, or too many yarns in one place.
     #[error(transparent)]
     Backend(#[from] BackendError),
 }

@@ -26,7 +26,8 @@ use crate::{FabricError, thickness_mm};
 
 /// The share of the progress at which the passes end.
 const PASSED: f64 = 0.9;
-/// The share of the progress at which linking has been compared.
+/// The share of the progress at which the comparison ends that tells whether yarns have passed
+/// through one another.
 const COMPARED: f64 = 0.95;
 
 /// Lets the yarns of `piece` settle on `backend`. They move until they nowhere pierce one another,
@@ -35,12 +36,15 @@ const COMPARED: f64 = 0.95;
 ///
 /// [`Settled::rest`] says whether the yarns came to rest within their passes, with figures. The
 /// result is the best of all passes: by clearance, then by bends, then by length. It is never worse
-/// than the start ([`texere_core::settling::settle`]). If yarns have passed through one another,
-/// the yarns of `piece` are returned unmoved, and [`Settled::linking`] names the places.
+/// than the start ([`texere_core::settling::settle`]). If yarns have passed through one another, or
+/// not all could be compared, the yarns of `piece` are returned unmoved. [`Settled::linking`] lists
+/// the worst places.
 ///
 /// **Errors**: [`FinishError::Settling`] and [`FinishError::Thread`] for yarns that can't be
-/// settled as asked, [`FinishError::Backend`] for a backend that can't settle or a device that
-/// fails, and the errors of [`linking()`](texere_contact::linking()) and
+/// settled as asked, and [`FinishError::Backend`] for a backend that can't settle, a device that
+/// fails, or too many yarns in one place. [`FinishError::Fabric`] holds [`FabricError::Cancelled`]
+/// if `progress` answers `Break`, [`FabricError::Yarns`] for yarns that would come to lie too far
+/// out, or an error of [`linking()`](texere_contact::linking()) or
 /// [`clearance()`](texere_contact::clearance()).
 ///
 /// ```
@@ -74,7 +78,8 @@ pub fn settle(
     let plan = Arc::new(plan);
     let mut settler = backend.settler(Arc::clone(&plan))?;
     let (mut course, mut stopped) = (Vec::new(), false);
-    // Settling takes at most `finish.passes` passes in each of its two forms, and a few before.
+    // The progress counts with at most `finish.passes` passes of each form. Settling may make 41
+    // more: one that measures the start, and forty in which yarns grow.
     let (mut made, most) = (0.0, 2.0 * f64::from(finish.passes));
     let rest = settling::settle(&plan, settler.as_mut(), |pass, seen| {
         if finish.record {
@@ -134,7 +139,8 @@ pub(crate) fn settle_repeat(
     Ok(Settled { yarns, ..settled })
 }
 
-/// The place on the first copy of a yarn that a place on the yarn of the repeat stands for.
+/// `place`, on a yarn of the repeat, as the same place on the first yarn of `placed` with the same
+/// origin.
 fn placed_at(place: &YarnPlace, repeat: &Layout, placed: &Layout) -> YarnPlace {
     let origin = repeat.yarns()[place.yarn].origin;
     let yarn = placed.yarns().iter().position(|yarn| yarn.origin == origin);

@@ -52,18 +52,11 @@ impl WarpKnitted {
     /// courses. The loop length of the gauge has no effect, because run-ins give the lengths of a
     /// warp knit.
     ///
-    /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars),
-    /// [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn),
-    /// [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset),
-    /// [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
-    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that are
-    /// not valid, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and
-    /// courses in which the bars do not repeat evenly,
-    /// [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops),
-    /// [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no cloth has,
-    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and
-    /// [`WeftError::KnitRepeat`](crate::weft::WeftError::KnitRepeat) for more control points than
-    /// are allowed, and errors of the yarns' radius, twist, material and section.
+    /// **Errors**: [`WarpError`](crate::warp::WarpError) for bars that are not valid or make no
+    /// loop, for wales and courses in which the bars do not repeat evenly, and for too many laps.
+    /// [`WeftError`](crate::weft::WeftError) for distances that no cloth has, no copy, underlaps
+    /// that are too long, and too many wales, courses, control points or copies. [`ThreadError`]
+    /// for a yarn's radius, twist, material or section.
     #[allow(clippy::too_many_arguments, reason = "each is a fact of its own about the cloth")]
     pub fn new(
         bars: Vec<Bar>,
@@ -193,9 +186,8 @@ impl WarpKnitted {
     /// [`Origin::Guide`], with bars and guides counted from 1. The source of a control point is the
     /// course of its lap, counted from 1.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`],
-    /// [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for too many control points,
-    /// and [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
+    /// **Errors**: [`FabricError::OutOfMemory`], [`FabricError::Yarns`] for yarns that [`Yarns`]
+    /// refuses, and [`FabricError::Boundary`] for a repeat that is too long.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
         self.placed(&repeat, &repeat.piece.yarns)

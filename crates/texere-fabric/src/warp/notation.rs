@@ -31,9 +31,10 @@ impl Chain {
     /// `step` 1, spaces are numbered one by one. With `step` 2, as on Raschel machines, they have
     /// even numbers only: `2-0/2-4//` is `1-0/1-2//`.
     ///
-    /// **Errors**: [`ChainError`] with the column for a text that is not in this notation, for
-    /// spaces beyond [`SPACE_MAX`], laps round more than [`NEEDLES_MOST`] needles and chains of
-    /// more than [`CHAIN_COURSES`] courses.
+    /// **Errors**: [`ChainError`] with the column for a text that is not in this notation or longer
+    /// than 65536 characters, for spaces beyond [`SPACE_MAX`], laps round more than
+    /// [`NEEDLES_MOST`] needles, chains of more than [`CHAIN_COURSES`] courses, and another `step`
+    /// than 1 or 2.
     ///
     /// **Source**: Spencer, Knitting Technology, 3rd edition, 2001, chapter 23, for the notation.
     /// Repeats in parentheses are an addition of texere.

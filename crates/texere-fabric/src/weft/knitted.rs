@@ -32,10 +32,11 @@ impl Knitted {
     /// and y. It has no effect if the stitches do not repeat.
     ///
     /// **Errors**: [`WeftError::Gauge`] for distances that no cloth has, [`WeftError::Stitches`]
-    /// for stitches that refer to loops, needles or repeats that do not exist,
-    /// [`WeftError::Carrier`] for a carrier without a yarn, [`WeftError::KnitPoints`] and
-    /// [`WeftError::KnitRepeat`] for more control points than are allowed, and errors of the yarns'
-    /// radius, twist, material and section.
+    /// for stitches that no cloth has, no copy, or too many wales or courses,
+    /// [`WeftError::Carrier`] for a carrier without a yarn, [`WeftError::KnitRuns`] for yarns that
+    /// run too far between loops, [`WeftError::KnitPoints`] and [`WeftError::KnitRepeat`] for too
+    /// many control points, [`WeftError::Copies`] for too many copies that settle as one, and
+    /// [`ThreadError`] for a yarn's radius, twist, material or section.
     pub fn new(
         stitches: Stitches,
         gauge: Gauge,
@@ -132,8 +133,9 @@ impl Knitted {
     /// that a carrier brings in and takes out has [`Origin::Carrier`]. The source of a control
     /// point is the source of the operation that made its stitch or float.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`], [`WeftError::KnitPoints`], and
-    /// [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
+    /// **Errors**: [`FabricError::OutOfMemory`], [`WeftError::KnitPoints`], [`FabricError::Yarns`]
+    /// for yarns that [`Yarns`] refuses, and [`FabricError::Boundary`] for a repeat that is too
+    /// long.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
         self.placed(&repeat, &repeat.piece.yarns)

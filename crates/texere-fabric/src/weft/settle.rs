@@ -99,7 +99,7 @@ impl Knitted {
     /// at the edges and tails of yarns do not count, so that every copy of a repeat has the same
     /// numbers.
     ///
-    /// **Errors**: none so far.
+    /// **Errors**: none.
     pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
         Ok(self.measured(yarns))
     }

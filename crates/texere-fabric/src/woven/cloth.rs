@@ -53,8 +53,9 @@ impl Woven {
     /// sections that they refer to.
     ///
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
-    /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii outside
-    /// \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`](texere_core::TWIST_LIMIT),
+    /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii, half widths
+    /// or half heights outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], a flatness outside \[0.1, 10\],
+    /// a stiffness outside \[0.01, 100\], twists beyond [`TWIST_LIMIT`](texere_core::TWIST_LIMIT),
     /// unknown materials and sections, sections whose numbers are not valid, and cloth wider or
     /// longer than [`COORDINATE_LIMIT`].
     pub fn new(
@@ -241,7 +242,7 @@ impl Woven {
 
     /// Gives the material with number `material`, counted from 0, the sRGB colour `srgb`.
     ///
-    /// **Errors**: [`WovenError::NoMaterial`].
+    /// **Errors**: [`WovenError::NoMaterial`] past the last material.
     pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), WovenError> {
         let materials = self.materials.len();
         let place = self.materials.get_mut(material).ok_or(WovenError::NoMaterial { material, materials })?;

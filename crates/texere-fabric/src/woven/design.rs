@@ -111,7 +111,7 @@ impl WovenDesign {
 
     /// Gives the material with number `material`, counted from 0, the sRGB colour `srgb`.
     ///
-    /// **Errors**: [`WovenError::NoMaterial`].
+    /// **Errors**: [`WovenError::NoMaterial`] past the last material.
     pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), WovenError> {
         for cloth in self.given.iter_mut().chain([&mut self.cloth]) {
             cloth.set_color(material, srgb)?;

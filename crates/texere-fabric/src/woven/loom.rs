@@ -117,7 +117,7 @@ impl Loom {
 
     /// Replaces the material with number `material`, counted from 0. No yarn moves.
     ///
-    /// **Errors**: [`WovenError::NoMaterial`].
+    /// **Errors**: [`WovenError::NoMaterial`] past the last material.
     pub fn set_material(&mut self, material: usize, with: Material) -> Result<(), WovenError> {
         self.cloth.set_material(material, with)
     }
@@ -125,8 +125,8 @@ impl Loom {
     /// Gives the threads of yarn number `yarn` the material, the section and the twist of `what`.
     /// No yarn moves.
     ///
-    /// **Errors**: the errors of [`Woven::new`] for a thread. After an error the cloth is
-    /// unchanged.
+    /// **Errors**: [`ThreadError`](crate::ThreadError) for a twist, a material or a section that
+    /// [`Woven::new`] refuses. After an error the cloth is unchanged.
     ///
     /// **Panics** for a number past the last yarn.
     pub fn set_yarn(&mut self, yarn: usize, what: &Yarn) -> Result<(), FabricError> {

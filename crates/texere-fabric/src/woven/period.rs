@@ -50,7 +50,7 @@ impl<'a> Sample<'a> {
     /// more repeats around it, because the bend of a thread at an edge depends on floats that are
     /// cut off there.
     ///
-    /// **Errors**: the errors of [`Woven::yarns`].
+    /// **Errors**: the errors of [`Woven::new`] and of [`Woven::yarns`].
     pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
         let repeat = cloth.repeat();
         let counts = [cloth.warp().len(), cloth.weft().len()];

@@ -63,7 +63,7 @@ impl Chart {
     ///
     /// **Errors**: [`ChartError::Size`], [`ChartError::Cells`] and [`ChartError::Ragged`] for the
     /// number of cells, [`ChartError::Beds`] and [`ChartError::Moved`] for a stitch that these beds
-    /// can't make, and [`ChartError::NeverKnits`].
+    /// can't make, [`ChartError::NeverKnits`], and [`ChartError::OutOfMemory`].
     pub fn new(wales: usize, beds: Beds, cells: Vec<Cell>) -> Result<Self, ChartError> {
         let rows = cells.len().checked_div(wales).unwrap_or(0);
         sized(wales, rows, cells.len())?;
@@ -92,7 +92,9 @@ impl Chart {
     /// | `RRrr` | a cable: the loops under capitals cross to the right, in front of the others |
     /// | `llLL` | the loops under capitals cross to the left, in front |
     ///
-    /// **Errors**: [`ChartError`] with the row, counted from the top, and the column.
+    /// **Errors**: [`ChartError::Symbol`] and [`ChartError::HalfCable`] with the row, counted from
+    /// the top, and the column, [`ChartError::Ragged`] with the row, and the errors of
+    /// [`Chart::new`].
     pub fn parse(text: &str, beds: Beds) -> Result<Self, ChartError> {
         let rows: Vec<Vec<char>> = text
             .lines()
@@ -109,7 +111,8 @@ impl Chart {
     /// A chart from the symbol at each column and row. Both are counted from 0, and rows from the
     /// top. The symbols are those of [`Chart::parse`].
     ///
-    /// **Errors**: [`ChartError`] with the row, counted from the top, and the column.
+    /// **Errors**: [`ChartError::Symbol`] and [`ChartError::HalfCable`] with the row, counted from
+    /// the top, and the column, and the errors of [`Chart::new`].
     pub fn from_symbols(
         wales: usize,
         rows: usize,
@@ -129,7 +132,7 @@ impl Chart {
     /// not a multiple of the number of yarns, the chart is repeated upwards until it is.
     ///
     /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] if the repeated chart is too
-    /// large, and [`ChartError::Yarn`] for a yarn beyond 65534.
+    /// large, [`ChartError::Yarn`] for a yarn beyond 65534, and [`ChartError::OutOfMemory`].
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};

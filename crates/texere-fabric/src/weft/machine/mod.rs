@@ -46,7 +46,8 @@ impl Machine {
     ///
     /// No fault stops the machine. [`FaultKind`] says what the machine does instead.
     ///
-    /// **Errors**: [`WeftError::KnitSize`] for too many loops, carriers or loops on one needle,
+    /// **Errors**: [`WeftError::KnitSize`] for too many loops, carriers, sets of carriers, needles
+    /// of a repeat, loops on one needle, or loops that others are drawn through,
     /// [`WeftError::KnitNeedle`] for needles beyond [`NEEDLE_MAX`], [`WeftError::KnitCarriers`] for
     /// carriers that the program does not have, and [`FabricError::OutOfMemory`].
     ///

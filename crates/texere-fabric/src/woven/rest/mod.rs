@@ -73,7 +73,8 @@ impl Woven {
     /// **Errors**: [`FinishError::Woven`] if `finish` asks for a length, a press or a course,
     /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a
     /// backend that settles no crossings or a device that fails, and [`FinishError::Fabric`] with
-    /// the errors of [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()).
+    /// [`FabricError::Cancelled`], with [`FabricError::Yarns`] for a tension outside \[0, 1), or
+    /// with the errors of [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()).
     ///
     /// ```
     /// use std::ops::ControlFlow;

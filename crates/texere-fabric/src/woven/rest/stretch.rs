@@ -44,8 +44,10 @@ impl Woven {
     /// `tension` is the tension of the yarns' splines, from 0 to below 1. `progress` gets the share
     /// of the work done, and `Break` ends it within one pass.
     ///
-    /// **Errors**: [`FinishError::Stretch`] if threads would be straight or jammed before the cloth
-    /// has that length, and the errors of [`Woven::at_rest`].
+    /// **Errors**: [`FinishError::Stretch`] for a factor outside its limits, or if threads would be
+    /// straight or jammed before the cloth has that length. [`FinishError::Fabric`] with the errors
+    /// of [`Woven::new`] for spacings that no cloth has. The errors of [`Woven::at_rest`], except
+    /// [`FinishError::Woven`].
     ///
     /// **Source**: crimp interchange, as in F. T. Peirce, "The geometry of cloth structure",
     /// Journal of the Textile Institute 28, 1937.

@@ -1,7 +1,9 @@
-//! Readers and writers of texere: design files in, mesh files and designs out.
+//! Readers and writers of texere: design files and saved yarns in, mesh files, saved yarns,
+//! designs, drafts and pictures out.
 //!
 //! [`write`](mod@write) turns a mesh into a GLB or PLY file, whole or piece by piece as a device
-//! makes it. It also turns a woven design into a WIF draft or a design file.
+//! makes it. It also turns a woven design into a WIF draft or a design file, saves yarns, and draws
+//! drafts, charts and lapping diagrams.
 
 // A build that leaves formats out still compiles what formats share, and does not use all of it. A
 // build with all formats has no unused code.

@@ -152,7 +152,8 @@ impl Design {
     /// asks for cloth at rest. No device is needed. `tension` is the tension of the yarns' splines,
     /// from 0 to below 1; 0 is usual.
     ///
-    /// **Errors**: a [`Refusal`] if the structure can't be made, or for a tension out of range.
+    /// **Errors**: a [`Refusal`] with the errors of [`Design::yarns`], or for a tension out of
+    /// range.
     pub fn placed(self, tension: f32) -> Result<Cloth, Refusal> {
         let yarns = self.placed_yarns(tension)?;
         Ok(Cloth { design: self, report: RestReport::Placed(yarns) })
@@ -177,11 +178,12 @@ impl<'a> Resting<'a> {
     }
 
     /// Makes the cloth. The result is `Ok` even if the yarns don't come to rest: [`Cloth::report`]
-    /// then says so. Yarns that can't settle at all stay where the structure places them, and the
-    /// report says why.
+    /// then says so. Threads of woven cloth whose crossings can't settle at all stay where the
+    /// structure places them, and the report says why.
     ///
-    /// **Errors**: a [`Refusal`] if the design asks for cloth that can't be made or for a finish
-    /// that its structure does not have, if a device fails, if `progress` asked to stop, and for a
+    /// **Errors**: a [`Refusal`] if the design asks for cloth or a stretch that can't be made, for
+    /// a knit that can't settle, or for a finish that its structure does not have, if memory is
+    /// short, if the device fails or can't settle, if `progress` asked to stop, and for a
     /// [tension](Resting::tension) out of range.
     pub fn run(self) -> Result<Cloth, Refusal> {
         let Self { mut design, device, tension, mut progress } = self;

@@ -251,7 +251,7 @@ impl Design {
 
     /// The yarns of the structure as it places them: [`Structure::yarns`].
     ///
-    /// **Errors**: [`FabricError`] if the structure can't be made.
+    /// **Errors**: the errors of [`Structure::yarns`].
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         self.structure.yarns()
     }

@@ -50,7 +50,8 @@ pub(crate) use wif::{
 };
 
 /// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine
-/// (knitout, `.k`, feature `knitout`), or texere's own design file (`.toml`, feature `toml`).
+/// (knitout, `.k` or `.knitout`, feature `knitout`), or texere's own design file (`.toml`, feature
+/// `toml`).
 ///
 /// **Errors**: [`ReadError`]. It names file, line, field, value and limit as far as they apply. A
 /// kind of file that this build was made without is [`ReadError::Feature`].
@@ -72,8 +73,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
 /// program. Its argument is the path of that file beside `name`. For example, if `looms/cloth.toml`
 /// names `twill.wif`, the argument is `looms/twill.wif`. No file on a disk is opened.
 ///
-/// **Errors**: the errors of [`read`]. A refusal by `files` is [`ReadError::Io`] with the path.
-/// Bytes beyond the limit for files of their kind are [`ReadError::TooLarge`].
+/// **Errors**: the errors of [`read`]. A refusal by `files` is [`ReadError::Io`] with the path,
+/// within [`ReadError::Named`]. Bytes beyond the limit for files of their kind are
+/// [`ReadError::TooLarge`].
 ///
 /// ```
 /// use std::io::{Error, ErrorKind};

@@ -1,4 +1,5 @@
-//! Point paper: an image of which each pixel is a crossing.
+//! Point paper: an image of which each pixel is a crossing of a weave, a stitch of a weft knit, or
+//! a lap of a Jacquard guide.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,7 @@ pub(super) enum RowOrder {
     FirstPickFirst,
 }
 
-/// Point paper, read: a colour for each crossing.
+/// Point paper, read: a colour for each pixel.
 #[derive(Debug)]
 pub(super) struct PointPaper {
     pub(super) file: PathBuf,

@@ -31,9 +31,10 @@ pub struct SavedYarns {
 /// the bit.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, has
-/// changed since it was written, or is of another version; [`ReadError::Yarns`] and
-/// [`ReadError::Boundary`] for values that no yarns may have; [`ReadError::TooLarge`] beyond 16
-/// GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
+/// changed since it was written, is of another version, or has a value that the format does not
+/// allow; [`ReadError::Yarns`] and [`ReadError::Boundary`] for values that no yarns may have;
+/// [`ReadError::TooLarge`] beyond 16 GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`],
+/// [`ReadError::Io`].
 pub fn yarns(path: impl AsRef<Path>) -> Result<SavedYarns, ReadError> {
     let path = path.as_ref();
     yarns_from(path, &bytes_of(&open, path, BYTES_MAX)?)

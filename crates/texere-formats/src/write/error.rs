@@ -96,7 +96,7 @@ pub enum WriteError {
         yarn: u32,
     },
     /// The path of a PNG picture does not end in `.png`.
-    #[error("{} does not end in .png, as a picture of a draft does", .path.display())]
+    #[error("{} does not end in .png, as a picture does", .path.display())]
     NotPng {
         /// The path.
         path: PathBuf,
@@ -156,7 +156,8 @@ pub enum WriteError {
         /// The most pixels of a side.
         limit: usize,
     },
-    /// A knit with more stitches than a chart has squares.
+    /// A knit with more stitches than a chart has squares, or a warp knit whose chains are too long
+    /// to be written below its lappings.
     #[error(
         "a chart of {wales} and {courses}; {side} of each are drawn at most, and {squares} squares", wales = counted(*.wales, "wale"), courses = counted(*.courses, "course"))]
     ChartTooLarge {

@@ -25,8 +25,9 @@ pub struct Written {
 /// The triangles come from the mesh's plan. The mesh's `indices` are not read, so the mesh may have
 /// any topology.
 ///
-/// **Errors**: [`WriteError`] if the format can't hold the mesh, if the mesh does not match its
-/// plan or is not finite, or if the file system refuses.
+/// **Errors**: [`WriteError`] for an extension that stands for no format of this build, for a mesh
+/// that the format can't hold, that has no triangles, does not match its plan or materials or is
+/// not finite, for a file that must not be replaced, and if the file system refuses.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;

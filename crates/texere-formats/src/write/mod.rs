@@ -1,13 +1,14 @@
-//! Writers of mesh files, piece by piece and in bounded memory, and of designs, drafts and
-//! pictures.
+//! Writers of mesh files, piece by piece and in bounded memory, and of designs, drafts, pictures
+//! and saved yarns.
 //!
 //! | format | extension | feature | holds |
 //! |---|---|---|---|
 //! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
 //! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
 //!
-//! There are also writers of [drafts](fn@draft) and [pictures](fn@picture) as PNG, and of designs
-//! as [WIF](fn@wif) or as texere's own [design file](fn@toml), which are read again.
+//! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
+//! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of woven designs as [WIF](fn@wif)
+//! or as texere's own [design file](fn@toml), which are read again.
 //!
 //! [Yarns](fn@yarns) are saved in `.yarns` files. They are read again to the bit, so that cloth at
 //! rest need not settle again.

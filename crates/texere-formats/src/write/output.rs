@@ -55,8 +55,8 @@ impl Output {
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, or if
-    /// the path is not a file that may be replaced.
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if
+    /// the path is not a file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }
@@ -103,7 +103,7 @@ impl FilePlace {
     /// The file that is to be replaced, if there is one.
     ///
     /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] if the path is not a file that
-    /// may be replaced.
+    /// may be replaced, or if a spared file can't be looked at.
     pub(super) fn check(&self) -> Result<Option<Metadata>, WriteError> {
         let refused = |source| WriteError::io("create", self.path(), source);
         let old = match fs::symlink_metadata(&self.real) {

@@ -9,7 +9,8 @@ use super::{Output, WriteError};
 /// each pixel, red, green and blue in sRGB, or four, with alpha last. Rows come from the top.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`, [`WriteError::Spared`],
-/// [`WriteError::Io`]. A wrong number of pixels is [`WriteError::Io`] as well.
+/// [`WriteError::Io`]. A wrong number of pixels and a lack of memory are [`WriteError::Io`] as
+/// well.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -28,7 +29,8 @@ pub fn picture(size: [u32; 2], pixels: &[u8], output: impl Into<Output>) -> Resu
 
 /// Writes a picture to `out`: the bytes that [`picture`](fn@picture) writes to a file.
 ///
-/// **Errors**: [`WriteError::Writer`] if `out` refuses bytes, and for a wrong number of pixels.
+/// **Errors**: [`WriteError::Writer`] if `out` refuses bytes, for a wrong number of pixels, and for
+/// a lack of memory.
 ///
 /// ```
 /// let mut png = Vec::new();

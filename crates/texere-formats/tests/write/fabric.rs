@@ -12,8 +12,8 @@ use texere_cpu::SerialBackend;
 /// A triangle: three vertices, each as the bits of six floats.
 pub(crate) type Triangle = [[u32; 6]; 3];
 
-/// Two ends of equal length, a closed yarn, a lobed yarn of unknown origin, and a pick of 65 rings
-/// with K = 1, one more than a block has.
+/// Two ends of equal length, a closed yarn, a lobed yarn of unknown origin, and a pick. With one
+/// subdivision of each interval the pick has 65 rings, one more than a block.
 pub(crate) fn fabric() -> Yarns {
     let mut yarns = Yarns::builder();
     let materials: Vec<u32> = ["cotton \"raw\"\n", "Wolle, grün"]
@@ -47,7 +47,7 @@ pub(crate) fn fabric() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// One yarn longer than the shared pattern.
+/// One yarn with more gaps between rings than the index pattern of [`Topology::Shared`] covers.
 pub(crate) fn long_yarn() -> Yarns {
     let mut yarns = Yarns::builder();
     let points: Vec<_> =
@@ -56,11 +56,12 @@ pub(crate) fn long_yarn() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Limits of buffers that hold one block of 65 rings with five sides and a cap (7,920 bytes), and
-/// hardly more. Chunks therefore cut through yarns.
+/// Limits of buffers that hold a full block of 64 rings, a repeated ring and a cap, all with five
+/// sides (7,920 bytes), and hardly more. Chunks therefore cut through yarns.
 pub(crate) const TINY: Limits = Limits { binding_bytes: 8000, ..Limits::NONE };
 
-/// Variants that should make no difference to a file: topologies and cuts.
+/// Pairs of a topology and limits, which should make no difference to a file. Limits only decide
+/// how the mesh is cut into chunks.
 pub(crate) fn ways() -> Vec<(Topology, Limits)> {
     [Topology::Indexed, Topology::Shared, Topology::None]
         .into_iter()
@@ -112,7 +113,8 @@ fn tiny_chunks_cut_where_it_hurts() {
     assert!(chunks.iter().any(|chunk| chunk.caps().len() == 1), "one end of a yarn without the other");
 }
 
-/// A box in the fabric, which holds some blocks of the closed yarn and half of another yarn.
+/// A box in the fabric, which touches some blocks of the closed yarn and the first block of each of
+/// the two ends.
 pub(crate) fn region() -> Bounds {
     Bounds::rectangle([-12.0, 5.0], [0.4, 12.0])
 }

@@ -34,8 +34,8 @@ use wif::WifFile;
 /// that were relieved are written as relieved.
 ///
 /// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.wif`, [`WriteError::Unheld`]
-/// for a knit, [`WriteError::OutOfRange`] for threads and shafts beyond the limits of the reader,
-/// [`WriteError::TextTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
+/// for a knit, [`WriteError::OutOfRange`] for lengths, shafts and treadles beyond the limits of the
+/// reader, [`WriteError::TextTooLarge`] beyond 256 MiB, [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_formats::{read, write};
@@ -76,9 +76,10 @@ pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErro
 /// files hold it. Yarns that share a name get numbers behind it.
 ///
 /// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.toml`,
-/// [`WriteError::Unheld`] for a knit, [`WriteError::OutOfRange`] for a value that no design file
-/// may have, [`WriteError::TextTooLarge`] for a drawdown whose repeat has more than some sixteen
-/// million crossings, [`WriteError::Spared`], [`WriteError::Io`].
+/// [`WriteError::Unheld`] for a knit or a section that design files can't hold,
+/// [`WriteError::OutOfRange`] for a value that no design file may have,
+/// [`WriteError::TextTooLarge`] beyond 16 MiB, of which each crossing of the drawdown's repeat
+/// takes a byte, [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};

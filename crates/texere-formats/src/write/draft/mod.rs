@@ -1,5 +1,5 @@
-//! Drafts, point paper and stitch charts as PNG pictures, as weavers and knitters draw them on
-//! squared paper.
+//! Drafts, point paper, stitch charts and lapping diagrams as PNG pictures, as weavers and knitters
+//! draw them on squared paper. A draft has these blocks:
 //!
 //! ```text
 //! warp yarns

@@ -102,7 +102,7 @@ impl<'a> Sheet<'a> {
 
     /// Writes the sheet to a PNG file. Returns the sheet's width and height in pixels.
     ///
-    /// **Errors**: [`WriteError::Spared`], [`WriteError::Io`].
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`], also for a lack of memory.
     pub(super) fn save(&self, output: Output) -> Result<[u32; 2], WriteError> {
         let target = self.encoded(Target::create(output)?)?;
         target.commit()?;
@@ -111,7 +111,7 @@ impl<'a> Sheet<'a> {
 
     /// Writes the sheet to `out` as PNG. Returns the sheet's width and height in pixels.
     ///
-    /// **Errors**: [`WriteError::Writer`].
+    /// **Errors**: [`WriteError::Writer`] if `out` refuses bytes, or for a lack of memory.
     pub(super) fn save_to(&self, out: impl Write) -> Result<[u32; 2], WriteError> {
         let target = self.encoded(Target::straight(out))?;
         target.done()?;

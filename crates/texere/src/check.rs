@@ -6,7 +6,7 @@
 //! | know whether yarns pierce one another, and where | [`clearance()`], which gives a [`Clearance`]; [`ClothClearance`] names threads |
 //! | know whether yarns have passed through one another when they were moved | [`linking()`], which gives a [`Linking`] |
 //! | know whether a mesh's tubes are wrung (narrowed, because neighbouring rings are turned against one another), and how many subdivisions cure that | [`drawn()`], [`finer`] |
-//! | know weight, thickness, cover, crimp and yarn consumption | [`Measures`], [`KnitMeasures`] |
+//! | know weight, thickness, yarn consumption, cover and crimp of woven cloth, loops of a knit | [`Measures`], [`KnitMeasures`] |
 //!
 //! ```
 //! use texere::check::clearance;

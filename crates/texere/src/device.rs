@@ -108,8 +108,9 @@ pub fn devices() -> Devices {
 ///
 /// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked;
 /// [`BackendError::NoFeature`] for a family that this build lacks;
-/// [`BackendError::NoInstructionSet`] for a `TEXERE_SIMD` that this processor lacks; and the errors
-/// of the driver.
+/// [`BackendError::NoInstructionSet`] for a `TEXERE_SIMD` that names no vectors of this processor;
+/// and [`BackendError::Driver`], [`BackendError::Compile`], [`BackendError::Unsupported`] or
+/// [`BackendError::DeviceLost`] for a device that can't be opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     match name {
         "auto" => open_gpu().map_or_else(open_cpu, Ok),
@@ -186,7 +187,8 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Errors**: [`BackendError::NoDevice`], and the errors of the driver.
+/// **Errors**: [`BackendError::NoDevice`], and [`BackendError::Driver`], [`BackendError::Compile`]
+/// or [`BackendError::DeviceLost`] for a device that can't be opened.
 #[cfg(feature = "render")]
 pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError> {
     let index = picture_device(name, &texere_wgpu::WgpuBackend::devices()?)?;

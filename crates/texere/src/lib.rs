@@ -50,7 +50,7 @@
 //! ```
 //!
 //! A WIF draft read by itself has no finish, so [`Design::rest`] leaves its yarns as placed unless
-//! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` even if yarns can't come
+//! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` even if yarns don't come
 //! to rest: [`Cloth::report`] then says so.
 //!
 //! # What to take
@@ -85,7 +85,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`mod@read`], [`mod@write`] | what readers say beside the design; files of meshes, pictures, drafts and designs |
+//! | [`mod@read`], [`mod@write`] | what readers say beside the design; files of meshes, yarns, pictures, drafts and designs |
 //! | [`woven`], [`weft`], [`warp`] | weaves, weft knits and warp knits in code |
 //! | [`yarn`] | materials, sections, sizes, lengths |
 //! | [`rest`] | finishing and settling |

@@ -97,8 +97,8 @@ pub struct Update {
 impl Live {
     /// Starts with woven cloth, whose mesh is made on `device`.
     ///
-    /// **Errors**: [`LiveError::Fabric`] if the cloth's yarns can't be made, [`LiveError::Session`]
-    /// if the mesh can't be planned or has no room on the device.
+    /// **Errors**: [`LiveError::Fabric`] if the cloth's yarns can't be made, and the errors of
+    /// [`Live::given`].
     pub fn weave(device: Arc<dyn Backend>, cloth: Woven, settings: Settings) -> Result<Self, LiveError> {
         let yarns = cloth.yarns()?;
         let mesh = start(&*device, &yarns, settings)?;
@@ -122,8 +122,8 @@ impl Live {
 
     /// Starts with yarns of any origin, whose mesh is made on `device`.
     ///
-    /// **Errors**: [`LiveError::Session`] if the mesh can't be planned or has no room on the
-    /// device.
+    /// **Errors**: [`LiveError::Session`] if the mesh can't be planned, if it has no room on the
+    /// device or can't be edited there, and for a device that fails.
     pub fn given(device: Arc<dyn Backend>, yarns: Yarns, settings: Settings) -> Result<Self, LiveError> {
         let mesh = start(&*device, &yarns, settings)?;
         Ok(Self::of(device, settings, mesh, yarns.materials().to_vec(), Source::Given(yarns)))

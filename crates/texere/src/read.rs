@@ -6,7 +6,7 @@
 //!
 //! A WIF draft read by itself has no finish, so [`Design::rest`](crate::Design::rest) leaves its
 //! yarns as placed unless [`Design::settle`](crate::Design::settle) is set to true.
-//! [`run`](crate::rest::Resting::run) is `Ok` even if yarns can't come to rest:
+//! [`run`](crate::rest::Resting::run) is `Ok` even if yarns don't come to rest:
 //! [`Cloth::report`](crate::Cloth::report) then says so.
 //!
 //! | to | take |

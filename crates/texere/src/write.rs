@@ -1,4 +1,4 @@
-//! Files: meshes in pieces, pictures, drafts and designs.
+//! Files: meshes in pieces, saved yarns, pictures, drafts and designs.
 //!
 //! [`texere::write`](fn@crate::write) writes a whole mesh. Each function that writes a file, except
 //! [`file()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of

@@ -32,7 +32,8 @@ impl Live {
     /// [set](Live::set_yarn) before.
     ///
     /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] for a crossing outside the cloth,
-    /// and [`LiveError::Session`] of the device.
+    /// [`LiveError::Session`] of the device, and the errors of [`Live::yarns`] and [`Live::given`]
+    /// if a thread outgrows its room.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), LiveError> {
         self.set_drawdown(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
@@ -62,8 +63,9 @@ impl Live {
     /// own](Yarns::with_ups), it keeps them if it has as many control points as before, and loses
     /// them otherwise.
     ///
-    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], and [`LiveError::Session`] for
-    /// values that no yarn may have and for a device that fails.
+    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] or
+    /// [`LiveError::Yarns`] for values that no yarn may have, [`LiveError::Session`] for a device
+    /// that fails, and the errors of [`Live::yarns`] and [`Live::given`] if a new mesh is begun.
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
         let yarns = self.mesh.plan().layout().yarns().len();
         if yarn >= yarns {
@@ -142,8 +144,8 @@ impl Live {
     /// Replaces all yarns. Yarns that do not change are not made again. From then on the fabric is
     /// known by its yarns alone, and its lifts can't be set.
     ///
-    /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension),
-    /// [`LiveError::Session`] of the device.
+    /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and the
+    /// errors of [`Live::given`].
     pub fn set_yarns(&mut self, yarns: Yarns) -> Result<(), LiveError> {
         self.check_tension(&yarns)?;
         let (before, after) = (self.mesh.plan().layout().clone(), yarns.layout().clone());

@@ -52,7 +52,7 @@ pub enum LiveError {
         /// Number of sections of the fabric.
         own: usize,
     },
-    /// The mesh can't be planned, or the device failed.
+    /// The mesh can't be planned, a yarn has a value that no yarn may have, or the device failed.
     #[error(transparent)]
     Session(#[from] SessionError),
 }

@@ -6,8 +6,8 @@ use std::{env, io, thread};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-/// Starts a thread for each core, or as many as can be started. If none can, the main thread does
-/// all the work.
+/// Starts a thread for each core, or as many as the variable `RAYON_NUM_THREADS` says. If fewer can
+/// be started, those do the work. If none can, the main thread does all the work.
 ///
 /// Rayon would start its threads at first use, and panic if one can't be started. Here the threads
 /// are started first, and rayon is given those that could be started.
@@ -26,7 +26,8 @@ pub(crate) fn start() {
         workers.push(hand_over);
     }
     let pool = ThreadPoolBuilder::new().num_threads(workers.len().max(1));
-    // `build_global` fails only if there is a pool already, and there is none yet.
+    // `build_global` fails only if there is a pool already, or if a thread can't take its worker.
+    // There is no pool yet, and all threads wait for their workers.
     let _ = if workers.is_empty() {
         pool.use_current_thread().build_global()
     } else {

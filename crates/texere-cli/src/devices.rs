@@ -53,7 +53,8 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     print::text(&lines(&text))
 }
 
-/// What a device may do besides making meshes, each with whether it can.
+/// The names of the capabilities that a device may have besides making meshes, each with whether
+/// this device has it.
 const fn can(can: Capabilities) -> [(&'static str, bool); 6] {
     let Capabilities { settle, settle_crossings, edit, attributes, pack, draw } = can;
     [

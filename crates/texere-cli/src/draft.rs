@@ -9,8 +9,8 @@ use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{print, reading};
 
-/// Bytes of rows that are gathered before they are printed. A call for that many bytes takes little
-/// time beside the copying.
+/// Bytes of rows that are gathered before they are printed. The system call that writes so many
+/// bytes takes little time beside the copying of the bytes.
 const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
             (None, None, Some(warp)) => texere::write::warp_draft(warp, side, sparing)?,
             (None, None, None) => return Err(Fail::no_draft(&args.design)),
         };
-        // With --text, standard output is the drawdown alone.
+        // With --text, standard output holds the rows of the draft alone.
         if !args.text {
             print::text(&format!("{}: {width} × {height} pixels\n", line(output.display())))?;
         }

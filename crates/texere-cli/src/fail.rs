@@ -32,7 +32,7 @@ pub(crate) const USAGE: u8 = 2;
 /// The design is wrong.
 const DESIGN: u8 = 3;
 
-/// The cloth pierces itself, folds or jams.
+/// `check` found faults.
 const CLOTH: u8 = 4;
 
 impl Fail {

@@ -2,8 +2,7 @@
 //! drafts of them.
 //!
 //! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the variable
-//! `TEXERE_SIMD` is wrong; 3 the design is wrong; 4 `check` found that the cloth pierces itself,
-//! folds or jams.
+//! `TEXERE_SIMD` is wrong; 3 the design is wrong; 4 `check` found faults.
 
 mod args;
 mod at;
@@ -66,7 +65,7 @@ fn main() -> ExitCode {
 }
 
 fn failed(fail: &fail::Fail) -> ExitCode {
-    // When standard error is closed too, there is nowhere left to say so.
+    // If the message can't be written to standard error, there is nowhere else to report it.
     let _ = writeln!(std::io::stderr(), "{fail}");
     fail.exit_code()
 }
@@ -85,7 +84,8 @@ fn misused(error: &clap::Error) -> ExitCode {
         terminal::line(&arg) == arg
     };
     if std::env::args_os().all(is_harmless) {
-        // `exit` prints the error in colours.
+        // `exit` prints the arguments unchanged, in colours on a terminal. It is used only if no
+        // argument holds codes that control the terminal.
         error.exit();
     }
     let _ = std::io::stderr().write_all(terminal::lines(&error.to_string()).as_bytes());

@@ -29,8 +29,7 @@ pub(crate) struct Args {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the \
-                          variable TEXERE_SIMD is wrong; 3 the design is wrong; 4 check found that the cloth pierces itself, \
-                          folds or jams.";
+                          variable TEXERE_SIMD is wrong; 3 the design is wrong; 4 check found faults.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -38,11 +37,11 @@ pub(crate) enum Command {
     Devices(DevicesArgs),
     /// Say what a design makes: counts, sizes, yarn, weight, clearance, bends, warnings
     Inspect(InspectArgs),
-    /// Say whether a cloth pierces itself, folds or jams, where, and what would cure it
+    /// Say which faults a cloth has, where, and what would cure them
     Check(CheckArgs),
     /// Write a design's mesh to a .glb or .ply file, or its cloth at rest to a .yarns file
     Mesh(MeshArgs),
-    /// Draw a woven design's draft, or print its drawdown
+    /// Draw or print a design's draft, stitch chart or lappings
     Draft(DraftArgs),
     /// Write a design as a WIF draft or as a design file
     Convert(ConvertArgs),

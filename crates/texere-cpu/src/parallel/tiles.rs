@@ -2,11 +2,11 @@
 //! with an even number of sides, in memory aligned to 16 bytes.
 //!
 //! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
-//! gives a column for each quarter of four rings. The first four lanes of a column hold the same
-//! quarter of four rings, the next four lanes that of the next four rings, and so on. Quarters of
-//! four consecutive columns are a line. Columns pass through memory, where they are aligned and are
-//! read as they were stored. Reads thus need not wait for the lines before them, which are slow to
-//! go past the caches.
+//! gives a column for each quarter of four rings. The first four lanes of a column hold one quarter
+//! of one ring, the next four lanes the same quarter of the ring four further on, and so on. The
+//! first four lanes of four consecutive columns are a line, and so are the next four lanes. Columns
+//! pass through memory, where they are aligned and are read as they were stored. Reads thus need
+//! not wait for the lines before them, which are slow to go past the caches.
 
 use super::lines::Lines;
 use super::runs::take;

@@ -10,7 +10,8 @@ use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances
 /// The number of floats by which the stores of a ring may reach over its end.
 pub(super) const OVERHANG: usize = 2;
 
-/// A section's outline, and the properties of its shape that let `Ring::vertex` leave terms out.
+/// A section's outline, and the properties of its shape that let [`Stances::vertex`] leave out
+/// terms of the core's `Ring::vertex`.
 #[derive(Debug, Clone)]
 pub(super) struct Surface<'a> {
     outline: &'a [SectionPoint],
@@ -32,9 +33,9 @@ impl<'a> Surface<'a> {
         Self { outline, round, opposed }
     }
 
-    /// Writes the vertices of `rings` to `out`. With `COLUMNS`, for an even number of sides, they
-    /// are written as the columns of [`TileLines`](super::tiles::TileLines). Otherwise they are
-    /// written ring after ring.
+    /// Writes the vertices of `rings` to `out`. With `COLUMNS`, which needs an even number of
+    /// sides, they are written as the columns of [`TileLines`](super::tiles::TileLines). Otherwise
+    /// they are written ring after ring.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<S: Simd, const FLATTENED: bool, const COLUMNS: bool>(
         &self,
@@ -109,9 +110,9 @@ fn vertices<S: Simd, V: Stances<S>, const COLUMNS: bool>(
     }
 }
 
-/// Writes all vertices of a vector of rings in columns. A column has the same four floats of every
-/// fourth ring. First come the columns of ring 0, from its first floats to its last, then the
-/// columns of ring 1.
+/// Writes all vertices of a vector of rings in columns. Column number p of ring r, for r from 0 to
+/// 3, holds floats 4p to 4p + 3 of the rings r, r + 4, r + 8 and so on, one ring after the other.
+/// First come all columns of ring 0, then those of rings 1, 2 and 3.
 #[cfg_attr(optimized, inline(always))]
 fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();
@@ -128,8 +129,9 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     }
 }
 
-/// Writes all vertices of a vector of rings ring after ring, the last vertices first. A store that
-/// reaches over the end of its ring is overwritten by the next ring's own.
+/// Writes all vertices of a vector of rings ring after ring, the last vertices first. Floats that a
+/// store writes past the end of its ring are overwritten later by the first vertices of the next
+/// ring. After the last ring, `out` has room for them.
 #[cfg_attr(optimized, inline(always))]
 fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;

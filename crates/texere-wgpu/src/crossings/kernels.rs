@@ -14,7 +14,7 @@ pub(crate) struct CrossingsKernels {
 }
 
 impl CrossingsKernels {
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::DeviceLost`] for a lost device.
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
         // Threads at crossings have half widths and half heights of their own, so the program for
         // flattened yarns is compiled.

@@ -34,7 +34,7 @@ use texere::yarn::{Material, Section, YarnError};
 use texere::{Backend, FabricError, Settings, Yarn, Yarns};
 use texere_core::backend::{Chunk, Session, SessionError};
 
-/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and
+/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its third of six, and
 /// its largest.
 pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];
 
@@ -91,10 +91,10 @@ pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnErr
     shaped.build()
 }
 
-/// The plan for `yarns`, and its chunks for a device without limits. A cloth no larger than the
-/// paper's largest is one chunk.
+/// The plan for `yarns`, and its chunks for a device without limits. With the default settings, a
+/// cloth no larger than the paper's largest is one chunk.
 ///
-/// **Errors**: [`PlanError`] for yarns that no plan fits.
+/// **Errors**: [`PlanError`] for settings that are not allowed, or more rings than a plan can have.
 pub fn plan(yarns: &Yarns, settings: Settings) -> Result<(Arc<Plan>, Vec<Chunk>), PlanError> {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
     let chunks = plan.chunks(&Limits::NONE)?.collect();
@@ -103,7 +103,7 @@ pub fn plan(yarns: &Yarns, settings: Settings) -> Result<(Arc<Plan>, Vec<Chunk>)
 
 /// A session on `device` that holds `yarns`, uploaded and scanned.
 ///
-/// **Errors**: [`SessionError`] from the device.
+/// **Errors**: [`SessionError`] for yarns that do not fit `plan`, or a device that fails.
 pub fn session(device: &dyn Backend, plan: &Arc<Plan>, yarns: &Yarns) -> Result<Session, SessionError> {
     let mut session = Session::new(device, plan.clone())?;
     session.upload(0, yarns.points())?;

@@ -48,7 +48,8 @@ const NUMBERS: &[&str] = &[
     "1,5",
 ];
 
-/// Words that readers know, for places where they do not belong.
+/// Words that readers know, for places where they do not belong, and letters, signs and codes that
+/// readers may not expect.
 const WORDS: &[&str] = &[
     "plain",
     "round",
@@ -142,7 +143,7 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
         0 if !lines.is_empty() => drop(lines.remove(line)),
         1 if !lines.is_empty() => lines.insert(here, lines[line].clone()),
         2 if !lines.is_empty() => lines.swap(line, random.usize(..=last)),
-        // Part of another seed, in between or at the end.
+        // Lines of another seed are inserted before a line or at the end.
         3 if !other.is_empty() => {
             let from = random.usize(..other.len());
             let count = random.usize(..=other.len() - from).min(8);
@@ -212,7 +213,7 @@ fn with_key(line: &str, other: &str) -> String {
     }
 }
 
-/// Adds or removes items of a list, or makes it many times as long.
+/// Adds or removes one item of a list, repeats the list, or reverses it.
 fn with_list(line: &str, random: &mut Rng) -> String {
     let (head, items) = line.split_once(['=', '[']).unwrap_or((line, ""));
     let sign = line[head.len()..].chars().next().unwrap_or('=');
@@ -236,7 +237,8 @@ fn word(random: &mut Rng) -> &'static str {
     random.choice(WORDS).copied().unwrap_or_default()
 }
 
-/// Changes, inserts, removes or repeats a few bytes, without regard to their meaning.
+/// Changes, inserts, removes or repeats bytes, or cuts off the end, up to four times and without
+/// regard to the meaning.
 pub(crate) fn scrambled(bytes: &mut Vec<u8>, random: &mut Rng) {
     for _ in 0..random.usize(1..5) {
         let at = random.usize(..=bytes.len());
@@ -255,8 +257,8 @@ pub(crate) fn scrambled(bytes: &mut Vec<u8>, random: &mut Rng) {
     }
 }
 
-/// A notation with a few parts replaced by those of another notation, by other numbers or by other
-/// signs.
+/// A notation after up to three changes: another notation is appended, a sign is inserted, the
+/// whole is repeated, or a number or a word is changed or replaced.
 pub(crate) fn notation(random: &mut Rng) -> String {
     let seed = |random: &mut Rng| random.choice(corpus::NOTATIONS).copied().unwrap_or_default();
     let mut text = seed(random).to_owned();

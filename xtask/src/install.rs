@@ -1,7 +1,8 @@
 //! `cargo xtask install --prefix DIR`: the C library where compilers look for it.
 //!
-//! Headers for C and C++, shared and static library, a file for pkg-config, a package for CMake, and
-//! what a NuGet package is made of. No file has the prefix inside, so the whole folder may be moved.
+//! Headers for C and C++, shared and static library, a file for pkg-config, a package for CMake, what
+//! a NuGet package is made of, and examples. No file has the prefix inside, so the whole folder may
+//! be moved.
 
 use std::fs;
 use std::io;
@@ -63,6 +64,17 @@ fn assembly(steps: &mut Steps) -> &'static [&'static str] {
     &ASSEMBLY
 }
 
+/// Programs, and designs for them: the folder from the repository's root, and the file there.
+const EXAMPLES: [(&str, &str); 7] = [
+    ("crates/texere-capi/examples", "mesh.c"),
+    ("crates/texere-capi/examples", "yarns.c"),
+    ("crates/texere-capi/examples", "obj/CMakeLists.txt"),
+    ("crates/texere-capi/examples", "obj/obj.cpp"),
+    ("crates/texere-capi/examples", "weave.cs"),
+    ("designs", "poplin.toml"),
+    ("designs", "herringbone.wif"),
+];
+
 /// The number of the binary interface, which the header says.
 fn abi(header: &str) -> io::Result<&str> {
     let number = header.lines().find_map(|line| line.strip_prefix("#define TEXERE_ABI "));
@@ -90,6 +102,9 @@ fn lay(prefix: &Path, assembly: &[&str]) -> io::Result<()> {
     let copied = |from: PathBuf, to: PathBuf| put(&to, |beside| fs::copy(&from, beside).map(drop));
     for name in ["texere.h", "texere.hpp"] {
         copied(headers.join(name), include.join(name))?;
+    }
+    for example in EXAMPLES {
+        copied(root().join(example.0).join(example.1), prefix.join("share/texere/examples").join(example.1))?;
     }
     copied(built.join("libtexere_c.a"), lib.join("libtexere_c.a"))?;
     // Programs ask for this name, and linkers for the one without a number.

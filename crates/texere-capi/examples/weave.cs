@@ -35,7 +35,7 @@ static class Weave
         }
         catch (TexereException error)
         {
-            Console.Error.WriteLine(error.File == null ? error.Message : $"{error.File}:{error.Line}: {error.Message}");
+            Console.Error.WriteLine(error.Line == 0 ? error.Message : $"{error.File}:{error.Line}: {error.Message}");
             return (int)error.Status;
         }
     }

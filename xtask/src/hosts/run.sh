@@ -1,8 +1,8 @@
-# Builds the C library's examples as its users do, with the system's compilers against PREFIX alone, and runs them in
-# the folder OUT. They make what the program of the repository makes, to the bit.
+# Builds the examples below PREFIX as its users do, with the system's compilers and nothing else, and runs them in the
+# folder OUT. They make what the program of the repository makes, to the bit.
 set -eu
-examples=$PWD/crates/texere-capi/examples designs=$PWD/designs texere=$PWD/target/release/texere
-kept=$PWD/xtask/src/hosts/kept.supp
+examples=$PREFIX/share/texere/examples designs=$PWD/designs texere=$PWD/target/release/texere
+capi=$PWD/crates/texere-capi kept=$PWD/xtask/src/hosts/kept.supp
 export PKG_CONFIG_PATH="$PREFIX/lib/pkgconfig"
 cd "$OUT"
 # All memory is freed, but for what kept.supp explains. Valgrind has no AVX-512, and the library sees that.
@@ -26,6 +26,14 @@ cmake -S "$examples/obj" -B obj "-DCMAKE_PREFIX_PATH=$PREFIX" "-DCMAKE_CXX_FLAGS
 cmake --build obj
 assembly=$PREFIX/share/texere/nuget/lib/netstandard2.1
 mcs -langversion:latest -warnaserror "-r:$assembly/Texere.dll" "$examples/weave.cs" -out:weave.exe
+# What the classes for C++ and C# promise.
+for standard in 17 20; do
+    c++ -std=c++$standard -Wall -Wextra -Wshadow -Werror -pedantic "$capi/tests/hosts/wrappers.cpp" -o wrappers \
+        $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
+    watched ./wrappers
+done
+mcs -langversion:latest -unsafe "-recurse:$capi/csharp/*.cs" "$capi/tests/hosts/wrappers.cs" -out:wrappers.exe
+LD_LIBRARY_PATH="$PREFIX/lib" mono wrappers.exe
 
 for design in poplin jersey tricot; do
     "$texere" mesh "$designs/$design.toml" --device cpu -o $design.ply

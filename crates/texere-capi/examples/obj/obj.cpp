@@ -43,7 +43,7 @@ int main(int count, char **arguments) try {
     write(plan, file.get());
     std::cout << cloth.report().words << ": " << plan.counts().triangles << " triangles\n";
 } catch (const texere::Error &error) {
-    if (!error.file().empty()) std::cerr << error.file() << ":" << error.line() << ": ";
+    if (error.line()) std::cerr << error.file() << ":" << error.line() << ": ";
     std::cerr << error.what() << "\n";
     return error.status();
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::install;
+use crate::install::install;
 use crate::steps::Steps;
 
 /// Debian's packages that build and run them.
@@ -19,7 +19,7 @@ pub(crate) fn check(steps: &mut Steps) {
     }
     let folder = std::env::temp_dir().join(format!("texere-hosts-{}", std::process::id()));
     let prefix = folder.join("prefix");
-    install::install(steps, &prefix);
+    install(steps, &prefix);
     let places = [("PREFIX", prefix), ("OUT", folder.clone())];
     let places = places.each_ref().map(|(name, place)| (*name, place.to_string_lossy()));
     let places = places.each_ref().map(|(name, place)| (*name, &**place));

@@ -116,11 +116,11 @@ private:
     Handle *handle_;
 };
 
-// The handle that `call` writes.
-template <class Handle, class Call>
-Handle *made(Call call) {
+// The handle that a call makes, which it writes to its last argument.
+template <class Handle, class Call, class... Arguments>
+Handle *made(Call call, Arguments... arguments) {
     Handle *handle = nullptr;
-    check(call(&handle));
+    check(call(arguments..., &handle));
     return handle;
 }
 
@@ -129,6 +129,14 @@ template <class Struct>
 Struct sized() {
     Struct value{};
     value.struct_size = sizeof value;
+    return value;
+}
+
+// The struct that a call writes about a handle.
+template <class Struct, class Handle>
+Struct told(texere_status (*call)(const Handle *, Struct *), const Handle *handle) {
+    auto value = sized<Struct>();
+    check(call(handle, &value));
     return value;
 }
 
@@ -182,15 +190,10 @@ class Device : public Owner<texere_device, texere_device_free> {
 public:
     // "auto", "cpu", "opencl:0", "wgpu" and so on.
     explicit Device(std::string_view name = "auto")
-        : Owner(made<texere_device>(
-              [&](auto out) { return texere_device_open(name.data(), name.size(), out); })) {}
+        : Owner(made<texere_device>(texere_device_open, name.data(), name.size())) {}
 
     // What it is. The strings are valid as long as the device.
-    texere_device_info describe() const {
-        auto info = sized<texere_device_info>();
-        check(texere_device_describe(get(), &info));
-        return info;
-    }
+    texere_device_info describe() const { return told(texere_device_describe, get()); }
 };
 
 // A design that was read.
@@ -198,8 +201,7 @@ class Design : public Owner<texere_design, texere_design_free> {
 public:
     // Of a file: `.wif`, `.toml`, `.k`.
     explicit Design(std::string_view path)
-        : Owner(made<texere_design>(
-              [&](auto out) { return texere_design_read(path.data(), path.size(), out); })) {}
+        : Owner(made<texere_design>(texere_design_read, path.data(), path.size())) {}
 
     // Of memory. The ending of `name` says what kind of design it is.
     Design(std::string_view name, view<const std::uint8_t> data)
@@ -237,24 +239,15 @@ public:
     using Owner::Owner;
     // Of a `.yarns` file.
     explicit Yarns(std::string_view path)
-        : Owner(made<texere_yarns>(
-              [&](auto out) { return texere_yarns_read(path.data(), path.size(), out); })) {}
+        : Owner(made<texere_yarns>(texere_yarns_read, path.data(), path.size())) {}
     // Of arrays, which are copied.
     explicit Yarns(const texere_yarn_arrays &arrays)
-        : Owner(made<texere_yarns>([&](auto out) { return texere_yarns_new(&arrays, out); })) {}
+        : Owner(made<texere_yarns>(texere_yarns_new, &arrays)) {}
 
     void write(std::string_view path) const { check(texere_yarns_write(get(), path.data(), path.size())); }
-    texere_yarn_counts counts() const {
-        auto counts = sized<texere_yarn_counts>();
-        check(texere_yarns_counts(get(), &counts));
-        return counts;
-    }
+    texere_yarn_counts counts() const { return told(texere_yarns_counts, get()); }
     // The settings that suit them.
-    texere_settings settings() const {
-        auto settings = sized<texere_settings>();
-        check(texere_settings_default(get(), &settings));
-        return settings;
-    }
+    texere_settings settings() const { return told(texere_settings_default, get()); }
     // Copies as many offsets and points as `counts` says: `yarns + 1` and `points`.
     void points(view<std::uint64_t> offsets, view<texere_point> points) const {
         check(texere_yarns_points(get(), offsets.data(), offsets.size(), points.data(), points.size()));
@@ -266,43 +259,29 @@ class Cloth : public Owner<texere_cloth, texere_cloth_free> {
 public:
     // With its yarns at rest, where the design asks for it.
     Cloth(const Design &design, const Device &device, const Run *run = nullptr)
-        : Owner(made<texere_cloth>([&](auto out) {
-              return texere_cloth_rest(design.get(), device.get(), Run::of(run), out);
-          })) {}
+        : Owner(made<texere_cloth>(texere_cloth_rest, design.get(), device.get(), Run::of(run))) {}
     // With its yarns as the structure places them.
-    explicit Cloth(const Design &design)
-        : Owner(made<texere_cloth>([&](auto out) { return texere_cloth_placed(design.get(), out); })) {}
+    explicit Cloth(const Design &design) : Owner(made<texere_cloth>(texere_cloth_placed, design.get())) {}
 
     // How the yarns came to rest. `words` is valid as long as the cloth.
-    texere_report report() const {
-        auto report = sized<texere_report>();
-        check(texere_cloth_report(get(), &report));
-        return report;
-    }
+    texere_report report() const { return told(texere_cloth_report, get()); }
     // The warning of a number, from 0, valid as long as the cloth; `report` says how many there are.
     const char *warning(std::uint64_t number) const {
         const char *words = nullptr;
         check(texere_cloth_warning(get(), number, &words));
         return words;
     }
-    Yarns yarns() const {
-        return Yarns(made<texere_yarns>([&](auto out) { return texere_cloth_yarns(get(), out); }));
-    }
+    Yarns yarns() const { return Yarns(made<texere_yarns>(texere_cloth_yarns, get())); }
 };
 
 // The plan of a mesh.
 class Plan : public Owner<texere_plan, texere_plan_free> {
 public:
-    // With the settings that suit the yarns.
-    Plan(const Yarns &yarns, const Device &device) : Owner(of(yarns, device, nullptr)) {}
-    Plan(const Yarns &yarns, const Device &device, const texere_settings &settings)
-        : Owner(of(yarns, device, &settings)) {}
+    // With the settings that suit the yarns, unless others are given.
+    Plan(const Yarns &yarns, const Device &device, const texere_settings *settings = nullptr)
+        : Owner(made<texere_plan>(texere_plan_new, yarns.get(), device.get(), settings)) {}
 
-    texere_counts counts() const {
-        auto counts = sized<texere_counts>();
-        check(texere_plan_counts(get(), &counts));
-        return counts;
-    }
+    texere_counts counts() const { return told(texere_plan_counts, get()); }
     // Which indices draw which yarn, valid as long as the plan.
     view<const texere_draw> draws() const {
         const texere_draw *draws = nullptr;
@@ -324,12 +303,6 @@ public:
     // Writes the mesh to a file, `.glb` or `.ply`.
     void write(std::string_view path, const Run *run = nullptr) const {
         check(texere_plan_write(get(), Run::of(run), path.data(), path.size()));
-    }
-
-private:
-    static texere_plan *of(const Yarns &yarns, const Device &device, const texere_settings *settings) {
-        return made<texere_plan>(
-            [&](auto out) { return texere_plan_new(yarns.get(), device.get(), settings, out); });
     }
 };
 

@@ -74,8 +74,8 @@ fn types(parameters: &str) -> String {
 /// A parameter without its last word, which is its name: `float (*low)[3]` becomes `float (*)[3]`.
 fn unnamed(parameter: &str) -> String {
     let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
-    let words = parameter.split(|letter| !is_word(letter));
-    match words.filter(|word| word.starts_with(char::is_alphabetic)).next_back() {
+    let mut words = parameter.split(|letter| !is_word(letter));
+    match words.rfind(|word| word.starts_with(char::is_alphabetic)) {
         Some(name) if name != parameter => {
             let (before, behind) = parameter.rsplit_once(name).unwrap();
             before.trim().to_owned() + behind

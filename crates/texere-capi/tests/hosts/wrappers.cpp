@@ -70,7 +70,8 @@ int main() {
     CHECK(texere::view<const texere_point>(span).data() == copied.data());
 #endif
 
-    texere::Plan plan(yarns, other, yarns.settings());
+    auto settings = yarns.settings();
+    texere::Plan plan(yarns, other, &settings);
     std::vector<texere_vertex> vertices(1);
     auto small = thrown([&] { plan.mesh(vertices, {}); });
     CHECK(small.status() == TEXERE_ARGUMENT && small.file().empty());

@@ -1,8 +1,8 @@
 //! `cargo xtask install --prefix DIR`: the C library where compilers look for it.
 //!
 //! Headers for C and C++, shared and static library, a file for pkg-config, a package for CMake,
-//! what a NuGet package is made of, and examples. No file has the prefix inside, so the whole folder
-//! may be moved.
+//! what a NuGet package is made of, and examples. No file has the prefix inside, so the whole
+//! folder may be moved.
 
 use std::fs;
 use std::io;

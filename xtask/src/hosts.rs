@@ -24,10 +24,10 @@ pub(crate) fn check(steps: &mut Steps) {
     let places = places.each_ref().map(|(name, place)| (*name, place.to_string_lossy()));
     let places = places.each_ref().map(|(name, place)| (*name, &**place));
     steps.run("programs that link the C library", &["sh", "xtask/src/hosts/run.sh"], &places);
-    if steps.succeed() {
-        if let Err(difference) = compare(&folder) {
-            steps.fail(format!("programs that link the C library: {difference}"));
-        }
+    if steps.succeed()
+        && let Err(difference) = compare(&folder)
+    {
+        steps.fail(format!("programs that link the C library: {difference}"));
     }
     let _ = fs::remove_dir_all(folder);
 }

@@ -6,6 +6,7 @@
 //! | part | types |
 //! |---|---|
 //! | tables of yarns, blocks and chunks | [`Plan`], [`Block`], [`Chunk`], [`Chunks`], [`Part`] |
+//! | a plan's run on a device, chunk by chunk | [`Run`] |
 //! | the driver and its rules | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
 //! | the work of one device | [`Engine`], [`ScanChunks`] |
 //! | callbacks and slices that take results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
@@ -26,6 +27,7 @@ pub use crate::memory::{filled, room, room_for, zeroed};
 pub use crate::mesh::{ChunkDraw, Draw, MeshMut};
 pub use crate::null::NullBackend;
 pub use crate::padded::{PaddedPoints, renew_virtual_ends};
+pub use crate::pipeline::Run;
 pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Part, Plan, TablesId, WINDOW_POINTS};
 pub use crate::ring::Trajectory;
 pub use crate::session::{Session, SessionError};

@@ -227,17 +227,10 @@ pub trait Engine: Any + fmt::Debug + Send {
     ///
     /// The provided method calls `mesh`, then reads and copies. An engine that can write there
     /// directly overrides it.
-    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, mut out: MeshMut<'_>) -> Result<(), BackendError> {
         self.mesh(slot, chunk)?;
         let mut copy = |piece: MeshPiece<'_>| {
-            match piece {
-                MeshPiece::Vertices { first, vertices } => {
-                    out.vertices[first as usize..][..vertices.len()].copy_from_slice(vertices);
-                }
-                MeshPiece::Indices { first, indices } => {
-                    out.indices[first as usize..][..indices.len()].copy_from_slice(indices);
-                }
-            }
+            out.take(piece);
             ControlFlow::Continue(())
         };
         self.read_mesh(slot, chunk, &mut copy).map(|_| ())

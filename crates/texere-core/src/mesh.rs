@@ -48,6 +48,18 @@ impl Plan {
         self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
     }
 
+    /// The lengths of the mesh of `chunks`, which are all chunks of the plan: how many vertices, and
+    /// how many indices. A ring at which two chunks meet counts twice.
+    #[must_use]
+    pub fn mesh_lengths(&self, chunks: &[Chunk]) -> [u64; 2] {
+        let total = |count: fn(&Chunk) -> u32| chunks.iter().map(|chunk| u64::from(count(chunk))).sum();
+        let indices = match self.settings().topology {
+            Topology::Shared => self.shared_index_count(),
+            _ => total(Chunk::indices),
+        };
+        [total(Chunk::vertices), indices]
+    }
+
     /// The indices of [`Topology::Shared`]: the pattern of as many gaps as one draw may cover. With
     /// caps, the indices of the start cap and of the finish cap follow for each section.
     #[must_use]
@@ -200,13 +212,30 @@ impl MeshPiece<'_> {
     }
 }
 
-/// The caller's memory for a chunk's mesh: slices of exactly the planned lengths.
+/// The caller's memory for the mesh of a chunk, or of a whole plan: slices of exactly the planned
+/// lengths.
 #[derive(Debug)]
 pub struct MeshMut<'a> {
-    /// The chunk's vertices, `chunk.vertices()` of them.
+    /// Vertices: [`Chunk::vertices`] of a chunk, or as many as [`Plan::mesh_lengths`] says.
     pub vertices: &'a mut [Vertex],
-    /// The chunk's indices, `chunk.indices()` of them.
+    /// Indices: [`Chunk::indices`] of a chunk, or as many as [`Plan::mesh_lengths`] says.
     pub indices: &'a mut [u32],
+}
+
+impl MeshMut<'_> {
+    /// Copies a piece of the chunk to its place.
+    ///
+    /// **Panics** for a piece past the end.
+    pub fn take(&mut self, piece: MeshPiece<'_>) {
+        match piece {
+            MeshPiece::Vertices { first, vertices } => {
+                self.vertices[first as usize..][..vertices.len()].copy_from_slice(vertices);
+            }
+            MeshPiece::Indices { first, indices } => {
+                self.indices[first as usize..][..indices.len()].copy_from_slice(indices);
+            }
+        }
+    }
 }
 
 /// A whole fabric's mesh in host memory.

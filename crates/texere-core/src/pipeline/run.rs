@@ -1,0 +1,275 @@
+//! A plan that is run on a device, chunk by chunk.
+
+use std::borrow::Borrow;
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::{PipelineError, Progress};
+use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError};
+use crate::definitions::Ring;
+use crate::settling::Settler;
+use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, Topology};
+
+/// Control points per call of upload: 16 MB. Between two calls progress is reported and a
+/// cancellation noticed.
+const UPLOAD_POINTS: usize = 1 << 20;
+
+pub(super) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
+
+/// The origin of control points.
+pub(super) enum Points<'a> {
+    Given(&'a [ControlPoint]),
+    Settled(&'a mut dyn Settler),
+}
+
+/// A plan that is run on a device, chunk by chunk, with its results in the caller's memory. A
+/// program that has planned already, and knows the chunks, takes it in place of a
+/// [`Pipeline`](crate::Pipeline), which plans and cuts each time.
+///
+/// ```
+/// use std::sync::Arc;
+/// use texere_core::backend::{MeshMut, NullBackend, Plan, Run};
+/// use texere_core::{ControlPoint, Limits, Settings, Vertex, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let (yarns, device) = (yarns.build()?, NullBackend::default());
+/// let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
+/// let chunks: Vec<_> = plan.chunks(&Limits::default())?.collect();
+/// let [vertices, indices] = plan.mesh_lengths(&chunks).map(|length| length as usize);
+/// let (mut vertices, mut indices) = (vec![Vertex::default(); vertices], vec![0; indices]);
+/// let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
+/// Run::new(plan, yarns.points()).mesh_into(&device, &chunks, out)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Run<'a> {
+    plan: Arc<Plan>,
+    points: Points<'a>,
+    limits: Limits,
+    progress: Option<OnProgress<'a>>,
+    /// Rings delivered so far.
+    done: u64,
+}
+
+impl fmt::Debug for Run<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Run").field("limits", &self.limits).field("done", &self.done).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Run<'a> {
+    /// A run of `plan` with the control points of the yarns that it is of.
+    #[must_use]
+    pub fn new(plan: Arc<Plan>, points: &'a [ControlPoint]) -> Self {
+        Self::of(plan, Points::Given(points), Limits::default(), None)
+    }
+
+    pub(super) fn of(
+        plan: Arc<Plan>,
+        points: Points<'a>,
+        limits: Limits,
+        progress: Option<OnProgress<'a>>,
+    ) -> Self {
+        Self { plan, points, limits, progress, done: 0 }
+    }
+
+    /// The limits that chunks were cut to, where they are stricter than the device's own. The
+    /// default is [`Limits::default`]. With other limits than those of the chunks the results are
+    /// equal, and the tables of yarns that turn go to the device twice.
+    #[must_use]
+    pub fn limits(self, limits: Limits) -> Self {
+        Self { limits, ..self }
+    }
+
+    /// Calls `progress` as [`Pipeline::progress`](crate::Pipeline::progress) does.
+    #[must_use]
+    pub fn progress(self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
+        Self { progress: Some(Box::new(progress)), ..self }
+    }
+
+    /// Makes the mesh of `chunks`, which are all chunks of the plan in order. `out` has the lengths
+    /// that [`Plan::mesh_lengths`] says. Indices are those of a [`Mesh`](crate::Mesh): chunk after
+    /// chunk, or the shared pattern.
+    ///
+    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and the errors of
+    /// [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn mesh_into(
+        mut self,
+        device: &dyn Backend,
+        chunks: &[Chunk],
+        out: MeshMut<'_>,
+    ) -> Result<(), PipelineError> {
+        let [vertices, indices] = self.plan.mesh_lengths(chunks);
+        for (what, given, planned) in
+            [("vertices", out.vertices.len(), vertices), ("indices", out.indices.len(), indices)]
+        {
+            if given as u64 != planned {
+                return Err(SessionError::OutputLength { what, given: given as u64, planned }.into());
+            }
+        }
+        let mut session = self.session(device)?;
+        let (mut vertices_left, mut indices_left) = (out.vertices, out.indices);
+        if self.plan.settings().topology == Topology::Shared {
+            indices_left.copy_from_slice(&self.plan.shared_indices());
+            indices_left = &mut [];
+        }
+        for chunk in chunks {
+            let (vertices, others) = vertices_left.split_at_mut(chunk.vertices() as usize);
+            let (indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
+            (vertices_left, indices_left) = (others, other_indices);
+            session.mesh_into(chunk, MeshMut { vertices, indices })?;
+            self.advance(chunk)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the mesh of `chunks` piece by piece, as [`Pipeline::stream`](crate::Pipeline::stream)
+    /// does.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn stream<B>(
+        mut self,
+        device: &dyn Backend,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, PipelineError> {
+        let mut session = self.session(device)?;
+        let mut chunks = chunks.into_iter();
+        let mut waiting = chunks.next();
+        if let Some(chunk) = &waiting {
+            session.mesh(chunk.borrow())?;
+        }
+        while let Some(chunk) = waiting {
+            // The device works on the next chunk while this one is read.
+            waiting = chunks.next();
+            if let Some(next) = &waiting {
+                session.mesh(next.borrow())?;
+            }
+            let (chunk, mut answer) = (chunk.borrow(), None);
+            let _ = session.read_mesh(chunk, &mut |piece| match sink(chunk, piece) {
+                ControlFlow::Continue(()) => ControlFlow::Continue(()),
+                ControlFlow::Break(value) => {
+                    answer = Some(value);
+                    ControlFlow::Break(())
+                }
+            })?;
+            if let Some(value) = answer {
+                return Ok(ControlFlow::Break(value));
+            }
+            self.advance(chunk)?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Makes the attributes of the vertices of `chunks`. `sink` takes them piece by piece, each with
+    /// the number of its first vertex among all.
+    ///
+    /// **Errors**: the errors of [`Pipeline::attributes`](crate::Pipeline::attributes).
+    pub fn attributes(
+        self,
+        device: &dyn Backend,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(u64, &[Attribute]),
+    ) -> Result<(), PipelineError> {
+        self.each(device, chunks, |session, chunk, _| {
+            session.measure()?;
+            session.attributes(chunk)?;
+            session.read_attributes(chunk, &mut |first, piece| {
+                sink(chunk.first_vertex() + u64::from(first), piece);
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// Makes the packed vertices of `chunks`. `sink` takes them piece by piece, each with the
+    /// number of its first vertex among all.
+    ///
+    /// **Errors**: the errors of [`Pipeline::packed`](crate::Pipeline::packed).
+    pub fn packed(
+        self,
+        device: &dyn Backend,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(u64, &[PackedVertex]),
+    ) -> Result<(), PipelineError> {
+        self.each(device, chunks, |session, chunk, _| {
+            session.packed(chunk)?;
+            session.read_packed(chunk, &mut |first, piece| {
+                sink(chunk.first_vertex() + u64::from(first), piece);
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// Makes the rings of `chunks`. `sink` takes them piece by piece, each with the number of its
+    /// first ring among all. A ring that two chunks share comes twice, with equal bits.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn trajectory(
+        self,
+        device: &dyn Backend,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(u64, &[Ring]),
+    ) -> Result<(), PipelineError> {
+        self.each(device, chunks, |session, chunk, done| {
+            session.trajectory(chunk)?;
+            let mut first = done;
+            session.read_trajectory(chunk, &mut |piece| {
+                sink(first, piece);
+                first += piece.len() as u64;
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// Calls `make` for each chunk, with the number of rings before it.
+    fn each(
+        mut self,
+        device: &dyn Backend,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut make: impl FnMut(&mut Session, &Chunk, u64) -> Result<ControlFlow<()>, SessionError>,
+    ) -> Result<(), PipelineError> {
+        let mut session = self.session(device)?;
+        for chunk in chunks {
+            let _ = make(&mut session, chunk.borrow(), self.done)?;
+            self.advance(chunk.borrow())?;
+        }
+        Ok(())
+    }
+
+    /// A session of the plan on `device`, with all control points there and rolls worked out.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn session(&mut self, device: &dyn Backend) -> Result<Session, PipelineError> {
+        let mut session = Session::new(device, self.plan.clone())?.with_limits(&self.limits);
+        match &mut self.points {
+            Points::Settled(settler) => {
+                session.take_settled(&mut **settler)?;
+                self.report()?;
+            }
+            &mut Points::Given(all) => {
+                let mut first = 0;
+                for points in all.chunks(UPLOAD_POINTS) {
+                    session.upload(first, points)?;
+                    first += points.len() as u64;
+                    self.report()?;
+                }
+            }
+        }
+        session.scan()?;
+        Ok(session)
+    }
+
+    /// Counts a chunk as delivered.
+    fn advance(&mut self, chunk: &Chunk) -> Result<(), PipelineError> {
+        self.done += u64::from(chunk.rings()) - u64::from(chunk.repeats_ring());
+        self.report()
+    }
+
+    fn report(&mut self) -> Result<(), PipelineError> {
+        let progress = Progress { rings: self.done, total: self.plan.counts().rings };
+        match self.progress.as_mut().map(|report| report(progress)) {
+            Some(ControlFlow::Break(())) => Err(PipelineError::Cancelled),
+            _ => Ok(()),
+        }
+    }
+}

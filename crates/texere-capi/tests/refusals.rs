@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
-use std::ffi::CStr;
+use std::ffi::{CStr, c_void};
 use std::path::Path;
 use std::ptr::{null, null_mut, without_provenance_mut};
 
@@ -73,6 +73,14 @@ impl Handles {
     }
 }
 
+unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
+    0
+}
+
+unsafe extern "C" fn take_piece(_: *mut c_void, _: *const texere_piece) -> i32 {
+    0
+}
+
 /// Calls with one wrong argument each; everything else about them is right.
 fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -112,6 +120,30 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     case!(texere_plan_new(own.yarns, own.device, null(), null_mut()));
     case!(texere_plan_counts(own.plan, null_mut()));
     case!(texere_plan_draws(own.plan, null_mut()));
+    case!(texere_plan_ring_offsets(own.plan, null_mut(), &mut 0));
+    case!(texere_plan_ring_offsets(own.plan, &mut null(), null_mut()));
+    case!(texere_plan_chunk(own.plan, 0, null_mut()));
+    case!(texere_plan_mesh_arrays(own.plan, null(), null()));
+    // A null callback, and a format that there is not.
+    case!(texere_plan_stream(own.plan, null(), None, null_mut()));
+    case!(texere_plan_write_to(own.plan, null(), TEXERE_FORMAT_GLB, None, null_mut()));
+    case!(texere_plan_write_to(own.plan, null(), 2, Some(take_bytes), null_mut()));
+    // Views that are null, that hold nothing, that are misaligned, that overlap themselves.
+    let of = |data: *mut c_void, size, stride| texere_view { data, size, stride };
+    let memory: *mut c_void = Box::leak(Box::new([0_u64; 9])).as_mut_ptr().cast();
+    let views = [of(null_mut(), u64::MAX, 64), of(memory, 72, 64), of(memory.wrapping_byte_add(1), 64, 64)];
+    let views: &'static _ = Box::leak(Box::new([
+        views,
+        [of(memory, u64::MAX, 8), of(memory, u64::MAX, 65), of(memory, u64::MAX, u64::MAX - 7)],
+    ]));
+    for view in views.iter().flatten().map(|view: &'static texere_view| &raw const *view).chain([null()]) {
+        case!(texere_plan_packed(own.plan, null(), view));
+        case!(texere_plan_attributes(own.plan, null(), view));
+        case!(texere_plan_trajectory(own.plan, null(), view));
+    }
+    for view in views.as_flattened() {
+        case!(texere_plan_mesh_arrays(own.plan, null(), &texere_mesh_arrays { positions: *view, ..sized() }));
+    }
     // A null text that has a length, and one that is not UTF-8.
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(texere_device_open(text, length, &mut null_mut()));
@@ -151,10 +183,24 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     handles!(texere_plan, |plan| texere_plan_draws(plan, &mut null()));
     handles!(texere_plan, |plan| texere_plan_mesh(plan, null(), null_mut(), 0, null_mut(), 0));
     handles!(texere_plan, |plan| texere_plan_write(plan, null(), toml, toml_length));
+    handles!(texere_plan, |plan| texere_plan_write_to(plan, null(), 0, Some(take_bytes), null_mut()));
+    handles!(texere_plan, |plan| texere_plan_stream(plan, null(), Some(take_piece), null_mut()));
+    handles!(texere_plan, |plan| texere_plan_ring_offsets(plan, &mut null(), &mut 0));
+    handles!(texere_plan, |plan| texere_plan_chunk(plan, 0, &mut sized()));
+    handles!(texere_plan, |plan| texere_plan_mesh_arrays(plan, null(), &sized()));
+    handles!(texere_plan, |plan| texere_plan_packed(plan, null(), &views[0][1]));
+    handles!(texere_plan, |plan| texere_plan_attributes(plan, null(), &views[0][1]));
+    handles!(texere_plan, |plan| texere_plan_trajectory(plan, null(), &views[0][1]));
     for run in strange() {
         case!(texere_cloth_rest(own.design, own.device, run, &mut null_mut()));
         case!(texere_plan_mesh(own.plan, run, null_mut(), 0, null_mut(), 0));
         case!(texere_plan_write(own.plan, run, toml, toml_length));
+        case!(texere_plan_write_to(own.plan, run, 0, Some(take_bytes), null_mut()));
+        case!(texere_plan_stream(own.plan, run, Some(take_piece), null_mut()));
+        case!(texere_plan_mesh_arrays(own.plan, run, &sized()));
+        case!(texere_plan_packed(own.plan, run, &views[0][1]));
+        case!(texere_plan_attributes(own.plan, run, &views[0][1]));
+        case!(texere_plan_trajectory(own.plan, run, &views[0][1]));
     }
     // Structs of another size than the library's.
     macro_rules! sizes {
@@ -176,11 +222,15 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     sizes!(texere_yarn_counts, |counts| texere_yarns_counts(own.yarns, &mut counts));
     sizes!(texere_yarn_arrays, |arrays| texere_yarns_new(&arrays, &mut null_mut()));
     sizes!(texere_counts, |counts| texere_plan_counts(own.plan, &mut counts));
+    sizes!(texere_chunk, |chunk| texere_plan_chunk(own.plan, 0, &mut chunk));
+    sizes!(texere_mesh_arrays, |arrays| texere_plan_mesh_arrays(own.plan, null(), &arrays));
     // Numbers of values that are not those of the plan or of the yarns, and null arrays of the
     // right ones.
     case!(texere_yarns_points(own.yarns, &mut 0, 1, &mut texere_point::default(), 1));
     case!(texere_plan_mesh(own.plan, null(), null_mut(), 1, null_mut(), 1));
     case!(texere_cloth_warning(own.cloth, u64::MAX, &mut null()));
+    case!(texere_plan_chunk(own.plan, 1, &mut sized()));
+    case!(texere_plan_chunk(own.plan, u64::MAX, &mut sized()));
     cases.push((
         "texere_plan_mesh",
         Box::new(|| {
@@ -198,6 +248,8 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
         texere_settings { frame: 9, ..settings() },
         texere_settings { topology: 3, ..settings() },
         texere_settings { caps: 2, ..settings() },
+        texere_settings { quantum_mm: 0.3, ..settings() },
+        texere_settings { quantum_mm: f32::NAN, ..settings() },
         texere_settings { subdivisions: u32::MAX, ..settings() },
     ] {
         case!(texere_plan_new(own.yarns, own.device, &settings, &mut null_mut()));
@@ -237,7 +289,7 @@ fn sized<T>() -> T {
 }
 
 fn settings() -> texere_settings {
-    texere_settings { subdivisions: 1, sides: 6, ..sized() }
+    texere_settings { subdivisions: 1, sides: 6, quantum_mm: 1.0, ..sized() }
 }
 
 /// Functions that can't fail.

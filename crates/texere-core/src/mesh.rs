@@ -64,19 +64,20 @@ impl Plan {
     /// caps, the indices of the start cap and of the finish cap follow for each section.
     #[must_use]
     pub fn shared_indices(&self) -> Vec<u32> {
+        self.shared().collect()
+    }
+
+    /// [`Plan::shared_indices`], one by one.
+    pub(crate) fn shared(&self) -> impl Iterator<Item = u32> {
         let sides = self.settings().sides;
         let pattern = index_pattern(sides);
-        let mut indices: Vec<u32> = (0..self.shared_gaps() as u32)
-            .flat_map(|gap| pattern.iter().map(move |index| gap * sides + index))
-            .collect();
-        if self.settings().caps {
-            for section in 0..self.layout().sections().len() {
-                for end in [End::Start, End::Finish] {
-                    indices.extend(self.cap_indices(section, end));
-                }
-            }
-        }
-        indices
+        let tubes = (0..self.shared_gaps() as u32 * sides * 6)
+            .map(move |number| number / (sides * 6) * sides + pattern[(number % (sides * 6)) as usize]);
+        let sections = if self.settings().caps { self.layout().sections().len() } else { 0 };
+        let caps = (0..sections).flat_map(move |section| {
+            [End::Start, End::Finish].into_iter().flat_map(move |end| self.cap_indices(section, end))
+        });
+        tubes.chain(caps)
     }
 
     /// The indices of [`Plan::shared_indices`] as `u16`, in half the memory, for interfaces that
@@ -223,6 +224,12 @@ pub struct MeshMut<'a> {
 }
 
 impl MeshMut<'_> {
+    /// The bytes of both slices.
+    #[must_use]
+    pub const fn bytes(&self) -> u64 {
+        (size_of_val(self.vertices) + size_of_val(self.indices)) as u64
+    }
+
     /// Copies a piece of the chunk to its place.
     ///
     /// **Panics** for a piece past the end.

@@ -186,7 +186,8 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Calls `progress` during the upload of control points, with 0 rings, and after each chunk.
+    /// Calls `progress` while control points are sent and rolls worked out, with 0 rings, and after
+    /// each chunk.
     /// The last call has all rings. `Break` ends the run with [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {

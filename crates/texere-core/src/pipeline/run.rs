@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::{PipelineError, Progress};
-use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError};
+use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError, Watch};
 use crate::definitions::Ring;
 use crate::settling::Settler;
 use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, Topology};
@@ -110,7 +110,7 @@ impl<'a> Run<'a> {
         let mut session = self.session(device)?;
         let (mut vertices_left, mut indices_left) = (out.vertices, out.indices);
         if self.plan.settings().topology == Topology::Shared {
-            indices_left.copy_from_slice(&self.plan.shared_indices());
+            indices_left.iter_mut().zip(self.plan.shared()).for_each(|(place, index)| *place = index);
             indices_left = &mut [];
         }
         for chunk in chunks {
@@ -166,13 +166,14 @@ impl<'a> Run<'a> {
     ///
     /// **Errors**: the errors of [`Pipeline::attributes`](crate::Pipeline::attributes).
     pub fn attributes(
-        self,
+        mut self,
         device: &dyn Backend,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(u64, &[Attribute]),
     ) -> Result<(), PipelineError> {
-        self.each(device, chunks, |session, chunk, _| {
-            session.measure()?;
+        let mut session = self.session(device)?;
+        self.watched(|watch| session.measure_watched(watch))?;
+        self.each(session, chunks, |session, chunk, _| {
             session.attributes(chunk)?;
             session.read_attributes(chunk, &mut |first, piece| {
                 sink(chunk.first_vertex() + u64::from(first), piece);
@@ -186,12 +187,13 @@ impl<'a> Run<'a> {
     ///
     /// **Errors**: the errors of [`Pipeline::packed`](crate::Pipeline::packed).
     pub fn packed(
-        self,
+        mut self,
         device: &dyn Backend,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(u64, &[PackedVertex]),
     ) -> Result<(), PipelineError> {
-        self.each(device, chunks, |session, chunk, _| {
+        let session = self.session(device)?;
+        self.each(session, chunks, |session, chunk, _| {
             session.packed(chunk)?;
             session.read_packed(chunk, &mut |first, piece| {
                 sink(chunk.first_vertex() + u64::from(first), piece);
@@ -205,12 +207,13 @@ impl<'a> Run<'a> {
     ///
     /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
     pub fn trajectory(
-        self,
+        mut self,
         device: &dyn Backend,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(u64, &[Ring]),
     ) -> Result<(), PipelineError> {
-        self.each(device, chunks, |session, chunk, done| {
+        let session = self.session(device)?;
+        self.each(session, chunks, |session, chunk, done| {
             session.trajectory(chunk)?;
             let mut first = done;
             session.read_trajectory(chunk, &mut |piece| {
@@ -224,11 +227,10 @@ impl<'a> Run<'a> {
     /// Calls `make` for each chunk, with the number of rings before it.
     fn each(
         mut self,
-        device: &dyn Backend,
+        mut session: Session,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut make: impl FnMut(&mut Session, &Chunk, u64) -> Result<ControlFlow<()>, SessionError>,
     ) -> Result<(), PipelineError> {
-        let mut session = self.session(device)?;
         for chunk in chunks {
             let _ = make(&mut session, chunk.borrow(), self.done)?;
             self.advance(chunk.borrow())?;
@@ -255,7 +257,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        session.scan()?;
+        self.watched(|watch| session.scan_watched(watch))?;
         Ok(session)
     }
 
@@ -266,10 +268,21 @@ impl<'a> Run<'a> {
     }
 
     fn report(&mut self) -> Result<(), PipelineError> {
-        let progress = Progress { rings: self.done, total: self.plan.counts().rings };
-        match self.progress.as_mut().map(|report| report(progress)) {
-            Some(ControlFlow::Break(())) => Err(PipelineError::Cancelled),
-            _ => Ok(()),
+        self.watched(|watch| Ok(watch()))
+    }
+
+    /// Calls `work` with a watch that reports progress. Fails where that asks to stop.
+    fn watched(
+        &mut self,
+        work: impl FnOnce(Watch<'_>) -> Result<ControlFlow<()>, SessionError>,
+    ) -> Result<(), PipelineError> {
+        let now = Progress { rings: self.done, total: self.plan.counts().rings };
+        let Some(report) = &mut self.progress else {
+            return Ok(work(&mut || ControlFlow::Continue(())).map(|_| ())?);
+        };
+        match work(&mut || report(now))? {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(PipelineError::Cancelled),
         }
     }
 }

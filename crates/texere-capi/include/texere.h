@@ -35,6 +35,12 @@
 // The yarns are where the structure places them, for they can't come to rest; `words` says why.
 #define TEXERE_REFUSED 3
 
+// Buffers are `cl_mem`.
+#define TEXERE_NATIVE_OPENCL 1
+
+// Buffers are `VkBuffer`.
+#define TEXERE_NATIVE_VULKAN 2
+
 // Sections stand with their side level. Yarns that are too steep for that are carried along.
 #define TEXERE_FRAME_UPRIGHT 0
 
@@ -97,6 +103,13 @@ typedef struct texere_plan texere_plan;
 // A call that takes long, as other threads see it: how far it has come, and whether it is to end.
 // One run may be given to one call after another; each starts it at 0.
 typedef struct texere_run texere_run;
+
+// A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
+// time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+//
+// One thread at a time may use a session. A call while another thread's is under way fails with
+// TEXERE_ARGUMENT.
+typedef struct texere_session texere_session;
 
 // Yarns: their control points, sections and materials.
 typedef struct texere_yarns texere_yarns;
@@ -257,6 +270,59 @@ typedef struct texere_chunk {
   // How many draws it has.
   uint64_t draw_count;
 } texere_chunk;
+
+// Objects that a session works with, as numbers: cast each to the type of its interface.
+typedef struct texere_native {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+  uint32_t kind;
+  // The `VkInstance`; 0 with OpenCL.
+  uint64_t instance;
+  // The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+  uint64_t physical_device;
+  // The `VkDevice` or `cl_context`.
+  uint64_t device;
+  // The `VkQueue` or `cl_command_queue` that chunks are made on.
+  uint64_t queue;
+  // The family of the `VkQueue`; 0 with OpenCL.
+  uint32_t queue_family;
+  // Zero.
+  uint32_t reserved;
+} texere_native;
+
+// A part of a buffer on a device.
+typedef struct texere_device_buffer {
+  // The `cl_mem` or `VkBuffer`; 0 where there is none.
+  uint64_t buffer;
+  // Where the values begin, bytes.
+  uint64_t offset;
+  // How many bytes the values have.
+  uint64_t size;
+} texere_device_buffer;
+
+// The mesh of a chunk on its device.
+//
+// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
+// that reads them waits for it.
+//
+// With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
+// queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
+// call `texere_session_wait` first. No other thread may call the library with the same device
+// while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
+// the source of a transfer, indices as an index or storage buffer or as that source.
+typedef struct texere_device_mesh {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+  uint32_t kind;
+  // The vertices, a `texere_vertex` each.
+  struct texere_device_buffer vertices;
+  // The indices, a `uint32_t` each, counted from the chunk's first vertex.
+  struct texere_device_buffer indices;
+  // The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
+  uint64_t ready;
+} texere_device_mesh;
 
 // A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
 // draws until the plan is freed.
@@ -549,6 +615,52 @@ enum texere_status texere_run_progress(const struct texere_run *run, double *sha
 
 // Frees a run, or nothing where it is null.
 void texere_run_free(struct texere_run *run);
+
+// Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
+// may be freed.
+//
+// Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
+// with TEXERE_CANCELLED where `run` was cancelled.
+enum texere_status texere_session_new(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      struct texere_session **out);
+
+// Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
+// computes with its buffers. They are valid until the session is freed. The caller has set
+// `native->struct_size`.
+enum texere_status texere_session_native(const struct texere_session *session,
+                                         struct texere_native *native);
+
+// Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
+// `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
+// many there are. The call may return before the device is done: `texere_device_mesh` says what to
+// wait for. The caller has set `mesh->struct_size`.
+//
+// The buffers belong to the library, and may be read only. They stay valid until the session is
+// freed, and hold this chunk's mesh until the next chunk but one is made.
+//
+// Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+enum texere_status texere_session_mesh(const struct texere_session *session,
+                                       uint64_t number,
+                                       struct texere_device_mesh *mesh);
+
+// Waits until the device has done all that the session has asked of it.
+enum texere_status texere_session_wait(const struct texere_session *session);
+
+// Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+//
+// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
+// says, and where the chunk was not made or is no longer there.
+enum texere_status texere_session_read(const struct texere_session *session,
+                                       uint64_t number,
+                                       struct texere_vertex *vertices,
+                                       uint64_t vertex_count,
+                                       uint32_t *indices,
+                                       uint64_t index_count);
+
+// Frees a session with its buffers, or nothing where it is null. No command of the program's that
+// uses the buffers may be under way.
+void texere_session_free(struct texere_session *session);
 
 // Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
 // their polygons have. The caller has set `settings->struct_size`.

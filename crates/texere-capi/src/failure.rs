@@ -37,6 +37,10 @@ impl Failure {
         Self { status: TEXERE_ARGUMENT, message: message.into(), place: None }
     }
 
+    pub(crate) fn unsupported(message: impl Into<String>) -> Self {
+        Self { status: TEXERE_UNSUPPORTED, message: message.into(), place: None }
+    }
+
     pub(crate) fn panicked(panic: &(dyn Any + Send)) -> Self {
         let text = panic.downcast_ref::<&str>().copied();
         let text = text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");

@@ -2,20 +2,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
-use std::ffi::{CStr, c_void};
+#[path = "refusals/outputs.rs"]
+mod outputs;
+#[path = "refusals/tools.rs"]
+mod tools;
+
+use std::ffi::CStr;
 use std::path::Path;
-use std::ptr::{null, null_mut, without_provenance_mut};
+use std::ptr::{null, null_mut};
 
 use texere_c::texere_status::*;
 use texere_c::*;
 
-/// A call, and the statuses that it may end with.
-type Case = (&'static str, Box<dyn Fn() -> texere_status>);
-
-/// A handle that was freed, and one that never was any.
-fn strange<H>() -> [*mut H; 2] {
-    [without_provenance_mut(usize::MAX & !15), without_provenance_mut(8)]
-}
+use tools::{Case, strange};
 
 fn message() -> String {
     // SAFETY: the library ends it with a zero byte.
@@ -73,14 +72,6 @@ impl Handles {
     }
 }
 
-unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
-    0
-}
-
-unsafe extern "C" fn take_piece(_: *mut c_void, _: *const texere_piece) -> i32 {
-    0
-}
-
 /// Calls with one wrong argument each; everything else about them is right.
 fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -120,30 +111,6 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     case!(texere_plan_new(own.yarns, own.device, null(), null_mut()));
     case!(texere_plan_counts(own.plan, null_mut()));
     case!(texere_plan_draws(own.plan, null_mut()));
-    case!(texere_plan_ring_offsets(own.plan, null_mut(), &mut 0));
-    case!(texere_plan_ring_offsets(own.plan, &mut null(), null_mut()));
-    case!(texere_plan_chunk(own.plan, 0, null_mut()));
-    case!(texere_plan_mesh_arrays(own.plan, null(), null()));
-    // A null callback, and a format that there is not.
-    case!(texere_plan_stream(own.plan, null(), None, null_mut()));
-    case!(texere_plan_write_to(own.plan, null(), TEXERE_FORMAT_GLB, None, null_mut()));
-    case!(texere_plan_write_to(own.plan, null(), 2, Some(take_bytes), null_mut()));
-    // Views that are null, that hold nothing, that are misaligned, that overlap themselves.
-    let of = |data: *mut c_void, size, stride| texere_view { data, size, stride };
-    let memory: *mut c_void = Box::leak(Box::new([0_u64; 9])).as_mut_ptr().cast();
-    let views = [of(null_mut(), u64::MAX, 64), of(memory, 72, 64), of(memory.wrapping_byte_add(1), 64, 64)];
-    let views: &'static _ = Box::leak(Box::new([
-        views,
-        [of(memory, u64::MAX, 8), of(memory, u64::MAX, 65), of(memory, u64::MAX, u64::MAX - 7)],
-    ]));
-    for view in views.iter().flatten().map(|view: &'static texere_view| &raw const *view).chain([null()]) {
-        case!(texere_plan_packed(own.plan, null(), view));
-        case!(texere_plan_attributes(own.plan, null(), view));
-        case!(texere_plan_trajectory(own.plan, null(), view));
-    }
-    for view in views.as_flattened() {
-        case!(texere_plan_mesh_arrays(own.plan, null(), &texere_mesh_arrays { positions: *view, ..sized() }));
-    }
     // A null text that has a length, and one that is not UTF-8.
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(texere_device_open(text, length, &mut null_mut()));
@@ -183,24 +150,10 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     handles!(texere_plan, |plan| texere_plan_draws(plan, &mut null()));
     handles!(texere_plan, |plan| texere_plan_mesh(plan, null(), null_mut(), 0, null_mut(), 0));
     handles!(texere_plan, |plan| texere_plan_write(plan, null(), toml, toml_length));
-    handles!(texere_plan, |plan| texere_plan_write_to(plan, null(), 0, Some(take_bytes), null_mut()));
-    handles!(texere_plan, |plan| texere_plan_stream(plan, null(), Some(take_piece), null_mut()));
-    handles!(texere_plan, |plan| texere_plan_ring_offsets(plan, &mut null(), &mut 0));
-    handles!(texere_plan, |plan| texere_plan_chunk(plan, 0, &mut sized()));
-    handles!(texere_plan, |plan| texere_plan_mesh_arrays(plan, null(), &sized()));
-    handles!(texere_plan, |plan| texere_plan_packed(plan, null(), &views[0][1]));
-    handles!(texere_plan, |plan| texere_plan_attributes(plan, null(), &views[0][1]));
-    handles!(texere_plan, |plan| texere_plan_trajectory(plan, null(), &views[0][1]));
     for run in strange() {
         case!(texere_cloth_rest(own.design, own.device, run, &mut null_mut()));
         case!(texere_plan_mesh(own.plan, run, null_mut(), 0, null_mut(), 0));
         case!(texere_plan_write(own.plan, run, toml, toml_length));
-        case!(texere_plan_write_to(own.plan, run, 0, Some(take_bytes), null_mut()));
-        case!(texere_plan_stream(own.plan, run, Some(take_piece), null_mut()));
-        case!(texere_plan_mesh_arrays(own.plan, run, &sized()));
-        case!(texere_plan_packed(own.plan, run, &views[0][1]));
-        case!(texere_plan_attributes(own.plan, run, &views[0][1]));
-        case!(texere_plan_trajectory(own.plan, run, &views[0][1]));
     }
     // Structs of another size than the library's.
     macro_rules! sizes {
@@ -222,15 +175,11 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     sizes!(texere_yarn_counts, |counts| texere_yarns_counts(own.yarns, &mut counts));
     sizes!(texere_yarn_arrays, |arrays| texere_yarns_new(&arrays, &mut null_mut()));
     sizes!(texere_counts, |counts| texere_plan_counts(own.plan, &mut counts));
-    sizes!(texere_chunk, |chunk| texere_plan_chunk(own.plan, 0, &mut chunk));
-    sizes!(texere_mesh_arrays, |arrays| texere_plan_mesh_arrays(own.plan, null(), &arrays));
     // Numbers of values that are not those of the plan or of the yarns, and null arrays of the
     // right ones.
     case!(texere_yarns_points(own.yarns, &mut 0, 1, &mut texere_point::default(), 1));
     case!(texere_plan_mesh(own.plan, null(), null_mut(), 1, null_mut(), 1));
     case!(texere_cloth_warning(own.cloth, u64::MAX, &mut null()));
-    case!(texere_plan_chunk(own.plan, 1, &mut sized()));
-    case!(texere_plan_chunk(own.plan, u64::MAX, &mut sized()));
     cases.push((
         "texere_plan_mesh",
         Box::new(|| {
@@ -248,8 +197,6 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
         texere_settings { frame: 9, ..settings() },
         texere_settings { topology: 3, ..settings() },
         texere_settings { caps: 2, ..settings() },
-        texere_settings { quantum_mm: 0.3, ..settings() },
-        texere_settings { quantum_mm: f32::NAN, ..settings() },
         texere_settings { subdivisions: u32::MAX, ..settings() },
     ] {
         case!(texere_plan_new(own.yarns, own.device, &settings, &mut null_mut()));
@@ -293,13 +240,14 @@ fn settings() -> texere_settings {
 }
 
 /// Functions that can't fail.
-const CANT_FAIL: [&str; 9] = [
+const CANT_FAIL: [&str; 10] = [
     "texere_abi",
     "texere_version",
     "texere_error_message",
     "texere_device_free",
     "texere_design_free",
     "texere_run_free",
+    "texere_session_free",
     "texere_cloth_free",
     "texere_yarns_free",
     "texere_plan_free",
@@ -308,7 +256,8 @@ const CANT_FAIL: [&str; 9] = [
 #[test]
 fn every_function_refuses_what_it_can_not_take() {
     let own: &'static Handles = Box::leak(Box::new(Handles::new()));
-    let cases = wrong_calls(own);
+    let mut cases = wrong_calls(own);
+    cases.extend(outputs::cases(own));
     for (number, (name, call)) in cases.iter().enumerate() {
         assert_eq!(call(), TEXERE_ARGUMENT, "{name}, case {number}: {}", message());
         assert!(!message().is_empty(), "{name}, case {number}");

@@ -70,15 +70,9 @@ impl Places<'_> {
 }
 
 impl Planned {
-    /// Makes the mesh. The slices have the lengths that the counts say.
-    fn mesh(
-        &self,
-        run: Option<Arc<Run>>,
-        vertices: &mut [Vertex],
-        indices: &mut [u32],
-    ) -> Result<(), Failure> {
-        let out = MeshMut { vertices, indices };
-        Ok(self.start(run).mesh_into(&*self.device.backend, &self.chunks, out)?)
+    /// Makes the mesh. `out` has the lengths that the counts say.
+    fn mesh(&self, run: Option<Arc<Run>>, out: MeshMut<'_>) -> Result<(), Failure> {
+        Ok(self.start(run)?.mesh_into(&self.chunks, out)?)
     }
 
     /// Makes the mesh piece by piece, and lays each where it belongs.
@@ -86,7 +80,7 @@ impl Planned {
         if self.settings.topology == Topology::Shared {
             places.write_indices(0, &self.plan.shared_indices());
         }
-        let _ = self.start(run).stream(&*self.device.backend, &self.chunks, |chunk, piece| {
+        let _ = self.start(run)?.stream(&self.chunks, |chunk, piece| {
             match piece {
                 MeshPiece::Vertices { first, vertices } => {
                     places.write_vertices(chunk.first_vertex() as usize + first as usize, vertices);
@@ -99,6 +93,30 @@ impl Planned {
             ControlFlow::<()>::Continue(())
         })?;
         Ok(())
+    }
+}
+
+/// Memory of the caller's for as many vertices and indices as are needed.
+///
+/// # Safety
+///
+/// Both pointers are valid for writes of as many values as their counts say, which nobody else uses
+/// as long as the result lives.
+pub(crate) unsafe fn memory<'a>(
+    (vertices, vertex_count): (*mut texere_vertex, u64),
+    (indices, index_count): (*mut u32, u64),
+    [vertices_needed, indices_needed]: [u64; 2],
+) -> Result<MeshMut<'a>, Failure> {
+    let [vertex_length, index_length] = [vertices_needed as usize, indices_needed as usize];
+    exactly("vertex_count", vertex_count, vertex_length)?;
+    exactly("index_count", index_count, index_length)?;
+    // SAFETY: the caller vouches for both; their lengths are those that were asked for. A
+    // `texere_vertex` and a `Vertex` are six `f32` each.
+    unsafe {
+        Ok(MeshMut {
+            vertices: slice_mut("vertices", vertices.cast::<Vertex>(), vertex_length)?,
+            indices: slice_mut("indices", indices, index_length)?,
+        })
     }
 }
 
@@ -119,18 +137,15 @@ pub unsafe extern "C" fn texere_plan_mesh(
 ) -> texere_status {
     guard(|| {
         let (plan, run) = (get(plan)?, get_any(run)?);
-        let [vertex_length, index_length] = [plan.counts.vertices as usize, plan.counts.indices as usize];
-        exactly("vertex_count", vertex_count, vertex_length)?;
-        exactly("index_count", index_count, index_length)?;
-        // SAFETY: the caller vouches for both; their lengths are those that were asked for. A
-        // `texere_vertex` and a `Vertex` are six `f32` each.
-        let (vertices, indices) = unsafe {
-            (
-                slice_mut("vertices", vertices.cast::<Vertex>(), vertex_length)?,
-                slice_mut("indices", indices, index_length)?,
+        // SAFETY: the caller vouches for both.
+        let out = unsafe {
+            memory(
+                (vertices, vertex_count),
+                (indices, index_count),
+                [plan.counts.vertices, plan.counts.indices],
             )
-        };
-        plan.mesh(run, vertices, indices)
+        }?;
+        plan.mesh(run, out)
     })
 }
 
@@ -173,7 +188,7 @@ pub unsafe extern "C" fn texere_plan_mesh_arrays(
                 let vertices = unsafe {
                     slice_mut("arrays.positions", given.positions.data.cast::<Vertex>(), vertices)
                 }?;
-                return plan.mesh(run, vertices, indices);
+                return plan.mesh(run, MeshMut { vertices, indices });
             }
         }
         plan.scatter(run, places)

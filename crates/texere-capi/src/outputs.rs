@@ -106,7 +106,7 @@ pub unsafe extern "C" fn texere_plan_packed(
         let run = get_any(run)?;
         // SAFETY: the caller vouches for `packed`.
         let (plan, places) = unsafe { places(plan, "packed", packed, |plan| plan.counts.vertices) }?;
-        plan.start(run).packed(&*plan.device.backend, &plan.chunks, writer(places))?;
+        plan.start(run)?.packed(&plan.chunks, writer(places))?;
         Ok(())
     })
 }
@@ -125,7 +125,7 @@ pub unsafe extern "C" fn texere_plan_attributes(
         let run = get_any(run)?;
         // SAFETY: the caller vouches for `attributes`.
         let (plan, places) = unsafe { places(plan, "attributes", attributes, |plan| plan.counts.vertices) }?;
-        plan.start(run).attributes(&*plan.device.backend, &plan.chunks, writer(places))?;
+        plan.start(run)?.attributes(&plan.chunks, writer(places))?;
         Ok(())
     })
 }
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn texere_plan_trajectory(
         let run = get_any(run)?;
         // SAFETY: the caller vouches for `rings`.
         let (plan, places) = unsafe { places(plan, "rings", rings, |plan| plan.counts.rings) }?;
-        plan.start(run).trajectory(&*plan.device.backend, &plan.chunks, writer(places))?;
+        plan.start(run)?.trajectory(&plan.chunks, writer(places))?;
         Ok(())
     })
 }

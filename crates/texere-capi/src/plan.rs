@@ -117,11 +117,11 @@ impl Planned {
     }
 
     /// The plan on its way through the device, with `run` told how far it has come.
-    pub(crate) fn start(&self, run: Option<Arc<crate::run::Run>>) -> Run<'_> {
-        let mut report = reporter(run);
-        Run::new(self.plan.clone(), self.yarns.points())
-            .limits(LIMITS)
-            .progress(move |done| report(done.rings as f64 / done.total.max(1) as f64))
+    pub(crate) fn start(&self, run: Option<Arc<crate::run::Run>>) -> Result<Run<'_>, Failure> {
+        let (device, mut report) = (&*self.device.backend, reporter(run));
+        Ok(Run::start(device, self.plan.clone(), self.yarns.points(), LIMITS, move |done| {
+            report(done.rings as f64 / done.total.max(1) as f64)
+        })?)
     }
 
     /// The chunk of a number.

@@ -3,19 +3,17 @@
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
-use texere::Vertex;
-use texere::backend::{MeshMut, Session};
+use texere::backend::Session;
 
-use crate::argument::{check_sized, slice_mut};
+use crate::argument::check_sized;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::lent::{mesh as lend, native as natives, texere_device_mesh, texere_native};
-use crate::mesh::texere_vertex;
+use crate::mesh::{memory, texere_vertex};
 use crate::plan::{Planned, texere_plan};
 use crate::run::texere_run;
 use crate::status::texere_status;
-use crate::yarns::exactly;
 
 /// A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
 /// time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
@@ -63,7 +61,7 @@ pub unsafe extern "C" fn texere_session_new(
         // SAFETY: the caller vouches for `out`.
         unsafe { clear(out) }?;
         let planned = get(plan)?;
-        let session = planned.start(get_any(run)?).session(&*planned.device.backend)?;
+        let session = planned.start(get_any(run)?)?.into_session();
         natives(session.engine())?;
         // SAFETY: as above.
         unsafe { give(out, Lending { planned, session: Mutex::new(session) }) }
@@ -144,17 +142,14 @@ pub unsafe extern "C" fn texere_session_read(
     guard(|| {
         let lending = get(session)?;
         let chunk = lending.planned.chunk(number)?;
-        let [vertex_length, index_length] = [chunk.vertices() as usize, chunk.indices() as usize];
-        exactly("vertex_count", vertex_count, vertex_length)?;
-        exactly("index_count", index_count, index_length)?;
-        // SAFETY: the caller vouches for both; their lengths are those that were asked for. A
-        // `texere_vertex` and a `Vertex` are six `f32` each.
+        // SAFETY: the caller vouches for both.
         let mut out = unsafe {
-            MeshMut {
-                vertices: slice_mut("vertices", vertices.cast::<Vertex>(), vertex_length)?,
-                indices: slice_mut("indices", indices, index_length)?,
-            }
-        };
+            memory(
+                (vertices, vertex_count),
+                (indices, index_count),
+                [chunk.vertices().into(), chunk.indices().into()],
+            )
+        }?;
         let _ = lending.session()?.read_mesh(chunk, &mut |piece| {
             out.take(piece);
             ControlFlow::Continue(())

@@ -97,7 +97,7 @@ pub unsafe extern "C" fn texere_plan_stream(
             let (indices, index_count) = (shared.as_ptr(), shared.len() as u64);
             take(texere_piece { indices, index_count, ..plan.piece(first) })?;
         }
-        let answer = plan.start(run).stream(&*plan.device.backend, &plan.chunks, |chunk, piece| {
+        let answer = plan.start(run)?.stream(&plan.chunks, |chunk, piece| {
             let whole = plan.piece(chunk);
             let taken = match piece {
                 MeshPiece::Vertices { first, vertices } => take(texere_piece {

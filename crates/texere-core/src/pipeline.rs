@@ -241,7 +241,7 @@ impl<'a> Pipeline<'a> {
         let (plan, chunks, run) = self.start(device)?;
         let [vertices, indices] = plan.mesh_lengths(&chunks);
         let (mut vertices, mut indices) = (zeroed("vertices", vertices)?, zeroed("indices", indices)?);
-        run.mesh_into(device, &chunks, MeshMut { vertices: &mut vertices, indices: &mut indices })?;
+        run.mesh_into(&chunks, MeshMut { vertices: &mut vertices, indices: &mut indices })?;
         Ok(Mesh { vertices, indices, chunks, plan, materials })
     }
 
@@ -258,8 +258,8 @@ impl<'a> Pipeline<'a> {
         sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, PipelineError> {
         let limits = self.limits_on(device);
-        let (plan, run) = self.run()?;
-        run.stream(device, plan.chunks(&limits)?, sink)
+        let (plan, run) = self.run(device)?;
+        run.stream(plan.chunks(&limits)?, sink)
     }
 
     /// The attributes of each vertex, for shaders and textures, in host memory. They have the order
@@ -282,7 +282,7 @@ impl<'a> Pipeline<'a> {
     pub fn attributes(self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
         let (plan, chunks, run) = self.start(device)?;
         let mut all = zeroed("attributes", plan.mesh_lengths(&chunks)[0])?;
-        run.attributes(device, &chunks, copier(&mut all))?;
+        run.attributes(&chunks, copier(&mut all))?;
         Ok(all)
     }
 
@@ -305,7 +305,7 @@ impl<'a> Pipeline<'a> {
     pub fn packed(self, device: &dyn Backend) -> Result<Vec<PackedVertex>, PipelineError> {
         let (plan, chunks, run) = self.start(device)?;
         let mut all = zeroed("packed vertices", plan.mesh_lengths(&chunks)[0])?;
-        run.packed(device, &chunks, copier(&mut all))?;
+        run.packed(&chunks, copier(&mut all))?;
         Ok(all)
     }
 
@@ -324,26 +324,27 @@ impl<'a> Pipeline<'a> {
     pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
         self.within = None;
         let limits = self.limits_on(device);
-        let (plan, run) = self.run()?;
+        let (plan, run) = self.run(device)?;
         let mut rings: Vec<Ring> = zeroed("rings", plan.counts().rings)?;
-        run.trajectory(device, plan.chunks(&limits)?, copier(&mut rings))?;
+        run.trajectory(plan.chunks(&limits)?, copier(&mut rings))?;
         Ok(Trajectory { rings, offsets: plan.ring_offsets().to_vec() })
     }
 
-    /// The plan, and its run.
-    fn run(self) -> Result<(Arc<Plan>, Run<'a>), PipelineError> {
+    /// The plan, and its run on `device`.
+    fn run(self, device: &dyn Backend) -> Result<(Arc<Plan>, Run<'a>), PipelineError> {
         let plan = Arc::new(self.plan()?);
         let points = match self.settler {
             Some(settler) => Points::Settled(settler),
             None => Points::Given(self.yarns.points()),
         };
-        Ok((plan.clone(), Run::of(plan, points, self.limits, self.progress)))
+        let progress = self.progress.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
+        Ok((plan.clone(), Run::of(device, plan, points, &self.limits, progress)?))
     }
 
     /// The plan, all its chunks for `device`, and its run.
     fn start(self, device: &dyn Backend) -> Result<(Arc<Plan>, Vec<Chunk>, Run<'a>), PipelineError> {
         let limits = self.limits_on(device);
-        let (plan, run) = self.run()?;
+        let (plan, run) = self.run(device)?;
         let chunks = plan.chunks(&limits)?.collect();
         Ok((plan, chunks, run))
     }

@@ -28,63 +28,85 @@ pub(super) enum Points<'a> {
 /// [`Pipeline`](crate::Pipeline), which plans and cuts each time.
 ///
 /// ```
+/// use std::ops::ControlFlow;
 /// use std::sync::Arc;
 /// use texere_core::backend::{MeshMut, NullBackend, Plan, Run};
 /// use texere_core::{ControlPoint, Limits, Settings, Vertex, Yarn, Yarns};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let (yarns, device) = (yarns.build()?, NullBackend::default());
-/// let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
-/// let chunks: Vec<_> = plan.chunks(&Limits::default())?.collect();
+/// let (plan, limits) = (Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?), Limits::default());
+/// let chunks: Vec<_> = plan.chunks(&limits)?.collect();
 /// let [vertices, indices] = plan.mesh_lengths(&chunks).map(|length| length as usize);
+/// let run = Run::start(&device, plan, yarns.points(), limits, |_| ControlFlow::Continue(()))?;
 /// let (mut vertices, mut indices) = (vec![Vertex::default(); vertices], vec![0; indices]);
-/// let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
-/// Run::new(plan, yarns.points()).mesh_into(&device, &chunks, out)?;
+/// run.mesh_into(&chunks, MeshMut { vertices: &mut vertices, indices: &mut indices })?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Run<'a> {
     plan: Arc<Plan>,
-    points: Points<'a>,
-    limits: Limits,
-    progress: Option<OnProgress<'a>>,
+    session: Session,
+    progress: OnProgress<'a>,
     /// Rings delivered so far.
     done: u64,
 }
 
 impl fmt::Debug for Run<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Run").field("limits", &self.limits).field("done", &self.done).finish_non_exhaustive()
+        f.debug_struct("Run").field("done", &self.done).finish_non_exhaustive()
     }
 }
 
 impl<'a> Run<'a> {
-    /// A run of `plan` with the control points of the yarns that it is of.
-    #[must_use]
-    pub fn new(plan: Arc<Plan>, points: &'a [ControlPoint]) -> Self {
-        Self::of(plan, Points::Given(points), Limits::default(), None)
+    /// Starts a run: opens a session of `plan` on `device`, sends the control points of the yarns
+    /// that the plan is of, and works out rolls. `progress` is called as
+    /// [`Pipeline::progress`](crate::Pipeline::progress) says.
+    ///
+    /// `limits` are those that chunks are cut to, if they are stricter than the device's own. With
+    /// others the results are equal, but the tables of yarns that turn are sent twice.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn start(
+        device: &dyn Backend,
+        plan: Arc<Plan>,
+        points: &[ControlPoint],
+        limits: Limits,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a,
+    ) -> Result<Self, PipelineError> {
+        Self::of(device, plan, Points::Given(points), &limits, Box::new(progress))
     }
 
     pub(super) fn of(
+        device: &dyn Backend,
         plan: Arc<Plan>,
-        points: Points<'a>,
-        limits: Limits,
-        progress: Option<OnProgress<'a>>,
-    ) -> Self {
-        Self { plan, points, limits, progress, done: 0 }
+        points: Points<'_>,
+        limits: &Limits,
+        progress: OnProgress<'a>,
+    ) -> Result<Self, PipelineError> {
+        let session = Session::new(device, plan.clone())?.with_limits(limits);
+        let mut run = Self { plan, session, progress, done: 0 };
+        match points {
+            Points::Settled(settler) => {
+                run.session.take_settled(settler)?;
+                run.report()?;
+            }
+            Points::Given(all) => {
+                let mut first = 0;
+                for points in all.chunks(UPLOAD_POINTS) {
+                    run.session.upload(first, points)?;
+                    first += points.len() as u64;
+                    run.report()?;
+                }
+            }
+        }
+        run.watched(Session::scan_watched)?;
+        Ok(run)
     }
 
-    /// The limits that chunks were cut to, where they are stricter than the device's own. The
-    /// default is [`Limits::default`]. With other limits than those of the chunks the results are
-    /// equal, and the tables of yarns that turn go to the device twice.
+    /// The session, for stages one by one.
     #[must_use]
-    pub fn limits(self, limits: Limits) -> Self {
-        Self { limits, ..self }
-    }
-
-    /// Calls `progress` as [`Pipeline::progress`](crate::Pipeline::progress) does.
-    #[must_use]
-    pub fn progress(self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
-        Self { progress: Some(Box::new(progress)), ..self }
+    pub fn into_session(self) -> Session {
+        self.session
     }
 
     /// Makes the mesh of `chunks`, which are all chunks of the plan in order. `out` has the lengths
@@ -93,12 +115,7 @@ impl<'a> Run<'a> {
     ///
     /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and the errors of
     /// [`Pipeline::mesh`](crate::Pipeline::mesh).
-    pub fn mesh_into(
-        mut self,
-        device: &dyn Backend,
-        chunks: &[Chunk],
-        out: MeshMut<'_>,
-    ) -> Result<(), PipelineError> {
+    pub fn mesh_into(mut self, chunks: &[Chunk], out: MeshMut<'_>) -> Result<(), PipelineError> {
         let [vertices, indices] = self.plan.mesh_lengths(chunks);
         for (what, given, planned) in
             [("vertices", out.vertices.len(), vertices), ("indices", out.indices.len(), indices)]
@@ -107,7 +124,6 @@ impl<'a> Run<'a> {
                 return Err(SessionError::OutputLength { what, given: given as u64, planned }.into());
             }
         }
-        let mut session = self.session(device)?;
         let (mut vertices_left, mut indices_left) = (out.vertices, out.indices);
         if self.plan.settings().topology == Topology::Shared {
             indices_left.iter_mut().zip(self.plan.shared()).for_each(|(place, index)| *place = index);
@@ -117,7 +133,7 @@ impl<'a> Run<'a> {
             let (vertices, others) = vertices_left.split_at_mut(chunk.vertices() as usize);
             let (indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
             (vertices_left, indices_left) = (others, other_indices);
-            session.mesh_into(chunk, MeshMut { vertices, indices })?;
+            self.session.mesh_into(chunk, MeshMut { vertices, indices })?;
             self.advance(chunk)?;
         }
         Ok(())
@@ -129,24 +145,22 @@ impl<'a> Run<'a> {
     /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
     pub fn stream<B>(
         mut self,
-        device: &dyn Backend,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, PipelineError> {
-        let mut session = self.session(device)?;
         let mut chunks = chunks.into_iter();
         let mut waiting = chunks.next();
         if let Some(chunk) = &waiting {
-            session.mesh(chunk.borrow())?;
+            self.session.mesh(chunk.borrow())?;
         }
         while let Some(chunk) = waiting {
             // The device works on the next chunk while this one is read.
             waiting = chunks.next();
             if let Some(next) = &waiting {
-                session.mesh(next.borrow())?;
+                self.session.mesh(next.borrow())?;
             }
             let (chunk, mut answer) = (chunk.borrow(), None);
-            let _ = session.read_mesh(chunk, &mut |piece| match sink(chunk, piece) {
+            let _ = self.session.read_mesh(chunk, &mut |piece| match sink(chunk, piece) {
                 ControlFlow::Continue(()) => ControlFlow::Continue(()),
                 ControlFlow::Break(value) => {
                     answer = Some(value);
@@ -167,13 +181,11 @@ impl<'a> Run<'a> {
     /// **Errors**: the errors of [`Pipeline::attributes`](crate::Pipeline::attributes).
     pub fn attributes(
         mut self,
-        device: &dyn Backend,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(u64, &[Attribute]),
     ) -> Result<(), PipelineError> {
-        let mut session = self.session(device)?;
-        self.watched(|watch| session.measure_watched(watch))?;
-        self.each(session, chunks, |session, chunk, _| {
+        self.watched(Session::measure_watched)?;
+        self.each(chunks, |session, chunk, _| {
             session.attributes(chunk)?;
             session.read_attributes(chunk, &mut |first, piece| {
                 sink(chunk.first_vertex() + u64::from(first), piece);
@@ -187,13 +199,11 @@ impl<'a> Run<'a> {
     ///
     /// **Errors**: the errors of [`Pipeline::packed`](crate::Pipeline::packed).
     pub fn packed(
-        mut self,
-        device: &dyn Backend,
+        self,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(u64, &[PackedVertex]),
     ) -> Result<(), PipelineError> {
-        let session = self.session(device)?;
-        self.each(session, chunks, |session, chunk, _| {
+        self.each(chunks, |session, chunk, _| {
             session.packed(chunk)?;
             session.read_packed(chunk, &mut |first, piece| {
                 sink(chunk.first_vertex() + u64::from(first), piece);
@@ -207,13 +217,11 @@ impl<'a> Run<'a> {
     ///
     /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
     pub fn trajectory(
-        mut self,
-        device: &dyn Backend,
+        self,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(u64, &[Ring]),
     ) -> Result<(), PipelineError> {
-        let session = self.session(device)?;
-        self.each(session, chunks, |session, chunk, done| {
+        self.each(chunks, |session, chunk, done| {
             session.trajectory(chunk)?;
             let mut first = done;
             session.read_trajectory(chunk, &mut |piece| {
@@ -227,38 +235,14 @@ impl<'a> Run<'a> {
     /// Calls `make` for each chunk, with the number of rings before it.
     fn each(
         mut self,
-        mut session: Session,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut make: impl FnMut(&mut Session, &Chunk, u64) -> Result<ControlFlow<()>, SessionError>,
     ) -> Result<(), PipelineError> {
         for chunk in chunks {
-            let _ = make(&mut session, chunk.borrow(), self.done)?;
+            let _ = make(&mut self.session, chunk.borrow(), self.done)?;
             self.advance(chunk.borrow())?;
         }
         Ok(())
-    }
-
-    /// A session of the plan on `device`, with all control points there and rolls worked out.
-    ///
-    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
-    pub fn session(&mut self, device: &dyn Backend) -> Result<Session, PipelineError> {
-        let mut session = Session::new(device, self.plan.clone())?.with_limits(&self.limits);
-        match &mut self.points {
-            Points::Settled(settler) => {
-                session.take_settled(&mut **settler)?;
-                self.report()?;
-            }
-            &mut Points::Given(all) => {
-                let mut first = 0;
-                for points in all.chunks(UPLOAD_POINTS) {
-                    session.upload(first, points)?;
-                    first += points.len() as u64;
-                    self.report()?;
-                }
-            }
-        }
-        self.watched(|watch| session.scan_watched(watch))?;
-        Ok(session)
     }
 
     /// Counts a chunk as delivered.
@@ -268,19 +252,16 @@ impl<'a> Run<'a> {
     }
 
     fn report(&mut self) -> Result<(), PipelineError> {
-        self.watched(|watch| Ok(watch()))
+        self.watched(|_, watch| Ok(watch()))
     }
 
-    /// Calls `work` with a watch that reports progress. Fails where that asks to stop.
+    /// Calls `work` with a watch that reports progress. Fails if that asks to stop.
     fn watched(
         &mut self,
-        work: impl FnOnce(Watch<'_>) -> Result<ControlFlow<()>, SessionError>,
+        work: impl FnOnce(&mut Session, Watch<'_>) -> Result<ControlFlow<()>, SessionError>,
     ) -> Result<(), PipelineError> {
         let now = Progress { rings: self.done, total: self.plan.counts().rings };
-        let Some(report) = &mut self.progress else {
-            return Ok(work(&mut || ControlFlow::Continue(())).map(|_| ())?);
-        };
-        match work(&mut || report(now))? {
+        match work(&mut self.session, &mut || (self.progress)(now))? {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(PipelineError::Cancelled),
         }

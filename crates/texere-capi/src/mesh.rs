@@ -181,15 +181,15 @@ pub unsafe extern "C" fn texere_plan_mesh_arrays(
         let behind = given.positions.data.wrapping_byte_add(size_of::<[f32; 3]>());
         let strides = [given.positions.stride, given.normals.stride];
         let vertex = size_of::<Vertex>() as u64;
-        if given.normals.data == behind && strides == [vertex; 2] {
-            if let Some(indices) = places.indices.as_mut().and_then(Strided::dense) {
-                // SAFETY: positions and normals have been checked, and together they are as many
-                // vertices from the first position on.
-                let vertices = unsafe {
-                    slice_mut("arrays.positions", given.positions.data.cast::<Vertex>(), vertices)
-                }?;
-                return plan.mesh(run, MeshMut { vertices, indices });
-            }
+        if given.normals.data == behind
+            && strides == [vertex; 2]
+            && let Some(indices) = places.indices.as_mut().and_then(Strided::dense)
+        {
+            // SAFETY: positions and normals have been checked, and together they are as many
+            // vertices from the first position on.
+            let vertices =
+                unsafe { slice_mut("arrays.positions", given.positions.data.cast::<Vertex>(), vertices) }?;
+            return plan.mesh(run, MeshMut { vertices, indices });
         }
         plan.scatter(run, places)
     })

@@ -28,26 +28,41 @@
 #![allow(clippy::missing_safety_doc, reason = "the head of the crate says it for all functions")]
 
 mod argument;
+mod callback;
 mod cloth;
 mod design;
 mod device;
 mod error;
 mod failure;
 mod handle;
+mod lent;
+mod mesh;
+mod outputs;
 mod plan;
 mod run;
+mod session;
 mod settings;
 mod status;
+mod stream;
+mod view;
+mod write;
 mod yarns;
 
 pub use cloth::*;
 pub use design::*;
 pub use device::*;
 pub use error::*;
+pub use lent::*;
+pub use mesh::*;
+pub use outputs::*;
 pub use plan::*;
 pub use run::*;
+pub use session::*;
 pub use settings::*;
 pub use status::*;
+pub use stream::*;
+pub use view::*;
+pub use write::*;
 pub use yarns::*;
 
 /// The number of the binary interface. A program compares it with `texere_abi` of the library

@@ -2,20 +2,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
+#[path = "refusals/outputs.rs"]
+mod outputs;
+#[path = "refusals/tools.rs"]
+mod tools;
+
 use std::ffi::CStr;
 use std::path::Path;
-use std::ptr::{null, null_mut, without_provenance_mut};
+use std::ptr::{null, null_mut};
 
 use texere_c::texere_status::*;
 use texere_c::*;
 
-/// A call, and the statuses that it may end with.
-type Case = (&'static str, Box<dyn Fn() -> texere_status>);
-
-/// A handle that was freed, and one that never was any.
-fn strange<H>() -> [*mut H; 2] {
-    [without_provenance_mut(usize::MAX & !15), without_provenance_mut(8)]
-}
+use tools::{Case, strange};
 
 fn message() -> String {
     // SAFETY: the library ends it with a zero byte.
@@ -237,17 +236,18 @@ fn sized<T>() -> T {
 }
 
 fn settings() -> texere_settings {
-    texere_settings { subdivisions: 1, sides: 6, ..sized() }
+    texere_settings { subdivisions: 1, sides: 6, quantum_mm: 1.0, ..sized() }
 }
 
 /// Functions that can't fail.
-const CANT_FAIL: [&str; 9] = [
+const CANT_FAIL: [&str; 10] = [
     "texere_abi",
     "texere_version",
     "texere_error_message",
     "texere_device_free",
     "texere_design_free",
     "texere_run_free",
+    "texere_session_free",
     "texere_cloth_free",
     "texere_yarns_free",
     "texere_plan_free",
@@ -256,7 +256,8 @@ const CANT_FAIL: [&str; 9] = [
 #[test]
 fn every_function_refuses_what_it_can_not_take() {
     let own: &'static Handles = Box::leak(Box::new(Handles::new()));
-    let cases = wrong_calls(own);
+    let mut cases = wrong_calls(own);
+    cases.extend(outputs::cases(own));
     for (number, (name, call)) in cases.iter().enumerate() {
         assert_eq!(call(), TEXERE_ARGUMENT, "{name}, case {number}: {}", message());
         assert!(!message().is_empty(), "{name}, case {number}");

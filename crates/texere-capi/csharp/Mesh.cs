@@ -1,6 +1,7 @@
 // Yarns and their meshes.
 
 using System;
+using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 
 namespace Texere
@@ -89,6 +90,19 @@ namespace Texere
         public Topology Topology;
         /// <summary>Whether the ends of yarns are closed.</summary>
         public bool Caps;
+        /// <summary>The step of the grid that packed positions lie on, mm: a power of two.</summary>
+        public float QuantumMm;
+
+        internal unsafe texere_settings Native => new texere_settings
+        {
+            struct_size = (uint)sizeof(texere_settings),
+            subdivisions = Subdivisions,
+            sides = Sides,
+            frame = (uint)Frame,
+            topology = (uint)Topology,
+            caps = Caps ? 1u : 0,
+            quantum_mm = QuantumMm,
+        };
     }
 
     /// <summary>Yarns: their control points, sections and materials.</summary>
@@ -197,6 +211,7 @@ namespace Texere
                     Frame = (Frame)usual.frame,
                     Topology = (Topology)usual.topology,
                     Caps = usual.caps != 0,
+                    QuantumMm = usual.quantum_mm,
                 };
             }
         }
@@ -224,16 +239,7 @@ namespace Texere
 
         static texere_plan* Made(Yarns yarns, Device device, Settings? settings)
         {
-            var chosen = settings ?? yarns.Settings;
-            var given = new texere_settings
-            {
-                struct_size = (uint)sizeof(texere_settings),
-                subdivisions = chosen.Subdivisions,
-                sides = chosen.Sides,
-                frame = (uint)chosen.Frame,
-                topology = (uint)chosen.Topology,
-                caps = chosen.Caps ? 1u : 0,
-            };
+            var given = (settings ?? yarns.Settings).Native;
             texere_plan* made;
             Call.Check(Native.texere_plan_new(yarns.Own, device.Own, &given, &made), yarns, device);
             return made;
@@ -272,6 +278,39 @@ namespace Texere
                     (ulong)indices.Length);
                 Call.Check(status, this, run);
             }
+        }
+
+        /// <summary>Takes a piece of a mesh: vertices, or indices. Both are valid until it returns.</summary>
+        /// <param name="vertices">Vertices, from the number <paramref name="first"/> on.</param>
+        /// <param name="indices">Indices, from the number <paramref name="first"/> on.</param>
+        /// <param name="first">The number of the first of them in the whole mesh.</param>
+        /// <param name="baseVertex">What to add to an index to get the number of a vertex.</param>
+        public delegate void Piece(
+            ReadOnlySpan<Vertex> vertices, ReadOnlySpan<uint> indices, ulong first, ulong baseVertex);
+
+        /// <summary>Makes the mesh piece by piece, in bounded memory. What <paramref name="take"/> throws ends the call.</summary>
+        public void Stream(Piece take, Run run = null)
+        {
+            ExceptionDispatchInfo thrown = null;
+            Native.texere_plan_stream_callback_delegate each = (user, piece) =>
+            {
+                try
+                {
+                    var first = piece->vertices != null ? piece->first_vertex : piece->first_index;
+                    take(
+                        new ReadOnlySpan<Vertex>(piece->vertices, (int)piece->vertex_count),
+                        new ReadOnlySpan<uint>(piece->indices, (int)piece->index_count), first, piece->base_vertex);
+                    return 0;
+                }
+                catch (Exception exception)
+                {
+                    thrown = ExceptionDispatchInfo.Capture(exception);
+                    return 1;
+                }
+            };
+            var status = Native.texere_plan_stream(Own, Run.Of(run), each, null);
+            thrown?.Throw();
+            Call.Check(status, this, run, each);
         }
 
         /// <summary>Makes the mesh and writes it to a file, .glb or .ply, in bounded memory.</summary>

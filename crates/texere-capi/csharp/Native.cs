@@ -31,6 +31,14 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_REFUSED = 3;
         /// <summary>
+        ///  Buffers are `cl_mem`.
+        /// </summary>
+        internal const uint TEXERE_NATIVE_OPENCL = 1;
+        /// <summary>
+        ///  Buffers are `VkBuffer`.
+        /// </summary>
+        internal const uint TEXERE_NATIVE_VULKAN = 2;
+        /// <summary>
         ///  The number of the binary interface. A program compares it with `texere_abi` of the library
         ///  that it has loaded: they are equal, or the program can't use that library.
         /// </summary>
@@ -55,10 +63,24 @@ namespace Texere
         ///  No indices.
         /// </summary>
         internal const uint TEXERE_TOPOLOGY_NONE = 2;
+        /// <summary>
+        ///  glTF 2.0 in one binary file, `.glb`.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_GLB = 0;
+        /// <summary>
+        ///  Binary PLY, `.ply`.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_PLY = 1;
 
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         internal delegate int texere_design_read_memory_files_delegate(void* user, byte* path, System.UIntPtr path_length, byte** data, System.UIntPtr* size);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        internal delegate int texere_plan_stream_callback_delegate(void* user, texere_piece* piece);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        internal delegate int texere_plan_write_to_callback_delegate(void* user, ulong offset, byte* data, System.UIntPtr size);
 
 
 
@@ -185,6 +207,62 @@ namespace Texere
         internal static extern byte* texere_version();
 
         /// <summary>
+        ///  Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
+        ///  indices. `run` may be null.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
+        ///  `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
+        ///  holds then is not said.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_mesh(texere_plan* plan, texere_run* run, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+
+        /// <summary>
+        ///  Makes the mesh of a plan in arrays of the caller's choice: positions and normals apart, as
+        ///  members of the caller's structs, or one behind the other as in `texere_vertex`. `run` may be
+        ///  null. `texere_plan_counts` says how many vertices and indices there are; memory between values
+        ///  stays as it is.
+        ///
+        ///  Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with indices
+        ///  one behind the other, are the fastest: the device writes there without a copy.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
+        ///  TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_mesh_arrays", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_mesh_arrays(texere_plan* plan, texere_run* run, texere_mesh_arrays* arrays);
+
+        /// <summary>
+        ///  Makes the packed vertices of a plan in the caller's memory: a `texere_packed_vertex` for each
+        ///  vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, with
+        ///  TEXERE_CANCELLED where `run` was cancelled, and with TEXERE_UNSUPPORTED where the device packs
+        ///  none.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_packed", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_packed(texere_plan* plan, texere_run* run, texere_view* packed);
+
+        /// <summary>
+        ///  Makes the attributes of a plan's vertices in the caller's memory: a `texere_attribute` for each
+        ///  vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+        ///
+        ///  Fails as `texere_plan_packed` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_attributes", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_attributes(texere_plan* plan, texere_run* run, texere_view* attributes);
+
+        /// <summary>
+        ///  Makes the centrelines of a plan's yarns in the caller's memory: a `texere_ring` for each ring
+        ///  that `texere_plan_counts` counts, yarn after yarn as `texere_plan_ring_offsets` says. `run` may
+        ///  be null.
+        ///
+        ///  Fails as `texere_plan_packed` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_trajectory", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_trajectory(texere_plan* plan, texere_run* run, texere_view* rings);
+
+        /// <summary>
         ///  Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
         ///  holds then.
         ///
@@ -209,24 +287,23 @@ namespace Texere
         internal static extern texere_status texere_plan_draws(texere_plan* plan, texere_draw** draws);
 
         /// <summary>
-        ///  Makes the mesh of a plan in the caller's memory. `run` may be null.
+        ///  Lends where the rings of each yarn begin, and behind them how many rings there are in all:
+        ///  one number more than the plan has yarns, the first of which is 0. They are valid until the plan
+        ///  is freed. `count` gets how many numbers there are.
         ///
-        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-        ///  `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
-        ///  holds then is not said.
+        ///  Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
         /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_plan_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_plan_mesh(texere_plan* plan, texere_run* run, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+        [DllImport(__DllName, EntryPoint = "texere_plan_ring_offsets", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_ring_offsets(texere_plan* plan, ulong** offsets, ulong* count);
 
         /// <summary>
-        ///  Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-        ///  be null. A file of that name is replaced once the new one is whole.
+        ///  Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
+        ///  how many there are. The caller has set `chunk-&gt;struct_size`.
         ///
-        ///  Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
-        ///  cancelled.
+        ///  Fails with TEXERE_ARGUMENT where there is no chunk of that number.
         /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_plan_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_plan_write(texere_plan* plan, texere_run* run, byte* path, System.UIntPtr path_length);
+        [DllImport(__DllName, EntryPoint = "texere_plan_chunk", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_chunk(texere_plan* plan, ulong number, texere_chunk* chunk);
 
         /// <summary>
         ///  Frees a plan, or nothing where it is null.
@@ -264,11 +341,99 @@ namespace Texere
         internal static extern void texere_run_free(texere_run* run);
 
         /// <summary>
+        ///  Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
+        ///  may be freed.
+        ///
+        ///  Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
+        ///  with TEXERE_CANCELLED where `run` was cancelled.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_session_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_session_new(texere_plan* plan, texere_run* run, texere_session** @out);
+
+        /// <summary>
+        ///  Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
+        ///  computes with its buffers. They are valid until the session is freed. The caller has set
+        ///  `native-&gt;struct_size`.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_session_native", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_session_native(texere_session* session, texere_native* native);
+
+        /// <summary>
+        ///  Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
+        ///  `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
+        ///  many there are. The call may return before the device is done: `texere_device_mesh` says what to
+        ///  wait for. The caller has set `mesh-&gt;struct_size`.
+        ///
+        ///  The buffers belong to the library, and may be read only. They stay valid until the session is
+        ///  freed, and hold this chunk's mesh until the next chunk but one is made.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_session_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_session_mesh(texere_session* session, ulong number, texere_device_mesh* mesh);
+
+        /// <summary>
+        ///  Waits until the device has done all that the session has asked of it.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_session_wait", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_session_wait(texere_session* session);
+
+        /// <summary>
+        ///  Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
+        ///  says, and where the chunk was not made or is no longer there.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_session_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_session_read(texere_session* session, ulong number, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+
+        /// <summary>
+        ///  Frees a session with its buffers, or nothing where it is null. No command of the program's that
+        ///  uses the buffers may be under way.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_session_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_session_free(texere_session* session);
+
+        /// <summary>
         ///  Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
         ///  their polygons have. The caller has set `settings-&gt;struct_size`.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_settings_default", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_settings_default(texere_yarns* yarns, texere_settings* settings);
+
+        /// <summary>
+        ///  Makes the mesh of a plan piece by piece, in bounded memory: the control points and two chunks at
+        ///  a time. Chunks come in order, each as all its vertices and then all its indices; a piece of
+        ///  indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of all draws comes
+        ///  first, as indices of chunk 0. `run` may be null. `user` is handed to the callback, which runs on
+        ///  the calling thread.
+        ///
+        ///  Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+        ///  0.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_stream", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_stream(texere_plan* plan, texere_run* run, texere_plan_stream_callback_delegate callback, void* user);
+
+        /// <summary>
+        ///  Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
+        ///  be null. A file of that name is replaced once the new one is whole.
+        ///
+        ///  Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+        ///  cancelled.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_write(texere_plan* plan, texere_run* run, byte* path, System.UIntPtr path_length);
+
+        /// <summary>
+        ///  Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
+        ///  `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
+        ///  handed to the callback, which runs on the calling thread.
+        ///
+        ///  Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+        ///  0. What came before is no whole file.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_plan_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_plan_write_to(texere_plan* plan, texere_run* run, uint format, texere_plan_write_to_callback_delegate callback, void* user);
 
         /// <summary>
         ///  Makes round and flattened yarns of the caller's arrays, which are copied.
@@ -422,7 +587,152 @@ namespace Texere
     }
 
     /// <summary>
+    ///  Objects that a session works with, as numbers: cast each to the type of its interface.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_native
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+        /// </summary>
+        public uint kind;
+        /// <summary>
+        ///  The `VkInstance`; 0 with OpenCL.
+        /// </summary>
+        public ulong instance;
+        /// <summary>
+        ///  The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+        /// </summary>
+        public ulong physical_device;
+        /// <summary>
+        ///  The `VkDevice` or `cl_context`.
+        /// </summary>
+        public ulong device;
+        /// <summary>
+        ///  The `VkQueue` or `cl_command_queue` that chunks are made on.
+        /// </summary>
+        public ulong queue;
+        /// <summary>
+        ///  The family of the `VkQueue`; 0 with OpenCL.
+        /// </summary>
+        public uint queue_family;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+    }
+
+    /// <summary>
+    ///  A part of a buffer on a device.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_device_buffer
+    {
+        /// <summary>
+        ///  The `cl_mem` or `VkBuffer`; 0 where there is none.
+        /// </summary>
+        public ulong buffer;
+        /// <summary>
+        ///  Where the values begin, bytes.
+        /// </summary>
+        public ulong offset;
+        /// <summary>
+        ///  How many bytes the values have.
+        /// </summary>
+        public ulong size;
+    }
+
+    /// <summary>
+    ///  The mesh of a chunk on its device.
+    ///
+    ///  With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
+    ///  that reads them waits for it.
+    ///
+    ///  With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
+    ///  queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
+    ///  call `texere_session_wait` first. No other thread may call the library with the same device
+    ///  while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
+    ///  the source of a transfer, indices as an index or storage buffer or as that source.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_device_mesh
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+        /// </summary>
+        public uint kind;
+        /// <summary>
+        ///  The vertices, a `texere_vertex` each.
+        /// </summary>
+        public texere_device_buffer vertices;
+        /// <summary>
+        ///  The indices, a `uint32_t` each, counted from the chunk's first vertex.
+        /// </summary>
+        public texere_device_buffer indices;
+        /// <summary>
+        ///  The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
+        /// </summary>
+        public ulong ready;
+    }
+
+    /// <summary>
+    ///  A vertex of a tube.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_vertex
+    {
+        /// <summary>
+        ///  Position, mm.
+        /// </summary>
+        public fixed float position[3];
+        /// <summary>
+        ///  Unit normal, out of the yarn.
+        /// </summary>
+        public fixed float normal[3];
+    }
+
+    /// <summary>
+    ///  Where a mesh goes: arrays of their own, or members of the caller's structs. None of them overlaps
+    ///  another one's values.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_mesh_arrays
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+        /// <summary>
+        ///  Positions, mm: three `float` for each vertex.
+        /// </summary>
+        public texere_view positions;
+        /// <summary>
+        ///  Unit normals, out of the yarn: three `float` for each vertex. Null `data`: left out.
+        /// </summary>
+        public texere_view normals;
+        /// <summary>
+        ///  Indices, a `uint32_t` each. Null `data`: left out.
+        /// </summary>
+        public texere_view indices;
+    }
+
+    /// <summary>
     ///  The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+    ///
+    ///  A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
+    ///  50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_plan
@@ -448,7 +758,7 @@ namespace Texere
         /// </summary>
         public ulong rings;
         /// <summary>
-        ///  Vertices. Where the mesh is made in parts, a ring at which two of them meet counts twice.
+        ///  Vertices. A ring at which two chunks meet counts twice.
         /// </summary>
         public ulong vertices;
         /// <summary>
@@ -463,22 +773,10 @@ namespace Texere
         ///  Draws.
         /// </summary>
         public ulong draws;
-    }
-
-    /// <summary>
-    ///  A vertex of a tube.
-    /// </summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe partial struct texere_vertex
-    {
         /// <summary>
-        ///  Position, mm.
+        ///  Chunks that the mesh is made in.
         /// </summary>
-        public fixed float position[3];
-        /// <summary>
-        ///  Unit normal, out of the yarn.
-        /// </summary>
-        public fixed float normal[3];
+        public ulong chunks;
     }
 
     /// <summary>
@@ -515,11 +813,63 @@ namespace Texere
     }
 
     /// <summary>
+    ///  A chunk of a plan, and where it lies in the mesh.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_chunk
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+        /// <summary>
+        ///  The number of its first vertex in the mesh.
+        /// </summary>
+        public ulong first_vertex;
+        /// <summary>
+        ///  How many vertices it has.
+        /// </summary>
+        public ulong vertex_count;
+        /// <summary>
+        ///  The number of its first index in the mesh.
+        /// </summary>
+        public ulong first_index;
+        /// <summary>
+        ///  How many indices it has. They count from its first vertex.
+        /// </summary>
+        public ulong index_count;
+        /// <summary>
+        ///  Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+        /// </summary>
+        public texere_draw* draws;
+        /// <summary>
+        ///  How many draws it has.
+        /// </summary>
+        public ulong draw_count;
+    }
+
+    /// <summary>
     ///  A call that takes long, as other threads see it: how far it has come, and whether it is to end.
     ///  One run may be given to one call after another; each starts it at 0.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_run
+    {
+    }
+
+    /// <summary>
+    ///  A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
+    ///  time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+    ///
+    ///  One thread at a time may use a session. A call while another thread's is under way fails with
+    ///  TEXERE_ARGUMENT.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_session
     {
     }
 
@@ -553,6 +903,89 @@ namespace Texere
         ///  1 if the ends of yarns are closed, else 0.
         /// </summary>
         public uint caps;
+        /// <summary>
+        ///  The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
+        /// </summary>
+        public float quantum_mm;
+    }
+
+    /// <summary>
+    ///  A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
+    ///  draws until the plan is freed.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_piece
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the library sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+        /// <summary>
+        ///  The chunk that the piece is of, from 0.
+        /// </summary>
+        public ulong chunk;
+        /// <summary>
+        ///  The number of the chunk's first vertex in the mesh: what to add to an index to get the
+        ///  number of a vertex.
+        /// </summary>
+        public ulong base_vertex;
+        /// <summary>
+        ///  The draws of the chunk, whose numbers are those of the whole mesh.
+        /// </summary>
+        public texere_draw* draws;
+        /// <summary>
+        ///  How many draws the chunk has.
+        /// </summary>
+        public ulong draw_count;
+        /// <summary>
+        ///  Vertices; null in a piece of indices.
+        /// </summary>
+        public texere_vertex* vertices;
+        /// <summary>
+        ///  The number of the first of these vertices in the mesh.
+        /// </summary>
+        public ulong first_vertex;
+        /// <summary>
+        ///  How many vertices the piece has.
+        /// </summary>
+        public ulong vertex_count;
+        /// <summary>
+        ///  Indices; null in a piece of vertices.
+        /// </summary>
+        public uint* indices;
+        /// <summary>
+        ///  The number of the first of these indices in the mesh.
+        /// </summary>
+        public ulong first_index;
+        /// <summary>
+        ///  How many indices the piece has.
+        /// </summary>
+        public ulong index_count;
+    }
+
+    /// <summary>
+    ///  Values that lie in the caller's memory: in an array of their own, or as one member of the
+    ///  structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_view
+    {
+        /// <summary>
+        ///  The first value.
+        /// </summary>
+        public void* data;
+        /// <summary>
+        ///  Bytes from `data` on that belong to the view: at least up to the end of the last value.
+        /// </summary>
+        public ulong size;
+        /// <summary>
+        ///  Bytes from one value to the next: at least the size of a value.
+        /// </summary>
+        public ulong stride;
     }
 
     /// <summary>

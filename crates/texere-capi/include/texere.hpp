@@ -5,7 +5,8 @@
 // texere.h says what that is: units, threads, how long lent memory is valid.
 //
 // Nothing is allocated behind the caller's back: meshes and points go to memory of the caller's, or
-// to vectors where the name of the function says so.
+// to vectors where the name of the function says so. What has no function here is a call of texere.h
+// with `get()` of the handle, in `texere::check`.
 
 #ifndef TEXERE_HPP
 #define TEXERE_HPP
@@ -95,6 +96,12 @@ private:
     T *data_ = nullptr;
     std::size_t size_ = 0;
 };
+
+// All of a view's values, as a view of texere.h.
+template <class T>
+texere_view strided(view<T> values) {
+    return {const_cast<std::remove_const_t<T> *>(values.data()), values.size() * sizeof(T), sizeof(T)};
+}
 
 // A handle that is freed when its owner goes.
 template <class Handle, void (*Free)(Handle *)>
@@ -299,6 +306,38 @@ public:
         vertices.resize(static_cast<std::size_t>(counts().vertices));
         indices.resize(static_cast<std::size_t>(counts().indices));
         mesh(vertices, indices, run);
+    }
+    // Makes the mesh in arrays of positions, normals and indices, wherever they lie.
+    void mesh(const texere_mesh_arrays &arrays, const Run *run = nullptr) const {
+        check(texere_plan_mesh_arrays(get(), Run::of(run), &arrays));
+    }
+    // Makes packed vertices or attributes, as many as vertices, or a ring for each ring.
+    void packed(view<texere_packed_vertex> packed, const Run *run = nullptr) const {
+        auto to = strided(packed);
+        check(texere_plan_packed(get(), Run::of(run), &to));
+    }
+    void attributes(view<texere_attribute> attributes, const Run *run = nullptr) const {
+        auto to = strided(attributes);
+        check(texere_plan_attributes(get(), Run::of(run), &to));
+    }
+    void trajectory(view<texere_ring> rings, const Run *run = nullptr) const {
+        auto to = strided(rings);
+        check(texere_plan_trajectory(get(), Run::of(run), &to));
+    }
+    // Makes the mesh piece by piece, in bounded memory: `take(const texere_piece &)` gets each. What
+    // it throws ends the call, and is thrown on.
+    template <class Take>
+    void stream(Take take, const Run *run = nullptr) const {
+        Callback each([&](const texere_piece *piece) { return take(*piece), 0; });
+        each.check(texere_plan_stream(get(), Run::of(run), each.call, &each));
+    }
+    // Writes a file of the format that begins with TEXERE_FORMAT to `take(offset, bytes)`.
+    template <class Take>
+    void write_to(std::uint32_t format, Take take, const Run *run = nullptr) const {
+        Callback each([&](std::uint64_t offset, const std::uint8_t *data, std::size_t size) {
+            return take(offset, view<const std::uint8_t>(data, size)), 0;
+        });
+        each.check(texere_plan_write_to(get(), Run::of(run), format, each.call, &each));
     }
     // Writes the mesh to a file, `.glb` or `.ply`.
     void write(std::string_view path, const Run *run = nullptr) const {

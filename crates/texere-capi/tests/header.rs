@@ -14,11 +14,13 @@ fn is_kept(path: &str, made: &str) {
     assert!(kept == made, "{path} is old: `TEXERE_HEADER=write cargo test --test header` makes it anew");
 }
 
+fn config() -> cbindgen::Config {
+    cbindgen::Config::from_file(Path::new(env!("CARGO_MANIFEST_DIR")).join("cbindgen.toml")).unwrap()
+}
+
 fn header() -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).unwrap();
-    let mut made = Vec::new();
-    cbindgen::Builder::new().with_crate(folder).with_config(config).generate().unwrap().write(&mut made);
+    let (folder, mut made) = (env!("CARGO_MANIFEST_DIR"), Vec::new());
+    cbindgen::Builder::new().with_crate(folder).with_config(config()).generate().unwrap().write(&mut made);
     String::from_utf8(made).unwrap()
 }
 
@@ -37,6 +39,7 @@ fn the_calls_for_c_sharp_are_those_of_the_sources() {
     sources
         .into_iter()
         .fold(csbindgen::Builder::default(), csbindgen::Builder::input_extern_file)
+        .always_included_types(config().export.include)
         .csharp_dll_name("texere_c")
         .csharp_namespace("Texere")
         .csharp_class_name("Native")

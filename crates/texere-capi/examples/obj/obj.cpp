@@ -1,4 +1,4 @@
-// A design to an OBJ file: obj DESIGN DEVICE OUTPUT.
+// A design to an OBJ file, piece by piece in bounded memory: obj DESIGN DEVICE OUTPUT.
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -9,27 +9,18 @@ struct Close {
     void operator()(std::FILE *file) const { std::fclose(file); }
 };
 
-static void write(const texere::Plan &plan, std::FILE *file) {
-    std::vector<texere_vertex> vertices;
-    std::vector<std::uint32_t> indices;
-    plan.mesh_vectors(vertices, indices);
-    for (const texere_vertex &vertex : vertices) {
+static void write(const texere_piece &piece, std::FILE *file) {
+    for (const texere_vertex &vertex : texere::view(piece.vertices, piece.vertex_count)) {
         const float *at = vertex.position, *normal = vertex.normal;
         std::fprintf(file, "v %.9g %.9g %.9g\nvn %.9g %.9g %.9g\n", at[0], at[1], at[2], normal[0], normal[1],
                      normal[2]);
     }
-    for (const texere_draw &draw : plan.draws()) {
-        std::fprintf(file, "g yarn%u\n", draw.yarn + 1);
-        texere::view<const std::uint32_t> corners(indices.data() + draw.first_index, draw.index_count);
-        for (std::size_t first = 0; first < corners.size(); first += 3) {
-            std::fputc('f', file);
-            for (std::size_t corner = first; corner < first + 3; corner++) {
-                // OBJ counts from 1.
-                auto number = static_cast<unsigned long long>(draw.base_vertex + corners[corner] + 1);
-                std::fprintf(file, " %llu//%llu", number, number);
-            }
-            std::fputc('\n', file);
-        }
+    for (std::uint64_t number = 0; number < piece.index_count; number++) {
+        // A piece may end within a triangle.
+        bool first = (piece.first_index + number) % 3 == 0, last = (piece.first_index + number) % 3 == 2;
+        // OBJ counts from 1.
+        auto vertex = static_cast<unsigned long long>(piece.base_vertex + piece.indices[number] + 1);
+        std::fprintf(file, "%s%llu//%llu%s", first ? "f " : " ", vertex, vertex, last ? "\n" : "");
     }
 }
 
@@ -40,7 +31,7 @@ int main(int count, char **arguments) try {
     texere::Plan plan(cloth.yarns(), device);
     std::unique_ptr<std::FILE, Close> file(std::fopen(arguments[3], "w"));
     if (!file) return 1;
-    write(plan, file.get());
+    plan.stream([&](const texere_piece &piece) { write(piece, file.get()); });
     std::cout << cloth.report().words << ": " << plan.counts().triangles << " triangles\n";
 } catch (const texere::Error &error) {
     if (error.line()) std::cerr << error.file() << ":" << error.line() << ": ";

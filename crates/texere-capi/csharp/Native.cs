@@ -729,6 +729,87 @@ namespace Texere
     }
 
     /// <summary>
+    ///  A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_packed_vertex
+    {
+        /// <summary>
+        ///  The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
+        ///  these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+        /// </summary>
+        public fixed uint position[2];
+        /// <summary>
+        ///  The normal on an octahedron, in steps of 1/32767.
+        /// </summary>
+        public fixed short normal[2];
+    }
+
+    /// <summary>
+    ///  Where on its yarn a vertex lies, for shaders and textures.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_attribute
+    {
+        /// <summary>
+        ///  The yarn, from 0.
+        /// </summary>
+        public uint yarn;
+        /// <summary>
+        ///  The angle round the section from its first corner, radians. It turns with the twist.
+        /// </summary>
+        public float angle;
+        /// <summary>
+        ///  The length of the yarn from its start to the vertex's ring, mm.
+        /// </summary>
+        public float along;
+        /// <summary>
+        ///  The unit tangent of the yarn there.
+        /// </summary>
+        public fixed float tangent[3];
+    }
+
+    /// <summary>
+    ///  A ring: a sample of a yarn's centreline.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_ring
+    {
+        /// <summary>
+        ///  Centre, mm.
+        /// </summary>
+        public fixed float centre[3];
+        /// <summary>
+        ///  Half the width of the yarn, mm.
+        /// </summary>
+        public float half_width;
+        /// <summary>
+        ///  Unit tangent.
+        /// </summary>
+        public fixed float tangent[3];
+        /// <summary>
+        ///  Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+        /// </summary>
+        public uint roll;
+        /// <summary>
+        ///  Half the height of the yarn, mm.
+        /// </summary>
+        public float half_height;
+        /// <summary>
+        ///  Growth of the half width along the yarn, mm per mm.
+        /// </summary>
+        public float width_growth;
+        /// <summary>
+        ///  Growth of the half height along the yarn, mm per mm.
+        /// </summary>
+        public float height_growth;
+        /// <summary>
+        ///  Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+        /// </summary>
+        public uint lean;
+    }
+
+    /// <summary>
     ///  The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
     ///
     ///  A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within

@@ -410,6 +410,47 @@ typedef struct texere_yarn_counts {
   uint64_t points;
 } texere_yarn_counts;
 
+// Where on its yarn a vertex lies, for shaders and textures.
+typedef struct texere_attribute {
+  // The yarn, from 0.
+  uint32_t yarn;
+  // The angle round the section from its first corner, radians. It turns with the twist.
+  float angle;
+  // The length of the yarn from its start to the vertex's ring, mm.
+  float along;
+  // The unit tangent of the yarn there.
+  float tangent[3];
+} texere_attribute;
+
+// A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+typedef struct texere_packed_vertex {
+  // The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
+  // these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+  uint32_t position[2];
+  // The normal on an octahedron, in steps of 1/32767.
+  int16_t normal[2];
+} texere_packed_vertex;
+
+// A ring: a sample of a yarn's centreline.
+typedef struct texere_ring {
+  // Centre, mm.
+  float centre[3];
+  // Half the width of the yarn, mm.
+  float half_width;
+  // Unit tangent.
+  float tangent[3];
+  // Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+  uint32_t roll;
+  // Half the height of the yarn, mm.
+  float half_height;
+  // Growth of the half width along the yarn, mm per mm.
+  float width_growth;
+  // Growth of the half height along the yarn, mm per mm.
+  float height_growth;
+  // Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+  uint32_t lean;
+} texere_ring;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus

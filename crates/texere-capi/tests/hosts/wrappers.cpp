@@ -1,4 +1,5 @@
 // What texere.hpp promises beyond texere.h: exceptions, moves, callbacks, views.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -75,9 +76,34 @@ int main() {
     std::vector<texere_vertex> vertices(1);
     auto small = thrown([&] { plan.mesh(vertices, {}); });
     CHECK(small.status() == TEXERE_ARGUMENT && small.file().empty());
+    // Pieces and files hold what the mesh holds.
+    std::vector<std::uint32_t> indices;
+    plan.mesh_vectors(vertices, indices);
+    std::vector<float> placed(vertices.size() * 3);
+    auto apart = texere::sized<texere_mesh_arrays>();
+    apart.positions = {placed.data(), placed.size() * sizeof(float), 3 * sizeof(float)};
+    plan.mesh(apart);
+    std::size_t taken = 0;
+    plan.stream([&](const texere_piece &piece) {
+        for (const auto &vertex : texere::view(piece.vertices, piece.vertex_count)) {
+            CHECK(vertex.position[2] == vertices[taken].position[2]);
+            CHECK(vertex.position[1] == placed[taken++ * 3 + 1]);
+        }
+    });
+    CHECK(taken == vertices.size());
+    std::uint64_t size = 0;
+    plan.write_to(TEXERE_FORMAT_PLY, [&](std::uint64_t offset, texere::view<const std::uint8_t> bytes) {
+        size = std::max(size, offset + bytes.size());
+    });
+    CHECK(size > taken * sizeof(texere_vertex));
+    try {
+        plan.stream([](const texere_piece &) { throw 7; });
+        CHECK(false);
+    } catch (int number) {
+        CHECK(number == 7);
+    }
     texere::Run run;
     run.cancel();
-    std::vector<std::uint32_t> indices;
     CHECK(thrown([&] { plan.mesh_vectors(vertices, indices, &run); }).status() == TEXERE_CANCELLED);
     CHECK(run.progress() < 1 && plan.draws().size() == plan.counts().draws);
 }

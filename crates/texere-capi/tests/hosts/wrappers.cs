@@ -54,8 +54,23 @@ static unsafe class Wrappers
             Check(offsets[1] == 3 && copied[2].X == 2 && yarns.Count == 1, "points");
             var small = Thrown(() => plan.Mesh(new Vertex[1], new uint[1]));
             Check(small.Status == Status.Argument && small.File == null, "sizes");
-            run.Cancel();
             var (vertices, indices) = (new Vertex[plan.Vertices], new uint[plan.Indices]);
+            plan.Mesh(vertices, indices);
+            var taken = 0;
+            plan.Stream((piece, corners, first, baseVertex) =>
+            {
+                foreach (var vertex in piece) Check(vertex.Y == vertices[taken++].Y, "piece");
+            });
+            Check(taken == vertices.Length, "pieces");
+            try
+            {
+                plan.Stream((piece, corners, first, baseVertex) => throw new InvalidOperationException());
+                Check(false, "nothing was thrown");
+            }
+            catch (InvalidOperationException)
+            {
+            }
+            run.Cancel();
             Check(Thrown(() => plan.Mesh(vertices, indices, run)).Status == Status.Cancelled, "cancelled");
             // The plan keeps its device.
             device.Dispose();

@@ -99,3 +99,8 @@ pub(crate) unsafe fn sized<T: Copy>(name: &str, pointer: *const T) -> Result<T, 
     // SAFETY: it has the size of `T`, and is neither null nor misaligned.
     Ok(unsafe { pointer.read() })
 }
+
+/// Makes sure that there is a callback.
+pub(crate) fn given<F>(callback: Option<F>) -> Result<F, Failure> {
+    callback.ok_or_else(|| Failure::argument("callback is null"))
+}

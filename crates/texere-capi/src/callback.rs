@@ -3,8 +3,6 @@
 use std::error::Error;
 use std::fmt;
 
-use crate::failure::Failure;
-
 /// A callback answered other than 0, which ends the call.
 #[derive(Debug)]
 pub(crate) struct Answer(i32);
@@ -23,8 +21,3 @@ impl fmt::Display for Answer {
 }
 
 impl Error for Answer {}
-
-/// Makes sure that there is a callback.
-pub(crate) fn given<F>(callback: Option<F>) -> Result<F, Failure> {
-    callback.ok_or_else(|| Failure::argument("callback is null"))
-}

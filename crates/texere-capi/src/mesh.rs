@@ -29,8 +29,8 @@ pub struct texere_vertex {
 
 const _: () = assert!(size_of::<texere_vertex>() == size_of::<Vertex>());
 
-/// Where a mesh goes: arrays of their own, or members of the caller's structs. None of them overlaps
-/// another one's values.
+/// Where a mesh goes: arrays of their own, or members of the caller's structs. No two values
+/// overlap.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_mesh_arrays {
@@ -154,8 +154,8 @@ pub unsafe extern "C" fn texere_plan_mesh(
 /// null. `texere_plan_counts` says how many vertices and indices there are; memory between values
 /// stays as it is.
 ///
-/// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with indices
-/// one behind the other, are the fastest: the device writes there without a copy.
+/// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with
+/// indices one behind the other, are the fastest: the device writes there without a copy.
 ///
 /// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
 /// TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.

@@ -7,7 +7,8 @@ use std::ptr::null;
 use texere::backend::Chunk;
 use texere::mesh::{MeshPiece, Topology};
 
-use crate::callback::{Answer, given};
+use crate::argument::given;
+use crate::callback::Answer;
 use crate::error::guard;
 use crate::handle::{get, get_any};
 use crate::mesh::texere_vertex;

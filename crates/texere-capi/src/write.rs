@@ -7,8 +7,8 @@ use std::sync::Arc;
 use texere::Pipeline;
 use texere::write::Format;
 
-use crate::argument::text;
-use crate::callback::{Answer, given};
+use crate::argument::{given, text};
+use crate::callback::Answer;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{get, get_any};

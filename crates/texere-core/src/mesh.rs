@@ -48,8 +48,8 @@ impl Plan {
         self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
     }
 
-    /// The lengths of the mesh of `chunks`, which are all chunks of the plan: how many vertices, and
-    /// how many indices. A ring at which two chunks meet counts twice.
+    /// The lengths of the mesh of `chunks`, which are all chunks of the plan: how many vertices,
+    /// and how many indices. A ring at which two chunks meet counts twice.
     #[must_use]
     pub fn mesh_lengths(&self, chunks: &[Chunk]) -> [u64; 2] {
         let total = |count: fn(&Chunk) -> u32| chunks.iter().map(|chunk| u64::from(count(chunk))).sum();

@@ -16,16 +16,7 @@ use crate::{
 };
 
 pub use self::error::PipelineError;
-pub use self::run::Run;
-
-/// The progress of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
-    /// Rings whose mesh (or trajectory) has been delivered.
-    pub rings: u64,
-    /// Rings in all.
-    pub total: u64,
-}
+pub use self::run::{Progress, Run};
 
 /// Makes a mesh of yarns on any backend.
 ///
@@ -187,8 +178,8 @@ impl<'a> Pipeline<'a> {
     }
 
     /// Calls `progress` while control points are sent and rolls worked out, with 0 rings, and after
-    /// each chunk.
-    /// The last call has all rings. `Break` ends the run with [`PipelineError::Cancelled`].
+    /// each chunk. The last call has all rings. `Break` ends the run with
+    /// [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
         self.progress = Some(Box::new(progress));

@@ -207,7 +207,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Calls `scan` with all chunks of the whole plan, each in a slot, until `watch` answers `Break`.
+    /// Calls `scan` with all chunks of the whole plan, each in a slot, until `watch` answers
+    /// `Break`.
     fn go_through(
         &mut self,
         scan: impl FnOnce(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,

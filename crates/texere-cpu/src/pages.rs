@@ -5,8 +5,8 @@
 /// Asks the system for huge pages for `memory`. Pages that have been touched already stay as they
 /// are.
 ///
-/// Ordinary pages at both ends count as a whole, so that memory which is filled chunk by chunk is one
-/// range in the end: a huge page lies within one range or not at all.
+/// Ordinary pages at both ends count as a whole, so that memory which is filled chunk by chunk is
+/// one range in the end: a huge page lies within one range or not at all.
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     use rustix::mm::{Advice, madvise};

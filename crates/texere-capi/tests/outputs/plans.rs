@@ -124,7 +124,8 @@ pub(crate) const VERTEX: texere_vertex = texere_vertex { position: [9.0; 3], nor
 
 /// A struct with its size set and zeros beside it.
 pub(crate) fn sized<T>() -> T {
-    // SAFETY: only for structs of the library, of which zeros are a value; each begins with a `u32`.
+    // SAFETY: only for structs of the library, of which zeros are a value. Each begins with a
+    // `u32`.
     unsafe {
         let mut zeros: T = std::mem::zeroed();
         from_mut(&mut zeros).cast::<u32>().write(size_of::<T>() as u32);

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::{PipelineError, Progress};
+use super::error::PipelineError;
 use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError, Watch};
 use crate::definitions::Ring;
 use crate::settling::Settler;
@@ -14,6 +14,15 @@ use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, T
 /// Control points per call of upload: 16 MB. Between two calls progress is reported and a
 /// cancellation noticed.
 const UPLOAD_POINTS: usize = 1 << 20;
+
+/// The progress of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// Rings whose mesh (or trajectory) has been delivered.
+    pub rings: u64,
+    /// Rings in all.
+    pub total: u64,
+}
 
 pub(super) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
 
@@ -175,8 +184,8 @@ impl<'a> Run<'a> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Makes the attributes of the vertices of `chunks`. `sink` takes them piece by piece, each with
-    /// the number of its first vertex among all.
+    /// Makes the attributes of the vertices of `chunks`. `sink` takes them piece by piece, each
+    /// piece with the number of its first vertex among all.
     ///
     /// **Errors**: the errors of [`Pipeline::attributes`](crate::Pipeline::attributes).
     pub fn attributes(

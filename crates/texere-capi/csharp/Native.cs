@@ -223,8 +223,8 @@ namespace Texere
         ///  null. `texere_plan_counts` says how many vertices and indices there are; memory between values
         ///  stays as it is.
         ///
-        ///  Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with indices
-        ///  one behind the other, are the fastest: the device writes there without a copy.
+        ///  Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with
+        ///  indices one behind the other, are the fastest: the device writes there without a copy.
         ///
         ///  Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
         ///  TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
@@ -700,8 +700,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  Where a mesh goes: arrays of their own, or members of the caller's structs. None of them overlaps
-    ///  another one's values.
+    ///  Where a mesh goes: arrays of their own, or members of the caller's structs. No two values
+    ///  overlap.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_mesh_arrays

@@ -181,8 +181,8 @@ typedef struct texere_view {
   uint64_t stride;
 } texere_view;
 
-// Where a mesh goes: arrays of their own, or members of the caller's structs. None of them overlaps
-// another one's values.
+// Where a mesh goes: arrays of their own, or members of the caller's structs. No two values
+// overlap.
 typedef struct texere_mesh_arrays {
   // Bytes of this struct, which the caller sets.
   uint32_t struct_size;
@@ -565,8 +565,8 @@ enum texere_status texere_plan_mesh(const struct texere_plan *plan,
 // null. `texere_plan_counts` says how many vertices and indices there are; memory between values
 // stays as it is.
 //
-// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with indices
-// one behind the other, are the fastest: the device writes there without a copy.
+// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with
+// indices one behind the other, are the fastest: the device writes there without a copy.
 //
 // Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
 // TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.

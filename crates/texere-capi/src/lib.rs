@@ -38,6 +38,7 @@ mod plan;
 mod run;
 mod settings;
 mod status;
+mod view;
 mod yarns;
 
 pub use cloth::*;
@@ -48,6 +49,7 @@ pub use plan::*;
 pub use run::*;
 pub use settings::*;
 pub use status::*;
+pub use view::*;
 pub use yarns::*;
 
 /// The number of the binary interface. A program compares it with `texere_abi` of the library

@@ -1,0 +1,148 @@
+//! Views: values in the caller's memory, as far apart as the caller wants them.
+
+use std::ffi::c_void;
+use std::marker::PhantomData;
+
+use crate::argument::check;
+use crate::failure::Failure;
+
+/// Values that lie in the caller's memory: in an array of their own, or as one member of the
+/// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_view {
+    /// The first value.
+    pub data: *mut c_void,
+    /// Bytes from `data` on that belong to the view: at least up to the end of the last value.
+    pub size: u64,
+    /// Bytes from one value to the next: at least the size of a value.
+    pub stride: u64,
+}
+
+/// A view whose memory holds as many values as were asked for.
+#[derive(Debug)]
+pub(crate) struct Strided<'a, T> {
+    first: *mut T,
+    stride: usize,
+    count: usize,
+    memory: PhantomData<&'a mut [T]>,
+}
+
+impl texere_view {
+    /// Makes sure that the view holds `count` values. `name` is the argument's. A null view of no
+    /// values is fine.
+    ///
+    /// # Safety
+    ///
+    /// The `size` bytes at `data` are valid for reads, and for the writes that the result is used
+    /// for. Nobody else writes them as long as the result lives.
+    pub(crate) unsafe fn holds<'a, T: Copy>(
+        &self,
+        name: &str,
+        count: usize,
+    ) -> Result<Strided<'a, T>, Failure> {
+        let Self { data, size, stride } = *self;
+        let (first, memory) = (data.cast::<T>(), PhantomData);
+        let Some(last) = count.checked_sub(1) else {
+            return Ok(Strided { first, stride: size_of::<T>(), count, memory });
+        };
+        check(&format!("{name}.data"), first)?;
+        let least = size_of::<T>() as u64;
+        if stride < least || stride % align_of::<T>() as u64 != 0 {
+            let align = align_of::<T>();
+            return Err(Failure::argument(format!(
+                "{name}.stride is {stride}, expected a multiple of {align} from {least} bytes"
+            )));
+        }
+        let needed = (last as u64).checked_mul(stride).and_then(|bytes| bytes.checked_add(least));
+        match needed.filter(|bytes| isize::try_from(*bytes).is_ok()) {
+            Some(needed) if size >= needed => Ok(Strided { first, stride: stride as usize, count, memory }),
+            Some(needed) => Err(Failure::argument(format!(
+                "{name}.size is {size} bytes, and {count} values need {needed}"
+            ))),
+            None => Err(Failure::argument(format!(
+                "{name} has {count} values of {stride} bytes, more than memory can hold"
+            ))),
+        }
+    }
+}
+
+impl<T: Copy> Strided<'_, T> {
+    /// The values as a slice, where nothing lies between them.
+    pub(crate) fn dense(&mut self) -> Option<&mut [T]> {
+        if self.count == 0 {
+            return Some(&mut []);
+        }
+        // SAFETY: `holds` has checked pointer and size; whoever made it vouches for the rest.
+        (self.stride == size_of::<T>())
+            .then(|| unsafe { std::slice::from_raw_parts_mut(self.first, self.count) })
+    }
+
+    /// The value of a number.
+    ///
+    /// **Panics** past the last value.
+    pub(crate) fn get(&self, number: usize) -> T {
+        // SAFETY: as for `place`.
+        unsafe { self.place(number).read() }
+    }
+
+    /// Writes the values from number `first` on.
+    ///
+    /// **Panics** where they go past the last value.
+    pub(crate) fn write(&mut self, first: usize, values: impl IntoIterator<Item = T>) {
+        for (number, value) in values.into_iter().enumerate() {
+            // SAFETY: as for `place`.
+            unsafe { self.place(first + number).write(value) };
+        }
+    }
+
+    /// Where the value of a number lies: within the memory that `holds` has checked.
+    fn place(&self, number: usize) -> *mut T {
+        assert!(number < self.count, "value {number} of {}", self.count);
+        self.first.wrapping_byte_add(number * self.stride)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ptr::null_mut;
+
+    use super::*;
+
+    fn refusal(view: texere_view, count: usize) -> String {
+        // SAFETY: what is refused is not used.
+        unsafe { view.holds::<[f32; 3]>("view", count) }.map(|_| ()).unwrap_err().message
+    }
+
+    #[test]
+    fn what_can_not_hold_the_values_is_refused_by_name_value_and_limit() {
+        let mut memory = [0.0_f32; 12];
+        let data: *mut c_void = memory.as_mut_ptr().cast();
+        let odd = data.wrapping_byte_add(2);
+        let view = |data, size, stride| texere_view { data, size, stride };
+        assert_eq!(refusal(view(null_mut(), 48, 12), 4), "view.data is null");
+        assert_eq!(refusal(view(odd, 46, 12), 3), "view.data is not a multiple of 4 bytes");
+        assert_eq!(refusal(view(data, 48, 8), 4), "view.stride is 8, expected a multiple of 4 from 12 bytes");
+        assert_eq!(
+            refusal(view(data, 48, 14), 2),
+            "view.stride is 14, expected a multiple of 4 from 12 bytes"
+        );
+        assert_eq!(refusal(view(data, 47, 12), 4), "view.size is 47 bytes, and 4 values need 48");
+        assert_eq!(refusal(view(data, 43, 16), 3), "view.size is 43 bytes, and 3 values need 44");
+        let endless = view(data, u64::MAX, 12);
+        assert!(refusal(endless, usize::MAX / 12).ends_with("more than memory can hold"));
+        assert!(refusal(view(data, u64::MAX, 1 << 63), 3).ends_with("more than memory can hold"));
+    }
+
+    #[test]
+    fn values_are_written_as_far_apart_as_the_view_says() {
+        let mut memory = [9.0_f32; 11];
+        let view = texere_view { data: memory.as_mut_ptr().cast(), size: 44, stride: 16 };
+        // SAFETY: the view is that of `memory`.
+        let mut places = unsafe { view.holds::<[f32; 3]>("view", 3) }.unwrap();
+        assert!(places.dense().is_none());
+        places.write(1, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        assert_eq!([places.get(0), places.get(2)], [[9.0; 3], [4.0, 5.0, 6.0]]);
+        assert_eq!(memory, [9.0, 9.0, 9.0, 9.0, 1.0, 2.0, 3.0, 9.0, 4.0, 5.0, 6.0]);
+    }
+}

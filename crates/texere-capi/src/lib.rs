@@ -31,25 +31,45 @@ mod argument;
 mod cloth;
 mod design;
 mod device;
+mod draft;
+#[cfg(feature = "render")]
+mod drawing;
 mod error;
 mod failure;
+mod finish;
 mod handle;
+mod material;
+mod picture;
 mod plan;
 mod run;
 mod settings;
 mod status;
+mod structure;
+#[cfg(not(feature = "render"))]
+mod undrawn;
 mod view;
+mod warp;
+mod weft;
+mod woven;
 mod yarns;
 
 pub use cloth::*;
 pub use design::*;
 pub use device::*;
+pub use draft::*;
 pub use error::*;
+pub use finish::*;
+pub use material::*;
+pub use picture::*;
 pub use plan::*;
 pub use run::*;
 pub use settings::*;
 pub use status::*;
+pub use structure::*;
 pub use view::*;
+pub use warp::*;
+pub use weft::*;
+pub use woven::*;
 pub use yarns::*;
 
 /// The number of the binary interface. A program compares it with `texere_abi` of the library

@@ -2,6 +2,19 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
+/// Adds a call to `cases`.
+macro_rules! case {
+    ($cases:ident, $name:ident($($argument:expr),*)) => {
+        // SAFETY: what is wrong is what the library says that it refuses.
+        $cases.push((stringify!($name), Box::new(move || unsafe { $name($($argument),*) })))
+    };
+}
+
+#[path = "refusals/pictures.rs"]
+mod pictures;
+#[path = "refusals/structures.rs"]
+mod structures;
+
 use std::ffi::CStr;
 use std::path::Path;
 use std::ptr::{null, null_mut, without_provenance_mut};
@@ -30,6 +43,7 @@ struct Handles {
     cloth: *mut texere_cloth,
     yarns: *mut texere_yarns,
     plan: *mut texere_plan,
+    renderer: *mut texere_renderer,
 }
 
 const DESIGN: &str = "weave = { notation = \"plain\", ends = 4, picks = 4 }\nfinish.settle = false\n\
@@ -45,6 +59,7 @@ impl Handles {
             cloth: null_mut(),
             yarns: null_mut(),
             plan: null_mut(),
+            renderer: null_mut(),
         };
         // SAFETY: all pointers are those of values that live as long as the calls.
         unsafe {
@@ -68,6 +83,8 @@ impl Handles {
             assert_eq!(texere_cloth_rest(all.design, all.device, all.run, &mut all.cloth), TEXERE_OK);
             assert_eq!(texere_cloth_yarns(all.cloth, &mut all.yarns), TEXERE_OK);
             assert_eq!(texere_plan_new(all.yarns, all.device, null(), &mut all.plan), TEXERE_OK);
+            assert_eq!(texere_renderer_open(null(), 0, &mut all.renderer), TEXERE_OK, "{}", message());
+            assert_eq!(texere_renderer_show(all.renderer, all.yarns, null(), null()), TEXERE_OK);
         }
         all
     }
@@ -192,6 +209,8 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
             }
         }),
     ));
+    cases.extend(structures::cases(own));
+    cases.extend(pictures::cases(own));
     // Settings and arrays out of range.
     for settings in [
         texere_settings { sides: 2, ..settings() },
@@ -241,7 +260,7 @@ fn settings() -> texere_settings {
 }
 
 /// Functions that can't fail.
-const CANT_FAIL: [&str; 9] = [
+const CANT_FAIL: [&str; 10] = [
     "texere_abi",
     "texere_version",
     "texere_error_message",
@@ -251,6 +270,7 @@ const CANT_FAIL: [&str; 9] = [
     "texere_cloth_free",
     "texere_yarns_free",
     "texere_plan_free",
+    "texere_renderer_free",
 ];
 
 #[test]
@@ -293,6 +313,7 @@ fn what_was_freed_is_refused_and_may_be_freed_again() {
             texere_run_free(own.run);
             texere_cloth_free(own.cloth);
             texere_yarns_free(own.yarns);
+            texere_renderer_free(own.renderer);
         }
         // The plan keeps what it needs.
         let mut counts: texere_counts = sized();

@@ -1,0 +1,448 @@
+//! Structures by arrays are the designs that texts of them are; what is wrong with them is named.
+
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
+
+use std::ffi::CStr;
+use std::fs;
+use std::path::Path;
+use std::ptr::{null, null_mut};
+
+use texere::Design;
+use texere_c::texere_status::*;
+use texere_c::*;
+
+fn message() -> String {
+    // SAFETY: the library ends it with a zero byte.
+    unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap().to_owned()
+}
+
+fn sized<T>() -> T {
+    // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
+    unsafe {
+        let mut value: T = std::mem::zeroed();
+        (&raw mut value).cast::<u32>().write(size_of::<T>() as u32);
+        value
+    }
+}
+
+fn read(text: &str) -> Design {
+    texere::read_from("text.toml", text.as_bytes(), |_| Err(std::io::ErrorKind::NotFound.into())).unwrap()
+}
+
+/// The yarns of a design as a file holds them, settled or not: points, twist, sections, materials.
+fn saved(design: *const texere_design, settled: bool) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.yarns");
+    let text = path.to_str().unwrap();
+    let (mut device, mut cloth, mut yarns) = (null_mut(), null_mut(), null_mut());
+    // SAFETY: all pointers are those of values that live as long as the calls.
+    unsafe {
+        assert_eq!(texere_device_open(c"cpu".as_ptr(), 3, &mut device), TEXERE_OK);
+        let made = if settled {
+            texere_cloth_rest(design, device, null(), &mut cloth)
+        } else {
+            texere_cloth_placed(design, &mut cloth)
+        };
+        assert_eq!(made, TEXERE_OK, "{}", message());
+        assert_eq!(texere_cloth_yarns(cloth, &mut yarns), TEXERE_OK);
+        assert_eq!(texere_yarns_write(yarns, text.as_ptr().cast(), text.len()), TEXERE_OK, "{}", message());
+        texere_yarns_free(yarns);
+        texere_cloth_free(cloth);
+        texere_device_free(device);
+    }
+    fs::read(path).unwrap()
+}
+
+/// The yarns of a design that Rust has read.
+fn saved_by_rust(design: &Design, settled: bool) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rust.yarns");
+    let device = texere::open("cpu").unwrap();
+    let cloth = match settled {
+        true => design.clone().rest(&*device).run(),
+        false => design.clone().placed(0.0),
+    };
+    texere::write::yarns(cloth.unwrap().yarns(), &path).unwrap();
+    fs::read(path).unwrap()
+}
+
+fn same(design: *const texere_design, text: &Design) {
+    for settled in [false, true] {
+        assert!(saved(design, settled) == saved_by_rust(text, settled), "settled: {settled}");
+    }
+}
+
+fn diameter(tex: f64, density: f64) -> f64 {
+    let mut diameter_mm = 0.0;
+    // SAFETY: the place lives as long as the call.
+    assert_eq!(unsafe { texere_diameter(tex, density, &mut diameter_mm) }, TEXERE_OK);
+    diameter_mm
+}
+
+/// 500 turns a metre, Z.
+const TWIST: f32 = (500.0 * std::f64::consts::TAU / 1000.0) as f32;
+
+fn materials() -> [texere_material; 2] {
+    [("a", 30.0, 5.0, [0xff, 0x80, 0x01]), ("bé", 0.0, 0.0, [1, 2, 3])].map(
+        |(name, tex, hairiness, srgb)| texere_material {
+            name: name.as_ptr().cast(),
+            name_length: name.len(),
+            tex,
+            hairiness,
+            srgb,
+            reserved: 0,
+        },
+    )
+}
+
+fn looks(materials: &[texere_material], sections: &[texere_section]) -> texere_looks {
+    texere_looks {
+        materials: materials.as_ptr(),
+        material_count: materials.len() as u64,
+        sections: sections.as_ptr(),
+        section_count: sections.len() as u64,
+    }
+}
+
+fn section(shape: u32) -> texere_section {
+    texere_section { shape, count: 0, aspect: 1.5, form: 0.0, corners: null() }
+}
+
+const YARNS: &str = "[yarns.a]\ntex = 30.0\ndensity = 0.9\ntwist_per_m = 500.0\ncolor = \"#ff8001\"\n\
+    [yarns.\"bé\"]\ndiameter_mm = 0.25\ncolor = \"#010203\"\nsection = { shape = \"ellipse\", aspect = 1.5 }\n";
+
+/// A woven design, whose arrays live as long as `call` runs.
+fn with_woven<T>(change: impl FnOnce(&mut texere_woven), call: impl FnOnce(&texere_woven) -> T) -> T {
+    let none: texere_thread = texere_thread {
+        spacing_mm: 0.6,
+        diameter_mm: diameter(30.0, 0.9),
+        flatness: 0.0,
+        stiffness: 0.0,
+        twist: TWIST,
+        material: 0,
+        section: 0,
+        reserved: 0,
+    };
+    let other = texere_thread { diameter_mm: 0.25, twist: 0.0, material: 1, section: 1, ..none };
+    let warp: Vec<_> = (0..11).map(|end| if end % 3 == 2 { other } else { none }).collect();
+    let weft: Vec<_> = (0..9).map(|pick| texere_thread { spacing_mm: [0.5, 0.7][pick % 2], ..none }).collect();
+    // A 2/2 right-hand twill, in rows of two bytes that lie three apart.
+    let up = |end: usize, pick: usize| (end + 4 - pick % 4) % 4 < 2;
+    let mut bits = [0xee_u8; 27];
+    for (pick, row) in bits.chunks_mut(3).enumerate() {
+        let row_bits = (0..11).filter(|&end| up(end, pick)).fold(0_u16, |bits, end| bits | 1 << end);
+        row[..2].copy_from_slice(&row_bits.to_le_bytes());
+    }
+    let (materials, sections) =
+        (materials(), [section(TEXERE_SECTION_CIRCLE), section(TEXERE_SECTION_ELLIPSE)]);
+    let mut woven = texere_woven {
+        selvedge: 1,
+        crimp: TEXERE_CRIMP_SHARE,
+        warp_share: 0.4,
+        name: "twill".as_ptr().cast(),
+        name_length: 5,
+        ends: 11,
+        picks: 9,
+        drawdown: texere_view { data: bits.as_mut_ptr().cast(), size: 26, stride: 3 },
+        warp: warp.as_ptr(),
+        weft: weft.as_ptr(),
+        looks: looks(&materials, &sections),
+        ..sized()
+    };
+    change(&mut woven);
+    call(&woven)
+}
+
+fn woven_text() -> String {
+    format!(
+        "weave = {{ notation = \"2/2\", ends = 11, picks = 9 }}\n\
+         cloth = {{ selvedge = true, warp_crimp = 0.4 }}\n\
+         warp = {{ yarns = [\"2 a\", \"bé\"], spacing_mm = 0.6 }}\n\
+         weft = {{ yarns = [\"a\"], spacing_mm = [0.5, 0.7] }}\n{YARNS}"
+    )
+}
+
+#[test]
+fn woven_cloth_by_arrays_is_that_of_its_text() {
+    let mut design = null_mut();
+    let made = with_woven(
+        |_| (),
+        // SAFETY: the arrays live as long as the call.
+        |woven| unsafe { texere_design_woven(woven, &mut design) },
+    );
+    assert_eq!(made, TEXERE_OK, "{}", message());
+    let text = read(&woven_text());
+    same(design, &text);
+    // As files, too: written by C and read by Rust, they give the same yarns.
+    let folder = tempfile::tempdir().unwrap();
+    for (name, settled) in [("c.toml", true), ("c.wif", false)] {
+        let path = folder.path().join(name);
+        let place = path.to_str().unwrap();
+        // SAFETY: the path lives as long as the call.
+        let written = unsafe { texere_design_write(design, place.as_ptr().cast(), place.len()) };
+        assert_eq!(written, TEXERE_OK, "{}", message());
+        let again = texere::read(&path).unwrap();
+        assert_eq!(again.settle, settled);
+        let [again, text] = [&again, &text].map(|design| design.structure.woven().unwrap().cloth().drawdown());
+        assert_eq!(again, text);
+    }
+}
+
+/// The chart of the tests: a cable, and under it a tuck and a miss.
+const STITCHES: [(u32, i32); 12] = [
+    (TEXERE_STITCH_KNIT, 0),
+    (TEXERE_STITCH_KNIT, 0),
+    (TEXERE_STITCH_KNIT, 0),
+    (TEXERE_STITCH_KNIT, 0),
+    (TEXERE_STITCH_TUCK, 0),
+    (TEXERE_STITCH_MISS, 0),
+    (TEXERE_STITCH_MOVED, 2),
+    (TEXERE_STITCH_MOVED, 2),
+    (TEXERE_STITCH_MOVED_BEHIND, -2),
+    (TEXERE_STITCH_MOVED_BEHIND, -2),
+    (TEXERE_STITCH_KNIT, 0),
+    (TEXERE_STITCH_PURL, 0),
+];
+
+fn knit_yarns() -> [texere_knit_yarn; 2] {
+    let none = texere_knit_yarn {
+        diameter_mm: diameter(30.0, 0.9),
+        twist: TWIST,
+        material: 0,
+        section: 0,
+        reserved: 0,
+    };
+    [none, texere_knit_yarn { diameter_mm: 0.25, twist: 0.0, material: 1, section: 1, ..none }]
+}
+
+fn with_weft<T>(
+    stitches: &[(u32, i32)],
+    change: impl FnOnce(&mut texere_weft_knit),
+    call: impl FnOnce(&texere_weft_knit) -> T,
+) -> T {
+    let stitches: Vec<_> = stitches.iter().map(|&(kind, moved)| texere_stitch { kind, moved }).collect();
+    let (materials, sections) =
+        (materials(), [section(TEXERE_SECTION_CIRCLE), section(TEXERE_SECTION_ELLIPSE)]);
+    let (turn, yarns) = ([0, 1, 1], knit_yarns());
+    let mut knit = texere_weft_knit {
+        beds: 1,
+        copies: [2, 1],
+        wales: 6,
+        courses: 2,
+        stitches: stitches.as_ptr(),
+        turn: turn.as_ptr(),
+        turn_count: 3,
+        yarns: yarns.as_ptr(),
+        yarn_count: 2,
+        wale_mm: 10.0 / 8.0,
+        course_mm: 10.0 / 10.0,
+        looks: looks(&materials, &sections),
+        ..sized()
+    };
+    change(&mut knit);
+    call(&knit)
+}
+
+#[test]
+fn weft_knits_by_arrays_are_those_of_their_texts() {
+    let mut design = null_mut();
+    let made = with_weft(
+        &STITCHES,
+        |_| (),
+        // SAFETY: the arrays live as long as the call.
+        |knit| unsafe { texere_design_weft_knit(knit, &mut design) },
+    );
+    assert_eq!(made, TEXERE_OK, "{}", message());
+    let text = "[knit]\nchart = \"\"\"\nRRrrkp\nkkkktm\"\"\"\nrepeat = [2, 1]\nwales_per_cm = 8.0\n\
+        courses_per_cm = 10.0\nyarns = [\"a\", \"2 bé\"]\n";
+    same(design, &read(&format!("{text}{YARNS}")));
+    // On two beds, with loops of a length and equally many points for each.
+    let stitches = [(TEXERE_STITCH_KNIT, 0), (TEXERE_STITCH_BOTH, 0), (TEXERE_STITCH_PURL, 0), (TEXERE_STITCH_BACK_TUCK, 0)];
+    let made = with_weft(
+        &stitches,
+        |knit| {
+            *knit = texere_weft_knit { beds: 2, cells: TEXERE_CELLS_EVEN, wales: 2, ..*knit };
+            (knit.turn, knit.turn_count, knit.loop_length_mm) = (null(), 0, 4.0);
+        },
+        // SAFETY: as above.
+        |knit| unsafe { texere_design_weft_knit(knit, &mut design) },
+    );
+    assert_eq!(made, TEXERE_OK, "{}", message());
+    let text = "[knit]\nchart = \"\"\"\npu\nkb\"\"\"\nbeds = 2\nrepeat = [2, 1]\nwales_per_cm = 8.0\n\
+        courses_per_cm = 10.0\nloop_length_mm = 4.0\ncells = \"even\"\nyarns = [\"a\"]\n";
+    let text = read(&format!("{text}{YARNS}"));
+    // The text drops the yarn that is not knitted; its points are the same.
+    let (mut cloth, mut yarns, mut counts) = (null_mut(), null_mut(), sized::<texere_yarn_counts>());
+    let own = text.placed(0.0).unwrap();
+    let mut points = vec![texere_point::default(); own.yarns().points().len()];
+    let mut offsets = vec![0; own.yarns().layout().offsets().len()];
+    // SAFETY: all pointers are those of values that live as long as the calls.
+    unsafe {
+        assert_eq!(texere_cloth_placed(design, &mut cloth), TEXERE_OK, "{}", message());
+        assert_eq!(texere_cloth_yarns(cloth, &mut yarns), TEXERE_OK);
+        assert_eq!(texere_yarns_counts(yarns, &mut counts), TEXERE_OK);
+        let (offset_count, point_count) = (offsets.len() as u64, points.len() as u64);
+        let copied =
+            texere_yarns_points(yarns, offsets.as_mut_ptr(), offset_count, points.as_mut_ptr(), point_count);
+        assert_eq!(copied, TEXERE_OK, "{}", message());
+    }
+    assert_eq!(offsets, own.yarns().layout().offsets());
+    for (point, own) in points.iter().zip(own.yarns().points()) {
+        assert_eq!([point.x, point.y, point.z].map(f32::to_bits), [own.x, own.y, own.z].map(f32::to_bits));
+    }
+}
+
+fn with_warp<T>(
+    change: impl FnOnce(&mut texere_warp_knit, &mut [texere_bar; 2], &mut [texere_lap; 2]),
+    call: impl FnOnce(&texere_warp_knit) -> T,
+) -> T {
+    let lap = |from, to| texere_lap { from, to };
+    let (mut front, back) = ([lap(1, 0), lap(2, 3)], [lap(1, 2), lap(1, 0)]);
+    let (threading, yarns) = ([0, TEXERE_NO_YARN, 1], knit_yarns());
+    let mut bars = [(&[][..], 0.0, 0), (&threading[..], 1500.0, 1)].map(|(threading, run_in_mm, offset)| {
+        texere_bar {
+            laps: null(),
+            lap_count: 2,
+            threading: threading.as_ptr(),
+            guide_count: threading.len() as u64,
+            run_in_mm,
+            offset,
+            reserved: 0,
+        }
+    });
+    bars[1].laps = back.as_ptr();
+    let (materials, sections) =
+        (materials(), [section(TEXERE_SECTION_CIRCLE), section(TEXERE_SECTION_ELLIPSE)]);
+    let mut knit = texere_warp_knit {
+        wales: 6,
+        courses: 4,
+        copies: [1, 2],
+        bar_count: 2,
+        yarns: yarns.as_ptr(),
+        yarn_count: 2,
+        wale_mm: 10.0 / 8.0,
+        course_mm: 10.0 / 10.0,
+        looks: looks(&materials, &sections),
+        ..sized()
+    };
+    change(&mut knit, &mut bars, &mut front);
+    bars[0].laps = front.as_ptr();
+    knit.bars = bars.as_ptr();
+    call(&knit)
+}
+
+#[test]
+fn a_warp_knit_by_arrays_is_that_of_its_text() {
+    let mut design = null_mut();
+    let made = with_warp(
+        |_, _, _| (),
+        // SAFETY: the arrays live as long as the call.
+        |knit| unsafe { texere_design_warp_knit(knit, &mut design) },
+    );
+    assert_eq!(made, TEXERE_OK, "{}", message());
+    let text = "[warp_knit]\nwales = 6\ncourses = 4\nrepeat = [1, 2]\nwales_per_cm = 8.0\n\
+        courses_per_cm = 10.0\n[[warp_knit.bars]]\nlapping = \"1-0/2-3//\"\nthreading = [\"a\"]\n\
+        [[warp_knit.bars]]\nlapping = \"1-2/1-0//\"\nthreading = [\"a\", \"out\", \"bé\"]\nrun_in_mm = 1500.0\n\
+        offset = 1\n";
+    same(design, &read(&format!("{text}{YARNS}")));
+    let path = "none.toml";
+    // SAFETY: the path lives as long as the call.
+    let written = unsafe { texere_design_write(design, path.as_ptr().cast(), path.len()) };
+    assert_eq!(written, TEXERE_UNSUPPORTED, "{}", message());
+    assert!(!Path::new(path).exists());
+}
+
+#[test]
+fn a_finish_is_that_of_its_text() {
+    let (text, mut design) = (woven_text(), null_mut());
+    let finish = "finish = { warp_tension = 2.0, weft_tension = 0.5, calender = 3.0, stretch_warp = 1.005 }\n";
+    let made = with_woven(
+        |_| (),
+        // SAFETY: the arrays live as long as the call.
+        |woven| unsafe { texere_design_woven(woven, &mut design) },
+    );
+    assert_eq!(made, TEXERE_OK, "{}", message());
+    let (mut usual, mut finished) = (sized::<texere_finish>(), null_mut());
+    // SAFETY: all pointers are those of values that live as long as the calls.
+    unsafe {
+        assert_eq!(texere_design_finish(design, &mut usual), TEXERE_OK);
+        let asked = texere_finish {
+            warp_tension: 2.0,
+            weft_tension: 0.5,
+            calender: 3.0,
+            stretch: TEXERE_STRETCH_WARP,
+            stretch_by: 1.005,
+            ..usual
+        };
+        assert_eq!(texere_design_finished(design, &asked, &mut finished), TEXERE_OK, "{}", message());
+        let mut found = sized::<texere_finish>();
+        assert_eq!(texere_design_finish(finished, &mut found), TEXERE_OK);
+        assert_eq!((found.stretch, found.stretch_by, found.calender), (TEXERE_STRETCH_WARP, 1.005, 3.0));
+    }
+    let text = read(&format!("{finish}{text}"));
+    assert!(saved(finished, true) == saved_by_rust(&text, true));
+    // The design that it was made from is as it was.
+    assert!(saved(design, true) != saved(finished, true));
+}
+
+/// Whether a call is refused as an argument, in these words.
+fn refused(status: texere_status, words: &str) {
+    assert_eq!(status, TEXERE_ARGUMENT, "{words}: {}", message());
+    assert_eq!(message(), words);
+}
+
+#[test]
+fn what_is_wrong_is_named_by_array_number_value_and_limit() {
+    // SAFETY: the arrays live as long as the calls.
+    let woven = |woven: &texere_woven| unsafe { texere_design_woven(woven, &mut null_mut()) };
+    let thread = |change: fn(&mut texere_thread)| {
+        with_woven(
+            |_| (),
+            |given| {
+                // SAFETY: the struct has nine picks.
+                let mut weft = unsafe { std::slice::from_raw_parts(given.weft, 9) }.to_vec();
+                change(&mut weft[3]);
+                woven(&texere_woven { weft: weft.as_ptr(), ..*given })
+            },
+        )
+    };
+    let at = "woven.weft[3]:";
+    let words = format!("{at} spacing of pick 4 is -1 mm, outside 0.000001 to 1000000 mm");
+    refused(thread(|thread| thread.spacing_mm = -1.0), &words);
+    refused(thread(|thread| thread.material = 2), &format!("{at} pick 4 is of material 2, but there are 2"));
+    refused(thread(|thread| thread.section = 9), &format!("{at} pick 4 has section 9, but there are 2"));
+    let words = format!("{at} pick 4 has a flatness of 11, outside 0.1 to 10");
+    refused(thread(|thread| thread.flatness = 11.0), &words);
+    refused(with_woven(|own| own.shape = 2, woven), "woven.shape is 2, expected 0 to 1");
+    let words = "woven: cloth of 0 ends and 9 picks; each must be 1 to 1000000";
+    refused(with_woven(|own| own.ends = 0, woven), words);
+    let words = "woven.drawdown.stride is 1, expected a multiple of 1 from 2 bytes";
+    refused(with_woven(|own| own.drawdown.stride = 1, woven), words);
+    let words = "woven.drawdown.size is 25 bytes, and 9 rows need 26";
+    refused(with_woven(|own| own.drawdown.size = 25, woven), words);
+    refused(with_woven(|own| own.warp = null(), woven), "woven.warp is null");
+
+    // SAFETY: as above.
+    let weft = |knit: &texere_weft_knit| unsafe { texere_design_weft_knit(knit, &mut null_mut()) };
+    let mut stitches = STITCHES;
+    stitches[8].0 = 12;
+    refused(with_weft(&stitches, |_| (), weft), "knit.stitches[8].kind is 12, expected 0 to 7");
+    stitches[8] = (TEXERE_STITCH_BOTH, 0);
+    let words = "knit.stitches[8]: row 1, column 3 of the chart: this stitch needs two beds";
+    refused(with_weft(&stitches, |_| (), weft), words);
+    let words = "knit.turn[1] is 1, but there are 1, counted from 0";
+    refused(with_weft(&STITCHES, |knit| knit.yarn_count = 1, weft), words);
+
+    // SAFETY: as above.
+    let warp = |knit: &texere_warp_knit| unsafe { texere_design_warp_knit(knit, &mut null_mut()) };
+    let words = "knit.bars[0].laps[1].to is 513, expected 0 to 512";
+    refused(with_warp(|_, _, laps| laps[1].to = 513, warp), words);
+    let words = "knit.bars[0].laps[1] goes round 3 needles, 2 at most are taken";
+    refused(with_warp(|_, _, laps| laps[1].to = 5, warp), words);
+    refused(
+        with_warp(|_, bars, _| bars[1].lap_count = 0, warp),
+        "knit.bars[1].lap_count is 0, expected 1 to 4096",
+    );
+    let words = "knit.bars[1].threading: a guide of guide bar 2 holds yarn 2, but there are 1";
+    refused(with_warp(|knit, _, _| knit.yarn_count = 1, warp), words);
+}

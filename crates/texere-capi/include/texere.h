@@ -353,6 +353,14 @@ typedef struct texere_settings {
   uint32_t caps;
 } texere_settings;
 
+// The box round yarns.
+typedef struct texere_extent {
+  // The least x, y and z, mm.
+  float low[3];
+  // The greatest x, y and z, mm.
+  float high[3];
+} texere_extent;
+
 // Values that lie in the caller's memory: in an array of their own, or as one member of the
 // structs of an array. `data` and `stride` are multiples of what the values are aligned to.
 typedef struct texere_view {
@@ -484,8 +492,9 @@ typedef struct texere_section {
   float aspect;
   // What the shape says.
   float form;
-  // Corners of a polygon, counter-clockwise, x and y each, in radii of the yarn.
-  const float (*corners)[2];
+  // Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, two numbers a
+  // corner.
+  const float *corners;
 } texere_section;
 
 // Materials and sections that yarns refer to by their number, from 0.
@@ -840,12 +849,11 @@ enum texere_status texere_renderer_show(const struct texere_renderer *renderer,
                                         const struct texere_settings *settings,
                                         const struct texere_run *run);
 
-// Writes the box round the yarns that a renderer shows: the least x, y and z, and the greatest, mm.
+// Writes the box round the yarns that a renderer shows.
 //
 // Fails with TEXERE_ARGUMENT where it shows none.
 enum texere_status texere_renderer_extent(const struct texere_renderer *renderer,
-                                          float (*low)[3],
-                                          float (*high)[3]);
+                                          struct texere_extent *extent);
 
 // Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
 // each pixel from the left, a byte each, sRGB; rows from the top. `pixels.stride` is the bytes from

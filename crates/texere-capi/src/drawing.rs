@@ -36,9 +36,9 @@ impl Drawing {
         Ok(())
     }
 
-    pub(crate) fn extent(&self) -> Result<[[f32; 3]; 2], Failure> {
+    pub(crate) fn extent(&self) -> Result<texere_extent, Failure> {
         let extent = self.scene.as_ref().ok_or_else(nothing_shown)?.extent();
-        Ok([extent.low, extent.high])
+        Ok(texere_extent { low: extent.low, high: extent.high })
     }
 
     pub(crate) fn picture(

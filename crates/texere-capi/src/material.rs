@@ -53,8 +53,9 @@ pub struct texere_section {
     pub aspect: f32,
     /// What the shape says.
     pub form: f32,
-    /// Corners of a polygon, counter-clockwise, x and y each, in radii of the yarn.
-    pub corners: *const [f32; 2],
+    /// Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, two numbers a
+    /// corner.
+    pub corners: *const f32,
 }
 
 /// Materials and sections that yarns refer to by their number, from 0.
@@ -146,7 +147,8 @@ impl texere_section {
             TEXERE_SECTION_LOBED => Section::Lobed { plies: count },
             TEXERE_SECTION_POLYGON => {
                 // SAFETY: the caller vouches for it.
-                let corners = unsafe { array(&format!("{name}.corners"), corners, count.into()) }?;
+                let corners: &[[f32; 2]] =
+                    unsafe { array(&format!("{name}.corners"), corners.cast(), count.into()) }?;
                 Section::Polygon(corners.to_vec())
             }
             other => {

@@ -92,6 +92,16 @@ pub struct texere_picture {
     pub height_mm: f32,
 }
 
+/// The box round yarns.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct texere_extent {
+    /// The least x, y and z, mm.
+    pub low: [f32; 3],
+    /// The greatest x, y and z, mm.
+    pub high: [f32; 3],
+}
+
 /// What a picture shows at a point.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -196,24 +206,19 @@ pub unsafe extern "C" fn texere_renderer_show(
     })
 }
 
-/// Writes the box round the yarns that a renderer shows: the least x, y and z, and the greatest, mm.
+/// Writes the box round the yarns that a renderer shows.
 ///
 /// Fails with TEXERE_ARGUMENT where it shows none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_extent(
     renderer: *const texere_renderer,
-    low: *mut [f32; 3],
-    high: *mut [f32; 3],
+    extent: *mut texere_extent,
 ) -> texere_status {
     guard(|| {
-        check("low", low)?;
-        check("high", high)?;
+        check("extent", extent)?;
         let found = alone(renderer, |drawing| drawing.extent())?;
         // SAFETY: neither null nor misaligned; the caller vouches for the rest.
-        unsafe {
-            low.write(found[0]);
-            high.write(found[1]);
-        }
+        unsafe { extent.write(found) };
         Ok(())
     })
 }

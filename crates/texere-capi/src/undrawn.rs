@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use texere::{BackendError, Settings, Yarns};
 
 use crate::failure::Failure;
-use crate::picture::{Pixels, texere_picture};
+use crate::picture::{Pixels, texere_extent, texere_picture};
 
 /// A renderer, of which this build has none.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ impl Drawing {
         match *self {}
     }
 
-    pub(crate) fn extent(&self) -> Result<[[f32; 3]; 2], Failure> {
+    pub(crate) fn extent(&self) -> Result<texere_extent, Failure> {
         match *self {}
     }
 

@@ -186,12 +186,13 @@ fn same_file(renderer: *const texere_renderer, asked: &texere_picture, own: &Pic
 fn a_point_of_a_picture_shows_the_yarn_that_rust_sees() {
     let (renderer, cloth, asked) = (renderer(), cloth(DESIGN), usual());
     let mut scene = scene(&cloth);
-    let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+    let mut extent = texere_extent::default();
     let mut seen = texere_seen { is_yarn: 7, ..texere_seen::default() };
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
-        assert_eq!(texere_renderer_extent(renderer, &mut low, &mut high), TEXERE_OK);
-        assert_eq!((low, high), (Extent::of(cloth.yarns()).low, Extent::of(cloth.yarns()).high));
+        assert_eq!(texere_renderer_extent(renderer, &mut extent), TEXERE_OK);
+        let own = Extent::of(cloth.yarns());
+        assert_eq!(extent, texere_extent { low: own.low, high: own.high });
         assert_eq!(texere_renderer_seen(renderer, 30.0, 20.0, &mut seen), TEXERE_OK);
         assert_eq!(seen.is_yarn, 0, "there is no picture yet");
         drawn(renderer, &asked, 240);

@@ -446,3 +446,40 @@ fn what_is_wrong_is_named_by_array_number_value_and_limit() {
     let words = "knit.bars[1].threading: a guide of guide bar 2 holds yarn 2, but there are 1";
     refused(with_warp(|knit, _, _| knit.yarn_count = 1, warp), words);
 }
+
+#[test]
+fn every_section_is_that_of_rust() {
+    use texere::yarn::Section;
+    let corners = [1.5_f32, 0.0, 0.0, 1.0, -1.5, 0.0, 0.0, -1.0];
+    let [circle, ellipse, lens, power, lobed, polygon] = [0, 1, 2, 3, 4, 5].map(|shape| texere_section {
+        count: 4,
+        form: 0.25,
+        corners: corners.as_ptr(),
+        ..section(shape)
+    });
+    let sections = [
+        (circle, Section::Circle),
+        (ellipse, Section::Ellipse { aspect: 1.5 }),
+        (lens, Section::Lenticular { aspect: 1.5, distortion: 0.25 }),
+        (power, Section::PowerEllipse { aspect: 1.5, exponent: 0.25 }),
+        (lobed, Section::Lobed { plies: 4 }),
+        (polygon, Section::Polygon(vec![[1.5, 0.0], [0.0, 1.0], [-1.5, 0.0], [0.0, -1.0]])),
+    ];
+    for (given, section) in sections {
+        let (all, mut design) = ([given; 2], null_mut());
+        let made = with_woven(
+            |woven| woven.looks.sections = all.as_ptr(),
+            // SAFETY: the arrays live as long as the call.
+            |woven| unsafe { texere_design_woven(woven, &mut design) },
+        );
+        assert_eq!(made, TEXERE_OK, "{}", message());
+        let text = read(&woven_text());
+        let cloth = text.structure.woven().unwrap().cloth();
+        let (warp, weft) = (cloth.warp().to_vec(), cloth.weft().to_vec());
+        let (materials, sections) = (cloth.materials().to_vec(), vec![section; 2]);
+        let cloth = cloth.with_threads(warp, weft, materials, sections).unwrap();
+        let woven = texere::woven::WovenDesign::new(cloth, None, texere::woven::Relief::Report).unwrap();
+        let own = Design::of("own", texere::Structure::Woven(woven));
+        assert!(saved(design, false) == saved_by_rust(&own, false));
+    }
+}

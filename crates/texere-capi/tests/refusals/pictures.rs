@@ -16,15 +16,14 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_renderer_open(null(), 0, null_mut()));
     case!(cases, texere_renderer_show(own.renderer, own.run.cast(), null(), null()));
     case!(cases, texere_renderer_show(own.renderer, own.yarns, &texere_settings { sides: 2, ..settings() }, null()));
-    case!(cases, texere_renderer_extent(own.renderer, null_mut(), &mut [0.0; 3]));
-    case!(cases, texere_renderer_extent(own.renderer, &mut [0.0; 3], null_mut()));
+    case!(cases, texere_renderer_extent(own.renderer, null_mut()));
     case!(cases, texere_renderer_seen(own.renderer, 0.0, 0.0, null_mut()));
     case!(cases, texere_renderer_picture(own.renderer, null(), null(), pixels));
     case!(cases, texere_renderer_write(own.renderer, null(), null(), png, length));
     let own_of_another_kind = own.run.cast();
     for renderer in [null_mut(), strange()[0], strange()[1], own_of_another_kind] {
         case!(cases, texere_renderer_show(renderer, own.yarns, null(), null()));
-        case!(cases, texere_renderer_extent(renderer, &mut [0.0; 3], &mut [0.0; 3]));
+        case!(cases, texere_renderer_extent(renderer, &mut texere_extent::default()));
         case!(cases, texere_renderer_seen(renderer, 0.0, 0.0, &mut texere_seen::default()));
         case!(cases, texere_renderer_picture(renderer, &picture(), null(), pixels));
         case!(cases, texere_renderer_write(renderer, &picture(), null(), png, length));

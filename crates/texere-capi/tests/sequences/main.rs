@@ -5,7 +5,8 @@
 //! sequences there are:
 //!
 //! ```sh
-//! TEXERE_SEQUENCES=1000 valgrind target/debug/deps/sequences-* --exact one_thread
+//! TEXERE_SEQUENCES=1000 valgrind --leak-check=full --errors-for-leak-kinds=definite \
+//!     target/debug/deps/sequences-* --exact one_thread
 //! ```
 //!
 //! A new function of the library needs an operation in `operations.rs`, and a new kind of handle a

@@ -234,7 +234,7 @@ impl Looks {
             count: caller.random.pick(&[2, 3, 4, 4, 4]),
             aspect: caller.random.number(1.5) as f32,
             form: caller.random.number(0.5) as f32,
-            corners: looks.corners.as_ptr(),
+            corners: looks.corners.as_ptr().cast(),
         };
         looks.sections.push(section);
         looks
@@ -550,8 +550,8 @@ fn pictures() -> Vec<Operation> {
             texere_renderer_show(renderer, yarns, if caller.random.one_in(2) { &settings } else { null() }, run)
         };
         texere_renderer_extent, 2, |caller| {
-            let (renderer, mut low) = (caller.handle(), [0.0; 3]);
-            caller.place([0.0; 3], |high| texere_renderer_extent(renderer, &mut low, high))
+            let renderer = caller.handle();
+            caller.place(texere_extent::default(), |extent| texere_renderer_extent(renderer, extent))
         };
         texere_renderer_picture, 4, |caller| {
             let (renderer, run, picture) = (caller.handle(), caller.handle_or_null(), picture(caller));

@@ -353,35 +353,6 @@ typedef struct texere_settings {
   uint32_t caps;
 } texere_settings;
 
-// The box round yarns.
-typedef struct texere_extent {
-  // The least x, y and z, mm.
-  float low[3];
-  // The greatest x, y and z, mm.
-  float high[3];
-} texere_extent;
-
-// Values that lie in the caller's memory: in an array of their own, or as one member of the
-// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
-typedef struct texere_view {
-  // The first value.
-  void *data;
-  // Bytes from `data` on that belong to the view: at least up to the end of the last value.
-  uint64_t size;
-  // Bytes from one value to the next: at least the size of a value.
-  uint64_t stride;
-} texere_view;
-
-// What a picture shows at a point.
-typedef struct texere_seen {
-  // The place on the yarn's surface, mm; how far it is from the eye follows.
-  double position[3];
-  // The yarn, from 0.
-  uint32_t yarn;
-  // 1 where a yarn is seen, else 0.
-  uint32_t is_yarn;
-} texere_seen;
-
 // Sizes of a mesh.
 typedef struct texere_counts {
   // Bytes of this struct, which the caller sets.
@@ -424,6 +395,35 @@ typedef struct texere_vertex {
   // Unit normal, out of the yarn.
   float normal[3];
 } texere_vertex;
+
+// The box round yarns.
+typedef struct texere_extent {
+  // The least x, y and z, mm.
+  float low[3];
+  // The greatest x, y and z, mm.
+  float high[3];
+} texere_extent;
+
+// Values that lie in the caller's memory: in an array of their own, or as one member of the
+// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+typedef struct texere_view {
+  // The first value.
+  void *data;
+  // Bytes from `data` on that belong to the view: at least up to the end of the last value.
+  uint64_t size;
+  // Bytes from one value to the next: at least the size of a value.
+  uint64_t stride;
+} texere_view;
+
+// What a picture shows at a point.
+typedef struct texere_seen {
+  // The place on the yarn's surface, mm; how far it is from the eye follows.
+  double position[3];
+  // The yarn, from 0.
+  uint32_t yarn;
+  // 1 where a yarn is seen, else 0.
+  uint32_t is_yarn;
+} texere_seen;
 
 // The movement of a guide at one course: from a needle space, in front of the needles, to another.
 // Space n lies between the needles n - 1 and n.
@@ -492,8 +492,8 @@ typedef struct texere_section {
   float aspect;
   // What the shape says.
   float form;
-  // Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, two numbers a
-  // corner.
+  // Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
+  // has two numbers a corner.
   const float *corners;
 } texere_section;
 
@@ -760,8 +760,8 @@ enum texere_status texere_design_read_memory(const char *name,
                                              struct texere_design **out);
 
 // Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
-// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name is
-// replaced once the new one is whole.
+// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
+// is replaced once the new one is whole.
 //
 // Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
 enum texere_status texere_design_write(const struct texere_design *design,
@@ -830,66 +830,6 @@ enum texere_status texere_diameter(double tex, double density, double *diameter_
 // samples each, with fibres, on the ground. The caller has set `picture->struct_size`.
 enum texere_status texere_picture_default(struct texere_picture *picture);
 
-// Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A `name_length`
-// of 0 is "auto".
-//
-// Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
-// built without pictures.
-enum texere_status texere_renderer_open(const char *name,
-                                        size_t name_length,
-                                        struct texere_renderer **out);
-
-// Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
-// null: what suits a picture holds then. Their topology and caps have no effect. `run` may be null.
-//
-// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
-// cancelled. The renderer then shows nothing.
-enum texere_status texere_renderer_show(const struct texere_renderer *renderer,
-                                        const struct texere_yarns *yarns,
-                                        const struct texere_settings *settings,
-                                        const struct texere_run *run);
-
-// Writes the box round the yarns that a renderer shows.
-//
-// Fails with TEXERE_ARGUMENT where it shows none.
-enum texere_status texere_renderer_extent(const struct texere_renderer *renderer,
-                                          struct texere_extent *extent);
-
-// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
-// each pixel from the left, a byte each, sRGB; rows from the top. `pixels.stride` is the bytes from
-// one row to the next, at least four times the width. Alpha is 255 unless the background is
-// nothing; colours are not multiplied by it. `run` may be null.
-//
-// Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
-// or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
-// `run` was cancelled. The memory is then as it was.
-enum texere_status texere_renderer_picture(const struct texere_renderer *renderer,
-                                           const struct texere_picture *picture,
-                                           const struct texere_run *run,
-                                           struct texere_view pixels);
-
-// Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
-// A file of that name is replaced once the new one is whole.
-//
-// Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
-enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
-                                         const struct texere_picture *picture,
-                                         const struct texere_run *run,
-                                         const char *path,
-                                         size_t path_length);
-
-// Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
-// edges. No yarn is seen outside the picture, and before the first one.
-//
-// Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
-enum texere_status texere_renderer_seen(const struct texere_renderer *renderer,
-                                        float x,
-                                        float y,
-                                        struct texere_seen *seen);
-
-// Frees a renderer, or nothing where it is null.
-void texere_renderer_free(struct texere_renderer *renderer);
-
 // Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
 // holds then.
 //
@@ -933,6 +873,67 @@ enum texere_status texere_plan_write(const struct texere_plan *plan,
 
 // Frees a plan, or nothing where it is null.
 void texere_plan_free(struct texere_plan *plan);
+
+// Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
+// `name_length` of 0 is "auto".
+//
+// Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
+// built without pictures.
+enum texere_status texere_renderer_open(const char *name,
+                                        size_t name_length,
+                                        struct texere_renderer **out);
+
+// Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
+// null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
+// null.
+//
+// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
+// cancelled. The renderer then shows nothing.
+enum texere_status texere_renderer_show(const struct texere_renderer *renderer,
+                                        const struct texere_yarns *yarns,
+                                        const struct texere_settings *settings,
+                                        const struct texere_run *run);
+
+// Writes the box round the yarns that a renderer shows.
+//
+// Fails with TEXERE_ARGUMENT where it shows none.
+enum texere_status texere_renderer_extent(const struct texere_renderer *renderer,
+                                          struct texere_extent *extent);
+
+// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
+// each pixel from the left, a byte each, sRGB; rows from the top. `pixels.stride` is the bytes
+// from one row to the next, at least four times the width. Alpha is 255 unless the background is
+// nothing; colours are not multiplied by it. `run` may be null.
+//
+// Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
+// or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
+// `run` was cancelled. The memory is then as it was.
+enum texere_status texere_renderer_picture(const struct texere_renderer *renderer,
+                                           const struct texere_picture *picture,
+                                           const struct texere_run *run,
+                                           struct texere_view pixels);
+
+// Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
+// A file of that name is replaced once the new one is whole.
+//
+// Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
+                                         const struct texere_picture *picture,
+                                         const struct texere_run *run,
+                                         const char *path,
+                                         size_t path_length);
+
+// Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
+// edges. No yarn is seen outside the picture, and before the first one.
+//
+// Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+enum texere_status texere_renderer_seen(const struct texere_renderer *renderer,
+                                        float x,
+                                        float y,
+                                        struct texere_seen *seen);
+
+// Frees a renderer, or nothing where it is null.
+void texere_renderer_free(struct texere_renderer *renderer);
 
 // Makes a run.
 //

@@ -95,8 +95,8 @@ pub unsafe extern "C" fn texere_design_read_memory(
 }
 
 /// Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
-/// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name is
-/// replaced once the new one is whole.
+/// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
+/// is replaced once the new one is whole.
 ///
 /// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
 #[unsafe(no_mangle)]

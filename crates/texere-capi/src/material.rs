@@ -53,8 +53,8 @@ pub struct texere_section {
     pub aspect: f32,
     /// What the shape says.
     pub form: f32,
-    /// Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, two numbers a
-    /// corner.
+    /// Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
+    /// has two numbers a corner.
     pub corners: *const f32,
 }
 

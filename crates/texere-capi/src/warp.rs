@@ -115,7 +115,9 @@ fn no_chain(name: &str, laps: &[Lap]) -> Failure {
         let lap_name = format!("{name}.laps[{number}]");
         for (member, value) in [("from", lap.from), ("to", lap.to)] {
             if !space(value) {
-                return Failure::argument(format!("{lap_name}.{member} is {value}, expected 0 to {SPACE_MAX}"));
+                return Failure::argument(format!(
+                    "{lap_name}.{member} is {value}, expected 0 to {SPACE_MAX}"
+                ));
             }
         }
         if lap.overlap().abs() > NEEDLES_MOST {
@@ -148,8 +150,7 @@ impl texere_warp_knit {
         let yarns = yarns.iter().map(texere_knit_yarn::read).collect();
         let gauge = Gauge::new(self.wale_mm, self.course_mm);
         let Self { wales, courses, copies, .. } = *self;
-        let knit =
-            WarpKnitted::new(bars.clone(), gauge, wales, courses, yarns, materials, sections, copies);
+        let knit = WarpKnitted::new(bars.clone(), gauge, wales, courses, yarns, materials, sections, copies);
         let knit = knit.map_err(|error| refused("knit", error, &bars))?;
         let cells = choice("knit.cells", self.cells, &[Cells::Round, Cells::Even])?;
         Ok(Design::of(name, Structure::Warp(knit.with_cells(cells))))

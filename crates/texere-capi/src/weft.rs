@@ -124,8 +124,7 @@ impl texere_weft_knit {
             2 => Beds::Two,
             other => return Err(Failure::argument(format!("knit.beds is {other}, expected 1 or 2"))),
         };
-        if let Some((number, yarn)) = (0..).zip(turn).find(|(_, yarn)| u64::from(**yarn) >= self.yarn_count)
-        {
+        if let Some((number, yarn)) = (0..).zip(turn).find(|(_, yarn)| u64::from(**yarn) >= self.yarn_count) {
             return Err(Failure::argument(format!(
                 "knit.turn[{number}] is {yarn}, but there are {}, counted from 0",
                 self.yarn_count
@@ -139,9 +138,9 @@ impl texere_weft_knit {
         let loop_length_mm = (self.loop_length_mm != 0.0).then_some(self.loop_length_mm);
         let gauge = Gauge { wale_mm: self.wale_mm, course_mm: self.course_mm, loop_length_mm };
         let yarns = yarns.iter().map(texere_knit_yarn::read).collect();
-        let knit = Machine::default().knit(&program).and_then(|knit| {
-            Knitted::new(knit.stitches, gauge, yarns, materials, sections, self.copies)
-        });
+        let knit = Machine::default()
+            .knit(&program)
+            .and_then(|knit| Knitted::new(knit.stitches, gauge, yarns, materials, sections, self.copies));
         let knit = knit.map_err(|error| refused("knit", error, &[]))?;
         let cells = choice("knit.cells", self.cells, &[Cells::Round, Cells::Even])?;
         Ok(Design::of(name, Structure::Weft(knit.with_cells(cells))))

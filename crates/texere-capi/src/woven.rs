@@ -114,8 +114,7 @@ impl texere_woven {
     /// Arrays and texts are valid for reads.
     unsafe fn read(&self) -> Result<Design, Failure> {
         // A count that no memory holds is refused as a size that no cloth has.
-        let [ends, picks] =
-            [self.ends, self.picks].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+        let [ends, picks] = [self.ends, self.picks].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
         let refuse = |error| refused("woven", error, &[]);
         let mut drawdown = Drawdown::new(ends, picks).map_err(refuse)?;
         // SAFETY: the caller vouches for all of them.

@@ -3,7 +3,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
-use std::ffi::CStr;
+mod common;
+#[path = "common/reading.rs"]
+mod reading;
+
 use std::fs;
 use std::path::Path;
 use std::ptr::{null, null_mut};
@@ -13,41 +16,12 @@ use texere::{Cloth, Settings};
 use texere_c::texere_status::*;
 use texere_c::*;
 
+use common::{message, sized};
+use reading::read;
+
 const DESIGN: &str = "weave = { notation = \"2/1\", ends = 6, picks = 6 }\nfinish.settle = false\n\
     yarns.a.diameter_mm = 0.3\nyarns.a.color = \"#a03010\"\nyarns.a.twist_per_m = 300.0\n\
     warp = { yarns = [\"a\"], spacing_mm = 0.5 }\nweft = { yarns = [\"a\"], spacing_mm = 0.5 }\n";
-
-fn message() -> String {
-    // SAFETY: the library ends it with a zero byte.
-    unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap().to_owned()
-}
-
-fn sized<T>() -> T {
-    // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
-    unsafe {
-        let mut value: T = std::mem::zeroed();
-        (&raw mut value).cast::<u32>().write(size_of::<T>() as u32);
-        value
-    }
-}
-
-fn design(text: &str) -> *mut texere_design {
-    let (name, mut design) = ("text.toml", null_mut());
-    // SAFETY: all pointers are those of values that live as long as the call.
-    let read = unsafe {
-        texere_design_read_memory(
-            name.as_ptr().cast(),
-            name.len(),
-            text.as_ptr(),
-            text.len(),
-            None,
-            null_mut(),
-            &mut design,
-        )
-    };
-    assert_eq!(read, TEXERE_OK, "{}", message());
-    design
-}
 
 fn cloth(text: &str) -> Cloth {
     let missing = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
@@ -59,7 +33,7 @@ fn renderer() -> *mut texere_renderer {
     let (mut cloth, mut yarns, mut renderer) = (null_mut(), null_mut(), null_mut());
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
-        assert_eq!(texere_cloth_placed(design(DESIGN), &mut cloth), TEXERE_OK);
+        assert_eq!(texere_cloth_placed(read(DESIGN), &mut cloth), TEXERE_OK);
         assert_eq!(texere_cloth_yarns(cloth, &mut yarns), TEXERE_OK);
         assert_eq!(texere_renderer_open(null(), 0, &mut renderer), TEXERE_OK, "{}", message());
         assert_eq!(texere_renderer_show(renderer, yarns, null(), null()), TEXERE_OK, "{}", message());
@@ -232,7 +206,10 @@ fn a_cancelled_run_ends_a_picture_and_leaves_memory_and_file_alone() {
     }
     // The renderer goes on as if nothing had been.
     let whole = drawn(renderer, &asked, 240);
-    assert!(whole.chunks(4).all(|pixel| pixel[3] == 255) && whole != drawn(renderer, &texere_picture { turned_over: 1, ..asked }, 240));
+    assert!(
+        whole.chunks(4).all(|pixel| pixel[3] == 255)
+            && whole != drawn(renderer, &texere_picture { turned_over: 1, ..asked }, 240)
+    );
 }
 
 #[test]
@@ -247,7 +224,7 @@ fn drafts_of_every_structure_are_those_of_rust() {
     for text in [DESIGN, knit, warp] {
         for (back, side) in [(0, texere::write::Side::Face), (1, texere::write::Side::Back)] {
             // SAFETY: the path lives as long as the call.
-            let drawn = unsafe { texere_design_draft(design(text), back, path.as_ptr().cast(), path.len()) };
+            let drawn = unsafe { texere_design_draft(read(text), back, path.as_ptr().cast(), path.len()) };
             assert_eq!(drawn, TEXERE_OK, "{}", message());
             let cloth = cloth(text);
             let structure = &cloth.design().structure;

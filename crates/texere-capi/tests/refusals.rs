@@ -10,6 +10,7 @@ macro_rules! case {
     };
 }
 
+mod common;
 #[path = "refusals/pictures.rs"]
 mod pictures;
 #[path = "refusals/structures.rs"]
@@ -22,17 +23,14 @@ use std::ptr::{null, null_mut, without_provenance_mut};
 use texere_c::texere_status::*;
 use texere_c::*;
 
+use common::{message, sized};
+
 /// A call, and the statuses that it may end with.
 type Case = (&'static str, Box<dyn Fn() -> texere_status>);
 
 /// A handle that was freed, and one that never was any.
 fn strange<H>() -> [*mut H; 2] {
     [without_provenance_mut(usize::MAX & !15), without_provenance_mut(8)]
-}
-
-fn message() -> String {
-    // SAFETY: the library ends it with a zero byte.
-    unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap().to_owned()
 }
 
 /// All handles of a small cloth on `cpu`.
@@ -243,16 +241,6 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     };
     case!(texere_yarns_new(&many, &mut null_mut()));
     cases
-}
-
-/// A struct of zeros that says its size.
-fn sized<T>() -> T {
-    // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
-    unsafe {
-        let mut value: T = std::mem::zeroed();
-        (&raw mut value).cast::<u32>().write(size_of::<T>() as u32);
-        value
-    }
 }
 
 fn settings() -> texere_settings {

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
-use std::ffi::CStr;
+mod common;
+#[path = "common/reading.rs"]
+mod reading;
+
 use std::ptr::{null, null_mut};
 use std::sync::Barrier;
 use std::thread;
@@ -10,19 +13,8 @@ use std::thread;
 use texere_c::texere_status::*;
 use texere_c::*;
 
-fn message() -> String {
-    // SAFETY: the library ends it with a zero byte.
-    unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap().to_owned()
-}
-
-fn sized<T>() -> T {
-    // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
-    unsafe {
-        let mut value: T = std::mem::zeroed();
-        (&raw mut value).cast::<u32>().write(size_of::<T>() as u32);
-        value
-    }
-}
+use common::{message, sized};
+use reading::read;
 
 /// A plain cloth of so many ends and picks.
 fn woven(threads: u32, settles: bool) -> String {
@@ -56,25 +48,14 @@ fn device() -> Shared<texere_device> {
     Shared(device)
 }
 
-fn read(text: &str) -> Shared<texere_design> {
-    let (name, mut design) = ("text.toml", null_mut());
-    // SAFETY: all pointers are those of values that live as long as the call.
-    let read = unsafe {
-        let (name, length) = (name.as_ptr().cast(), name.len());
-        texere_design_read_memory(name, length, text.as_ptr(), text.len(), None, null_mut(), &mut design)
-    };
-    assert_eq!(read, TEXERE_OK, "{}", message());
-    Shared(design)
-}
-
 fn placed(text: &str) -> Shared<texere_yarns> {
     let (design, mut cloth, mut yarns) = (read(text), null_mut(), null_mut());
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
-        assert_eq!(texere_cloth_placed(design.0, &mut cloth), TEXERE_OK, "{}", message());
+        assert_eq!(texere_cloth_placed(design, &mut cloth), TEXERE_OK, "{}", message());
         assert_eq!(texere_cloth_yarns(cloth, &mut yarns), TEXERE_OK);
         texere_cloth_free(cloth);
-        texere_design_free(design.0);
+        texere_design_free(design);
     }
     Shared(yarns)
 }
@@ -160,7 +141,7 @@ fn a_run_that_another_thread_cancels_ends_rest() {
     for text in [&woven(60, true), knit] {
         let (design, mut cloth) = (read(text), null_mut());
         // SAFETY: all pointers are those of values that live as long as the call.
-        let ended = cancelled(|run| unsafe { texere_cloth_rest(design.0, device.0, run, &mut cloth) });
+        let ended = cancelled(|run| unsafe { texere_cloth_rest(design, device.0, run, &mut cloth) });
         assert_eq!(ended, TEXERE_CANCELLED, "{}", message());
         assert!(cloth.is_null());
     }

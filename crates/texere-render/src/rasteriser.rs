@@ -105,8 +105,7 @@ impl Rasteriser {
         }
         let before = prelude(Language::Wgsl, flattened);
         let call = "Device::create_compute_pipeline";
-        let module =
-            |source: &str| device.scoped(call, || module(device.device(), before.clone() + source));
+        let module = |source: &str| device.scoped(call, || module(device.device(), before.clone() + source));
         let mut pipeline = |module: &wgpu::ShaderModule, entry_point: &str| {
             let compiled = device.scoped(call, || pipeline(device.device(), module, entry_point))?;
             watch.ask().map(|()| compiled)

@@ -406,8 +406,8 @@ impl Scene {
             for band in screen.bands() {
                 let drawn = raster.draw(renderer, &pipelines, tables, chunk, screen, band)?;
                 // No more than two chunks are in progress, so that each wait is for one chunk and
-                // not for a whole fabric. A CPU's driver takes the second one when the first is done: only
-                // the first can be waited for with an ear for the caller.
+                // not for a whole fabric. On a CPU the driver's call that submits a second one only
+                // returns when the first is done, so that the caller could not end it.
                 let waited = if is_cpu { Some(drawn) } else { before.replace(drawn) };
                 if let Some(submission) = waited {
                     watch.wait(&renderer.device, &submission)?;

@@ -5,7 +5,8 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::TEXERE_OK;
 use texere_c::*;
 
-use super::{Case, Handles, settings, sized, strange};
+use super::{Case, Handles, settings, strange};
+use crate::common::sized;
 
 pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -15,7 +16,10 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_picture_default(null_mut()));
     case!(cases, texere_renderer_open(null(), 0, null_mut()));
     case!(cases, texere_renderer_show(own.renderer, own.run.cast(), null(), null()));
-    case!(cases, texere_renderer_show(own.renderer, own.yarns, &texere_settings { sides: 2, ..settings() }, null()));
+    case!(
+        cases,
+        texere_renderer_show(own.renderer, own.yarns, &texere_settings { sides: 2, ..settings() }, null())
+    );
     case!(cases, texere_renderer_extent(own.renderer, null_mut()));
     case!(cases, texere_renderer_seen(own.renderer, 0.0, 0.0, null_mut()));
     case!(cases, texere_renderer_picture(own.renderer, null(), null(), pixels));

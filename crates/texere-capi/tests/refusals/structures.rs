@@ -5,7 +5,8 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::TEXERE_OK;
 use texere_c::*;
 
-use super::{Case, Handles, sized, strange};
+use super::{Case, Handles, strange};
+use crate::common::sized;
 
 pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -27,9 +28,18 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     }
     for size in [0, 4, u32::MAX] {
         case!(cases, texere_design_woven(&texere_woven { struct_size: size, ..sized() }, &mut null_mut()));
-        case!(cases, texere_design_weft_knit(&texere_weft_knit { struct_size: size, ..sized() }, &mut null_mut()));
-        case!(cases, texere_design_warp_knit(&texere_warp_knit { struct_size: size, ..sized() }, &mut null_mut()));
-        case!(cases, texere_design_finish(own.design, &mut texere_finish { struct_size: size, ..finish(own) }));
+        case!(
+            cases,
+            texere_design_weft_knit(&texere_weft_knit { struct_size: size, ..sized() }, &mut null_mut())
+        );
+        case!(
+            cases,
+            texere_design_warp_knit(&texere_warp_knit { struct_size: size, ..sized() }, &mut null_mut())
+        );
+        case!(
+            cases,
+            texere_design_finish(own.design, &mut texere_finish { struct_size: size, ..finish(own) })
+        );
         let finish = texere_finish { struct_size: size, ..finish(own) };
         case!(cases, texere_design_finished(own.design, &finish, &mut null_mut()));
     }

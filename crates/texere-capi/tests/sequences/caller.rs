@@ -1,13 +1,13 @@
 //! A caller: draws handles, texts and numbers by chance, right ones and wrong ones.
 
-use std::ffi::{CStr, c_char};
+use std::ffi::c_char;
 use std::path::Path;
 use std::ptr::{null, null_mut, without_provenance_mut};
 use std::sync::Mutex;
 
-use texere_c::texere_error_message;
 use texere_c::texere_status::{self, TEXERE_ARGUMENT, TEXERE_OK, TEXERE_PANIC};
 
+use crate::common::{message, sized};
 use crate::kinds::{KINDS, Kind, free};
 use crate::operations::Operation;
 
@@ -154,8 +154,7 @@ impl<'a> Caller<'a> {
     pub(crate) fn call(&mut self, operation: &Operation) -> texere_status {
         self.is_sound = true;
         let (name, status) = (operation.name, (operation.call)(self));
-        // SAFETY: the library ends it with a zero byte.
-        let message = unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap();
+        let message = message();
         assert_ne!(status, TEXERE_PANIC, "{name}: {message}");
         assert!(status == TEXERE_OK || !message.is_empty(), "{name} says nothing");
         if operation.fails && !self.is_sound && !self.pool.is_shared {
@@ -248,12 +247,10 @@ impl<'a> Caller<'a> {
             self.is_sound = false;
             size = self.random.pick(&[0, size - 1, size + 1, u32::MAX]);
         }
-        // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
-        unsafe {
-            let mut value: T = std::mem::zeroed();
-            (&raw mut value).cast::<u32>().write(size);
-            value
-        }
+        let mut value: T = sized();
+        // SAFETY: the struct begins with a `u32`.
+        unsafe { (&raw mut value).cast::<u32>().write(size) };
+        value
     }
 
     /// One of `texts`, or now and then none, or what is no text.

@@ -15,6 +15,8 @@
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 mod caller;
+#[path = "../common/mod.rs"]
+mod common;
 mod kinds;
 mod operations;
 mod watchdog;

@@ -35,7 +35,8 @@ impl Watched {
         let weak = Arc::downgrade(&watched);
         thread::spawn(move || {
             while let Some(watched) = weak.upgrade() {
-                let late = watched.with(|sequence| sequence.since.is_some_and(|since| since.elapsed() > LIMIT));
+                let late =
+                    watched.with(|sequence| sequence.since.is_some_and(|since| since.elapsed() > LIMIT));
                 if late {
                     eprintln!("a call does not end: {}", watched.told());
                     std::process::abort();

@@ -149,7 +149,7 @@ pub(crate) fn with_weft<T>(
         yarns: yarns.as_ptr(),
         yarn_count: 2,
         wale_mm: 10.0 / 8.0,
-        course_mm: 10.0 / 10.0,
+        course_mm: 1.0,
         looks: looks(&materials, &sections),
         ..sized()
     };
@@ -186,7 +186,7 @@ pub(crate) fn with_warp<T>(
         yarns: yarns.as_ptr(),
         yarn_count: 2,
         wale_mm: 10.0 / 8.0,
-        course_mm: 10.0 / 10.0,
+        course_mm: 1.0,
         looks: looks(&materials, &sections),
         ..sized()
     };

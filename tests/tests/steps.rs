@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use texere_conformance::cases;
 use texere_core::backend::Chunk;
 use texere_core::{
-    Backend, Limits, MeshPiece, Pipeline, PipelineError, Progress, Topology, Vertex, Yarn, Yarns,
+    Backend, ControlPoint, Limits, MeshPiece, Pipeline, PipelineError, Progress, Topology, Vertex, Yarn,
+    Yarns,
 };
 
 /// A yarn whose mesh takes half a gigabyte in each of its two buffers.
@@ -104,4 +105,38 @@ fn a_stop_is_heard_at_the_next_chunk() {
         .mesh(&*device);
     assert!(matches!(cancelled, Err(PipelineError::Cancelled)));
     assert!(last > total / 2 && last <= total / 2 + STEP_RINGS, "{last} of {total}");
+}
+
+/// Yarns with twist, each of a few steps of the scan's.
+fn twisted() -> Yarns {
+    let mut yarns = Yarns::builder();
+    for y in 0..6 {
+        let points: Vec<_> = (0..80_000).map(|x| ControlPoint::new(x as f32, y as f32, 0.0, 0.1)).collect();
+        yarns.yarn(Yarn { twist: 0.5, ..Yarn::default() }, &points);
+    }
+    yarns.build().unwrap()
+}
+
+/// The reports that come before the first ring is delivered, until `last` answers true.
+fn early(device: &dyn Backend, yarns: &Yarns, last: impl Fn(usize) -> bool + Send + Sync) -> usize {
+    let mut reports = 0;
+    let pipeline = Pipeline::new(yarns).subdivisions(1).progress(|progress| {
+        reports += usize::from(progress.rings == 0);
+        if progress.rings > 0 || last(reports) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(matches!(pipeline.attributes(device), Err(PipelineError::Cancelled)));
+    reports
+}
+
+#[test]
+fn a_scan_is_watched_and_ends_where_it_is_asked_to() {
+    let (yarns, points) = (twisted(), 480_000_usize.div_ceil(1 << 20));
+    for name in ["cpu", "cpu-serial"] {
+        let device = texere::open(name).unwrap();
+        // A yarn has 160,000 rings, more than go by unasked: scan and lengths ask before each.
+        assert_eq!(early(&*device, &yarns, |_| false), points + 6 + 6, "{name}");
+        for last in [points, points + 1, points + 6, points + 7] {
+            assert_eq!(early(&*device, &yarns, |reports| reports == last), last, "{name}");
+        }
+    }
 }

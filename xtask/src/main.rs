@@ -4,6 +4,7 @@
 mod bench_tables;
 mod bundle;
 mod demo;
+mod hosts;
 mod install;
 mod instructions;
 mod mutants;
@@ -38,7 +39,9 @@ fn main() -> ExitCode {
             install(&mut steps, "valgrind", &["valgrind"]);
             instructions::check(&mut steps);
             demo::demo(&mut steps);
+            programs(&mut steps);
         }
+        Some("hosts") => programs(&mut steps),
         Some("demo") => demo::demo(&mut steps),
         Some("gallery") => demo::gallery(&mut steps),
         Some("bench-tables") => {
@@ -61,14 +64,15 @@ fn main() -> ExitCode {
         }
         _ => {
             eprintln!(
-                "usage: cargo xtask <demo | gallery | test | check | sources | mutate | instructions | bench-tables | bundle | install>"
+                "usage: cargo xtask <demo | gallery | test | check | hosts | sources | mutate | instructions | bench-tables | bundle | install>"
             );
             eprintln!("  demo   a picture of denim at rest; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
             eprintln!(
-                "  check  formatting, lints, docs, licences, spelling, packages, instruction counts and the README's main command"
+                "  check  formatting, lints, docs, licences, spelling, packages, instruction counts, the README's main command and programs that link the C library"
             );
+            eprintln!("  hosts  programs in C, C++ and C# that link the installed library");
             eprintln!("  sources  circles of files, long functions and wide comments");
             eprintln!(
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
@@ -80,7 +84,9 @@ fn main() -> ExitCode {
                 "  bench-tables [--device NAME]…  the paper's tables and figures on this machine's devices"
             );
             eprintln!("  bundle  packs what tests and measures a machine that has a GPU and nothing else");
-            eprintln!("  install --prefix DIR  lays the C library where compilers look for it");
+            eprintln!(
+                "  install --prefix DIR  lays the library for C, C++ and C# where compilers look for it"
+            );
             return ExitCode::from(2);
         }
     }
@@ -144,6 +150,12 @@ fn features(steps: &mut Steps) {
     if linked.len() > LINKED_MOST {
         steps.fail(format!("texere links {} packages, more than {LINKED_MOST}: {linked:?}", linked.len()));
     }
+}
+
+/// Builds and runs programs in other languages that link the library.
+fn programs(steps: &mut Steps) {
+    install(steps, "compilers", &hosts::PACKAGES);
+    hosts::check(steps);
 }
 
 /// Runs the checks that are no tests.

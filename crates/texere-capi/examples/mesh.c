@@ -10,7 +10,7 @@ static void check(enum texere_status status) {
     if (status == TEXERE_OK) return;
     struct texere_place place;
     texere_error_place(&place);
-    if (place.file) fprintf(stderr, "%s:%llu: ", place.file, (unsigned long long)place.line);
+    if (place.line) fprintf(stderr, "%s:%llu: ", place.file, (unsigned long long)place.line);
     fprintf(stderr, "%s\n", texere_error_message());
     exit(status);
 }

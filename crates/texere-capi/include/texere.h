@@ -57,6 +57,12 @@
 // Woven cloth is stretched along its weft.
 #define TEXERE_STRETCH_WEFT 2
 
+// Buffers are `cl_mem`.
+#define TEXERE_NATIVE_OPENCL 1
+
+// Buffers are `VkBuffer`.
+#define TEXERE_NATIVE_VULKAN 2
+
 // A circle.
 #define TEXERE_SECTION_CIRCLE 0
 
@@ -128,7 +134,7 @@
 #define TEXERE_CELLS_EVEN 1
 
 // The yarn of an empty guide.
-#define TEXERE_NO_YARN UINT32_MAX
+#define TEXERE_NO_YARN 4294967295
 
 // The front needle knits.
 #define TEXERE_STITCH_KNIT 0
@@ -175,6 +181,12 @@
 // The warp has `warp_share` of the crimp.
 #define TEXERE_CRIMP_SHARE 1
 
+// glTF 2.0 in one binary file, `.glb`.
+#define TEXERE_FORMAT_GLB 0
+
+// Binary PLY, `.ply`.
+#define TEXERE_FORMAT_PLY 1
+
 // How a call ended.
 typedef enum texere_status {
   // The call did what it is for.
@@ -209,6 +221,9 @@ typedef struct texere_design texere_design;
 typedef struct texere_device texere_device;
 
 // The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+//
+// A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
+// 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
 typedef struct texere_plan texere_plan;
 
 // A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
@@ -218,6 +233,13 @@ typedef struct texere_renderer texere_renderer;
 // A call that takes long, as other threads see it: how far it has come, and whether it is to end.
 // One run may be given to one call after another; each starts it at 0.
 typedef struct texere_run texere_run;
+
+// A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
+// time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+//
+// One thread at a time may use a session. A call while another thread's is under way fails with
+// TEXERE_ARGUMENT.
+typedef struct texere_session texere_session;
 
 // Yarns: their control points, sections and materials.
 typedef struct texere_yarns texere_yarns;
@@ -296,6 +318,40 @@ typedef struct texere_finish {
   double stretch_by;
 } texere_finish;
 
+// A vertex of a tube.
+typedef struct texere_vertex {
+  // Position, mm.
+  float position[3];
+  // Unit normal, out of the yarn.
+  float normal[3];
+} texere_vertex;
+
+// Values that lie in the caller's memory: in an array of their own, or as one member of the
+// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+typedef struct texere_view {
+  // The first value.
+  void *data;
+  // Bytes from `data` on that belong to the view: at least up to the end of the last value.
+  uint64_t size;
+  // Bytes from one value to the next: at least the size of a value.
+  uint64_t stride;
+} texere_view;
+
+// Where a mesh goes: arrays of their own, or members of the caller's structs. None of them overlaps
+// another one's values.
+typedef struct texere_mesh_arrays {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Positions, mm: three `float` for each vertex.
+  struct texere_view positions;
+  // Unit normals, out of the yarn: three `float` for each vertex. Null `data`: left out.
+  struct texere_view normals;
+  // Indices, a `uint32_t` each. Null `data`: left out.
+  struct texere_view indices;
+} texere_mesh_arrays;
+
 // What a picture shows, and how. `texere_picture_default` fills it in.
 typedef struct texere_picture {
   // Bytes of this struct, which the caller sets.
@@ -351,6 +407,8 @@ typedef struct texere_settings {
   uint32_t topology;
   // 1 if the ends of yarns are closed, else 0.
   uint32_t caps;
+  // The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
+  float quantum_mm;
 } texere_settings;
 
 // Sizes of a mesh.
@@ -361,7 +419,7 @@ typedef struct texere_counts {
   uint32_t reserved;
   // Rings of all yarns.
   uint64_t rings;
-  // Vertices. Where the mesh is made in parts, a ring at which two of them meet counts twice.
+  // Vertices. A ring at which two chunks meet counts twice.
   uint64_t vertices;
   // Indices.
   uint64_t indices;
@@ -369,6 +427,8 @@ typedef struct texere_counts {
   uint64_t triangles;
   // Draws.
   uint64_t draws;
+  // Chunks that the mesh is made in.
+  uint64_t chunks;
 } texere_counts;
 
 // A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
@@ -388,13 +448,25 @@ typedef struct texere_draw {
   uint32_t reserved;
 } texere_draw;
 
-// A vertex of a tube.
-typedef struct texere_vertex {
-  // Position, mm.
-  float position[3];
-  // Unit normal, out of the yarn.
-  float normal[3];
-} texere_vertex;
+// A chunk of a plan, and where it lies in the mesh.
+typedef struct texere_chunk {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // The number of its first vertex in the mesh.
+  uint64_t first_vertex;
+  // How many vertices it has.
+  uint64_t vertex_count;
+  // The number of its first index in the mesh.
+  uint64_t first_index;
+  // How many indices it has. They count from its first vertex.
+  uint64_t index_count;
+  // Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+  const struct texere_draw *draws;
+  // How many draws it has.
+  uint64_t draw_count;
+} texere_chunk;
 
 // The box round yarns.
 typedef struct texere_extent {
@@ -403,17 +475,6 @@ typedef struct texere_extent {
   // The greatest x, y and z, mm.
   float high[3];
 } texere_extent;
-
-// Values that lie in the caller's memory: in an array of their own, or as one member of the
-// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
-typedef struct texere_view {
-  // The first value.
-  void *data;
-  // Bytes from `data` on that belong to the view: at least up to the end of the last value.
-  uint64_t size;
-  // Bytes from one value to the next: at least the size of a value.
-  uint64_t stride;
-} texere_view;
 
 // What a picture shows at a point.
 typedef struct texere_seen {
@@ -424,6 +485,92 @@ typedef struct texere_seen {
   // 1 where a yarn is seen, else 0.
   uint32_t is_yarn;
 } texere_seen;
+
+// Objects that a session works with, as numbers: cast each to the type of its interface.
+typedef struct texere_native {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+  uint32_t kind;
+  // The `VkInstance`; 0 with OpenCL.
+  uint64_t instance;
+  // The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+  uint64_t physical_device;
+  // The `VkDevice` or `cl_context`.
+  uint64_t device;
+  // The `VkQueue` or `cl_command_queue` that chunks are made on.
+  uint64_t queue;
+  // The family of the `VkQueue`; 0 with OpenCL.
+  uint32_t queue_family;
+  // Zero.
+  uint32_t reserved;
+} texere_native;
+
+// A part of a buffer on a device.
+typedef struct texere_device_buffer {
+  // The `cl_mem` or `VkBuffer`; 0 where there is none.
+  uint64_t buffer;
+  // Where the values begin, bytes.
+  uint64_t offset;
+  // How many bytes the values have.
+  uint64_t size;
+} texere_device_buffer;
+
+// The mesh of a chunk on its device.
+//
+// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
+// that reads them waits for it.
+//
+// With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
+// queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
+// call `texere_session_wait` first. No other thread may call the library with the same device
+// while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
+// the source of a transfer, indices as an index or storage buffer or as that source.
+typedef struct texere_device_mesh {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+  uint32_t kind;
+  // The vertices, a `texere_vertex` each.
+  struct texere_device_buffer vertices;
+  // The indices, a `uint32_t` each, counted from the chunk's first vertex.
+  struct texere_device_buffer indices;
+  // The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
+  uint64_t ready;
+} texere_device_mesh;
+
+// A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
+// draws until the plan is freed.
+typedef struct texere_piece {
+  // Bytes of this struct, which the library sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // The chunk that the piece is of, from 0.
+  uint64_t chunk;
+  // The number of the chunk's first vertex in the mesh: what to add to an index to get the
+  // number of a vertex.
+  uint64_t base_vertex;
+  // The draws of the chunk, whose numbers are those of the whole mesh.
+  const struct texere_draw *draws;
+  // How many draws the chunk has.
+  uint64_t draw_count;
+  // Vertices; null in a piece of indices.
+  const struct texere_vertex *vertices;
+  // The number of the first of these vertices in the mesh.
+  uint64_t first_vertex;
+  // How many vertices the piece has.
+  uint64_t vertex_count;
+  // Indices; null in a piece of vertices.
+  const uint32_t *indices;
+  // The number of the first of these indices in the mesh.
+  uint64_t first_index;
+  // How many indices the piece has.
+  uint64_t index_count;
+} texere_piece;
+
+// Takes a piece of a mesh. Anything else than 0 ends the call that was given this callback.
+typedef int32_t (*texere_piece_callback)(void *user, const struct texere_piece *piece);
 
 // The movement of a guide at one course: from a needle space, in front of the needles, to another.
 // Space n lies between the needles n - 1 and n.
@@ -647,6 +794,14 @@ typedef struct texere_woven {
   struct texere_looks looks;
 } texere_woven;
 
+// Takes `size` bytes of a file, which belong at byte `offset` of it. Pieces come in order, but at
+// the end a writer may go back to fill in what is known last. Anything else than 0 ends the call
+// that was given this callback. `data` is valid until the callback returns.
+typedef int32_t (*texere_write_callback)(void *user,
+                                         uint64_t offset,
+                                         const uint8_t *data,
+                                         size_t size);
+
 // A place on the centreline of a yarn, mm.
 typedef struct texere_point {
   // Along the weft or the courses.
@@ -691,6 +846,47 @@ typedef struct texere_yarn_counts {
   // How many control points they have in all.
   uint64_t points;
 } texere_yarn_counts;
+
+// Where on its yarn a vertex lies, for shaders and textures.
+typedef struct texere_attribute {
+  // The yarn, from 0.
+  uint32_t yarn;
+  // The angle round the section from its first corner, radians. It turns with the twist.
+  float angle;
+  // The length of the yarn from its start to the vertex's ring, mm.
+  float along;
+  // The unit tangent of the yarn there.
+  float tangent[3];
+} texere_attribute;
+
+// A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+typedef struct texere_packed_vertex {
+  // The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
+  // these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+  uint32_t position[2];
+  // The normal on an octahedron, in steps of 1/32767.
+  int16_t normal[2];
+} texere_packed_vertex;
+
+// A ring: a sample of a yarn's centreline.
+typedef struct texere_ring {
+  // Centre, mm.
+  float centre[3];
+  // Half the width of the yarn, mm.
+  float half_width;
+  // Unit tangent.
+  float tangent[3];
+  // Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+  uint32_t roll;
+  // Half the height of the yarn, mm.
+  float half_height;
+  // Growth of the half width along the yarn, mm per mm.
+  float width_growth;
+  // Growth of the half height along the yarn, mm per mm.
+  float height_growth;
+  // Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+  uint32_t lean;
+} texere_ring;
 
 #ifdef __cplusplus
 extern "C" {
@@ -826,6 +1022,60 @@ enum texere_status texere_design_finished(const struct texere_design *design,
 // Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
 enum texere_status texere_diameter(double tex, double density, double *diameter_mm);
 
+// Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
+// indices. `run` may be null.
+//
+// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
+// `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
+// holds then is not said.
+enum texere_status texere_plan_mesh(const struct texere_plan *plan,
+                                    const struct texere_run *run,
+                                    struct texere_vertex *vertices,
+                                    uint64_t vertex_count,
+                                    uint32_t *indices,
+                                    uint64_t index_count);
+
+// Makes the mesh of a plan in arrays of the caller's choice: positions and normals apart, as
+// members of the caller's structs, or one behind the other as in `texere_vertex`. `run` may be
+// null. `texere_plan_counts` says how many vertices and indices there are; memory between values
+// stays as it is.
+//
+// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with indices
+// one behind the other, are the fastest: the device writes there without a copy.
+//
+// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
+// TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
+enum texere_status texere_plan_mesh_arrays(const struct texere_plan *plan,
+                                           const struct texere_run *run,
+                                           const struct texere_mesh_arrays *arrays);
+
+// Makes the packed vertices of a plan in the caller's memory: a `texere_packed_vertex` for each
+// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+//
+// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, with
+// TEXERE_CANCELLED where `run` was cancelled, and with TEXERE_UNSUPPORTED where the device packs
+// none.
+enum texere_status texere_plan_packed(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      const struct texere_view *packed);
+
+// Makes the attributes of a plan's vertices in the caller's memory: a `texere_attribute` for each
+// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+//
+// Fails as `texere_plan_packed` does.
+enum texere_status texere_plan_attributes(const struct texere_plan *plan,
+                                          const struct texere_run *run,
+                                          const struct texere_view *attributes);
+
+// Makes the centrelines of a plan's yarns in the caller's memory: a `texere_ring` for each ring
+// that `texere_plan_counts` counts, yarn after yarn as `texere_plan_ring_offsets` says. `run` may
+// be null.
+//
+// Fails as `texere_plan_packed` does.
+enum texere_status texere_plan_trajectory(const struct texere_plan *plan,
+                                          const struct texere_run *run,
+                                          const struct texere_view *rings);
+
 // Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
 // samples each, with fibres, on the ground. The caller has set `picture->struct_size`.
 enum texere_status texere_picture_default(struct texere_picture *picture);
@@ -849,27 +1099,22 @@ enum texere_status texere_plan_counts(const struct texere_plan *plan, struct tex
 enum texere_status texere_plan_draws(const struct texere_plan *plan,
                                      const struct texere_draw **draws);
 
-// Makes the mesh of a plan in the caller's memory. `run` may be null.
+// Lends where the rings of each yarn begin, and behind them how many rings there are in all:
+// one number more than the plan has yarns, the first of which is 0. They are valid until the plan
+// is freed. `count` gets how many numbers there are.
 //
-// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-// `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
-// holds then is not said.
-enum texere_status texere_plan_mesh(const struct texere_plan *plan,
-                                    const struct texere_run *run,
-                                    struct texere_vertex *vertices,
-                                    uint64_t vertex_count,
-                                    uint32_t *indices,
-                                    uint64_t index_count);
+// Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
+enum texere_status texere_plan_ring_offsets(const struct texere_plan *plan,
+                                            const uint64_t **offsets,
+                                            uint64_t *count);
 
-// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-// be null. A file of that name is replaced once the new one is whole.
+// Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
+// how many there are. The caller has set `chunk->struct_size`.
 //
-// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
-// cancelled.
-enum texere_status texere_plan_write(const struct texere_plan *plan,
-                                     const struct texere_run *run,
-                                     const char *path,
-                                     size_t path_length);
+// Fails with TEXERE_ARGUMENT where there is no chunk of that number.
+enum texere_status texere_plan_chunk(const struct texere_plan *plan,
+                                     uint64_t number,
+                                     struct texere_chunk *chunk);
 
 // Frees a plan, or nothing where it is null.
 void texere_plan_free(struct texere_plan *plan);
@@ -901,7 +1146,7 @@ enum texere_status texere_renderer_extent(const struct texere_renderer *renderer
                                           struct texere_extent *extent);
 
 // Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
-// each pixel from the left, a byte each, sRGB; rows from the top. `pixels.stride` is the bytes
+// each pixel from the left, a byte each, sRGB; rows from the top. `pixels->stride` is the bytes
 // from one row to the next, at least four times the width. Alpha is 255 unless the background is
 // nothing; colours are not multiplied by it. `run` may be null.
 //
@@ -911,7 +1156,7 @@ enum texere_status texere_renderer_extent(const struct texere_renderer *renderer
 enum texere_status texere_renderer_picture(const struct texere_renderer *renderer,
                                            const struct texere_picture *picture,
                                            const struct texere_run *run,
-                                           struct texere_view pixels);
+                                           const struct texere_view *pixels);
 
 // Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
 // A file of that name is replaced once the new one is whole.
@@ -952,10 +1197,69 @@ enum texere_status texere_run_progress(const struct texere_run *run, double *sha
 // Frees a run, or nothing where it is null.
 void texere_run_free(struct texere_run *run);
 
+// Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
+// may be freed.
+//
+// Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
+// with TEXERE_CANCELLED where `run` was cancelled.
+enum texere_status texere_session_new(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      struct texere_session **out);
+
+// Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
+// computes with its buffers. They are valid until the session is freed. The caller has set
+// `native->struct_size`.
+enum texere_status texere_session_native(const struct texere_session *session,
+                                         struct texere_native *native);
+
+// Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
+// `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
+// many there are. The call may return before the device is done: `texere_device_mesh` says what to
+// wait for. The caller has set `mesh->struct_size`.
+//
+// The buffers belong to the library, and may be read only. They stay valid until the session is
+// freed, and hold this chunk's mesh until the next chunk but one is made.
+//
+// Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+enum texere_status texere_session_mesh(const struct texere_session *session,
+                                       uint64_t number,
+                                       struct texere_device_mesh *mesh);
+
+// Waits until the device has done all that the session has asked of it.
+enum texere_status texere_session_wait(const struct texere_session *session);
+
+// Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+//
+// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
+// says, and where the chunk was not made or is no longer there.
+enum texere_status texere_session_read(const struct texere_session *session,
+                                       uint64_t number,
+                                       struct texere_vertex *vertices,
+                                       uint64_t vertex_count,
+                                       uint32_t *indices,
+                                       uint64_t index_count);
+
+// Frees a session with its buffers, or nothing where it is null. No command of the program's that
+// uses the buffers may be under way.
+void texere_session_free(struct texere_session *session);
+
 // Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
 // their polygons have. The caller has set `settings->struct_size`.
 enum texere_status texere_settings_default(const struct texere_yarns *yarns,
                                            struct texere_settings *settings);
+
+// Makes the mesh of a plan piece by piece, in bounded memory: the control points and two chunks at
+// a time. Chunks come in order, each as all its vertices and then all its indices; a piece of
+// indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of all draws comes
+// first, as indices of chunk 0. `run` may be null. `user` is handed to the callback, which runs on
+// the calling thread.
+//
+// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+// 0.
+enum texere_status texere_plan_stream(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      texere_piece_callback callback,
+                                      void *user);
 
 // Makes a design of a warp knit from the caller's arrays, which are copied. Its yarns settle;
 // `texere_design_finished` says otherwise.
@@ -980,6 +1284,28 @@ enum texere_status texere_design_weft_knit(const struct texere_weft_knit *knit,
 // 0, value and limit.
 enum texere_status texere_design_woven(const struct texere_woven *woven,
                                        struct texere_design **out);
+
+// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
+// be null. A file of that name is replaced once the new one is whole.
+//
+// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+// cancelled.
+enum texere_status texere_plan_write(const struct texere_plan *plan,
+                                     const struct texere_run *run,
+                                     const char *path,
+                                     size_t path_length);
+
+// Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
+// `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
+// handed to the callback, which runs on the calling thread.
+//
+// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+// 0. What came before is no whole file.
+enum texere_status texere_plan_write_to(const struct texere_plan *plan,
+                                        const struct texere_run *run,
+                                        uint32_t format,
+                                        texere_write_callback callback,
+                                        void *user);
 
 // Makes round and flattened yarns of the caller's arrays, which are copied.
 //

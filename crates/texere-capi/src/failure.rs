@@ -3,6 +3,7 @@
 use std::any::Any;
 use std::error::Error;
 use std::ffi::CString;
+use std::io;
 use std::iter::successors;
 use std::path::Path;
 
@@ -14,6 +15,7 @@ use texere::read::{FilePlace, Refusal};
 use texere::rest::{CrossingsError, FinishError, SettlingError};
 use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
 
+use crate::callback::Answer;
 use crate::status::texere_status;
 use crate::status::texere_status::*;
 
@@ -35,6 +37,10 @@ pub(crate) struct Place {
 impl Failure {
     pub(crate) fn argument(message: impl Into<String>) -> Self {
         Self { status: TEXERE_ARGUMENT, message: message.into(), place: None }
+    }
+
+    pub(crate) fn unsupported(message: impl Into<String>) -> Self {
+        Self { status: TEXERE_UNSUPPORTED, message: message.into(), place: None }
     }
 
     pub(crate) fn panicked(panic: &(dyn Any + Send)) -> Self {
@@ -59,6 +65,13 @@ impl<E: Error + 'static> From<E> for Failure {
 fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if error.is::<OutOfMemory>() {
         return Some(TEXERE_MEMORY);
+    }
+    if error.is::<Answer>() {
+        return Some(TEXERE_CANCELLED);
+    }
+    // What an error of the system holds is none of its causes.
+    if let Some(held) = error.downcast_ref().and_then(io::Error::get_ref) {
+        return status_of(held);
     }
     if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
         return status_of(&**error);
@@ -96,6 +109,8 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
             BackendError::NoFeature { .. }
             | BackendError::NoSettling { .. }
             | BackendError::NoCrossings { .. }
+            | BackendError::NoAttributes
+            | BackendError::NoPacking
             | BackendError::Unsupported { .. } => TEXERE_UNSUPPORTED,
             _ => TEXERE_DEVICE,
         });
@@ -123,7 +138,7 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
         return match error {
             WriteError::Feature { .. } | WriteError::Unheld { .. } => Some(TEXERE_UNSUPPORTED),
             WriteError::Pipeline(error) => status_of(error),
-            WriteError::Io { .. } => Some(TEXERE_IO),
+            WriteError::Io { .. } | WriteError::Writer { .. } => Some(TEXERE_IO),
             _ => None,
         };
     }

@@ -28,6 +28,7 @@
 #![allow(clippy::missing_safety_doc, reason = "the head of the crate says it for all functions")]
 
 mod argument;
+mod callback;
 mod cloth;
 mod design;
 mod device;
@@ -38,13 +39,18 @@ mod error;
 mod failure;
 mod finish;
 mod handle;
+mod lent;
 mod material;
+mod mesh;
+mod outputs;
 mod picture;
 mod plan;
 mod renderer;
 mod run;
+mod session;
 mod settings;
 mod status;
+mod stream;
 mod structure;
 #[cfg(not(feature = "render"))]
 mod undrawn;
@@ -52,6 +58,7 @@ mod view;
 mod warp;
 mod weft;
 mod woven;
+mod write;
 mod yarns;
 
 pub use cloth::*;
@@ -60,18 +67,24 @@ pub use device::*;
 pub use draft::*;
 pub use error::*;
 pub use finish::*;
+pub use lent::*;
 pub use material::*;
+pub use mesh::*;
+pub use outputs::*;
 pub use picture::*;
 pub use plan::*;
 pub use renderer::*;
 pub use run::*;
+pub use session::*;
 pub use settings::*;
 pub use status::*;
+pub use stream::*;
 pub use structure::*;
 pub use view::*;
 pub use warp::*;
 pub use weft::*;
 pub use woven::*;
+pub use write::*;
 pub use yarns::*;
 
 /// The number of the binary interface. A program compares it with `texere_abi` of the library

@@ -1,41 +1,49 @@
-//! Plans: how large a mesh is before it is made, and the mesh in the caller's memory.
+//! Plans: how large a mesh is before it is made.
 
-use std::ffi::c_char;
 use std::sync::Arc;
 
-use texere::backend::{Chunk, MeshMut, Plan, Session};
-use texere::mesh::{Limits, Topology};
-use texere::{Pipeline, Settings, Vertex, Yarns};
+use texere::backend::{Chunk, Plan, Run};
+use texere::mesh::Limits;
+use texere::{Settings, Yarns};
 
-use crate::argument::{check, check_sized, slice_mut, text};
+use crate::argument::{check, check_sized};
 use crate::device::{Device, texere_device};
 use crate::error::guard;
 use crate::failure::Failure;
-use crate::handle::{Handle, clear, free, get, get_any, give};
-use crate::run::{reporter, texere_run};
+use crate::handle::{Handle, clear, free, get, give};
+use crate::run::reporter;
 use crate::settings::{chosen, texere_settings};
 use crate::status::texere_status;
-use crate::yarns::{exactly, texere_yarns};
+use crate::yarns::texere_yarns;
 
 /// The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+///
+/// A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
+/// 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
 #[derive(Debug)]
 pub struct texere_plan;
 
 #[derive(Debug)]
 pub(crate) struct Planned {
-    yarns: Arc<Yarns>,
-    device: Arc<Device>,
-    settings: Settings,
-    plan: Arc<Plan>,
-    chunks: Vec<Chunk>,
+    pub(crate) yarns: Arc<Yarns>,
+    pub(crate) device: Arc<Device>,
+    pub(crate) settings: Settings,
+    pub(crate) plan: Arc<Plan>,
+    pub(crate) chunks: Vec<Chunk>,
     draws: Vec<texere_draw>,
-    counts: texere_counts,
+    /// Where the draws of each chunk begin, and how many there are in all.
+    draw_offsets: Vec<usize>,
+    pub(crate) counts: texere_counts,
 }
 
 impl Handle for texere_plan {
     type Value = Planned;
     const NAME: &str = "plan";
 }
+
+/// Chunks of a plan: buffers of 8 MiB at most, with six sides some 350,000 vertices. A slow core
+/// makes one in 20 ms, and two may be on their way when a run is cancelled.
+pub(crate) const LIMITS: Limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
 
 /// Sizes of a mesh.
 #[repr(C)]
@@ -47,7 +55,7 @@ pub struct texere_counts {
     pub reserved: u32,
     /// Rings of all yarns.
     pub rings: u64,
-    /// Vertices. Where the mesh is made in parts, a ring at which two of them meet counts twice.
+    /// Vertices. A ring at which two chunks meet counts twice.
     pub vertices: u64,
     /// Indices.
     pub indices: u64,
@@ -55,19 +63,9 @@ pub struct texere_counts {
     pub triangles: u64,
     /// Draws.
     pub draws: u64,
+    /// Chunks that the mesh is made in.
+    pub chunks: u64,
 }
-
-/// A vertex of a tube.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct texere_vertex {
-    /// Position, mm.
-    pub position: [f32; 3],
-    /// Unit normal, out of the yarn.
-    pub normal: [f32; 3],
-}
-
-const _: () = assert!(size_of::<texere_vertex>() == size_of::<Vertex>());
 
 /// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
 /// from outside.
@@ -91,73 +89,55 @@ pub struct texere_draw {
 impl Planned {
     fn new(yarns: Arc<Yarns>, device: Arc<Device>, settings: Settings) -> Result<Self, Failure> {
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-        let limits = Limits::default().min(&device.backend.info().limits);
-        let chunks: Vec<Chunk> = plan.chunks(&limits)?.collect();
-        let draws: Vec<_> = chunks
-            .iter()
-            .flat_map(|chunk| plan.draws(chunk))
-            .map(|draw| texere_draw {
+        let chunks: Vec<Chunk> = plan.chunks(&LIMITS.min(&device.backend.info().limits))?.collect();
+        let (mut draws, mut draw_offsets) = (Vec::new(), vec![0]);
+        for chunk in &chunks {
+            draws.extend(plan.draws(chunk).map(|draw| texere_draw {
                 first_index: draw.indices.start,
                 index_count: draw.indices.end - draw.indices.start,
                 base_vertex: draw.base_vertex,
                 vertex_count: draw.vertices,
                 yarn: draw.yarn,
                 reserved: 0,
-            })
-            .collect();
-        let indices = match settings.topology {
-            Topology::Shared => plan.shared_indices().len() as u64,
-            _ => chunks.iter().map(|chunk| u64::from(chunk.indices())).sum(),
-        };
+            }));
+            draw_offsets.push(draws.len());
+        }
+        let [vertices, indices] = plan.mesh_lengths(&chunks);
         let counts = texere_counts {
             struct_size: size_of::<texere_counts>() as u32,
             reserved: 0,
             rings: plan.counts().rings,
-            vertices: chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum(),
+            vertices,
             indices,
             triangles: plan.counts().triangles,
             draws: draws.len() as u64,
+            chunks: chunks.len() as u64,
         };
-        Ok(Self { yarns, device, settings, plan, chunks, draws, counts })
+        Ok(Self { yarns, device, settings, plan, chunks, draws, draw_offsets, counts })
     }
 
-    /// Makes the mesh. The slices have the lengths that the counts say.
-    fn mesh(
-        &self,
-        vertices: &mut [Vertex],
-        indices: &mut [u32],
-        mut progress: impl FnMut(f64) -> std::ops::ControlFlow<()>,
-    ) -> Result<(), Failure> {
-        let mut session = Session::new(&*self.device.backend, self.plan.clone())?;
-        let mut tell = |done: u64| match progress(done as f64 / self.chunks.len().max(1) as f64) {
-            std::ops::ControlFlow::Continue(()) => Ok(()),
-            std::ops::ControlFlow::Break(()) => Err(texere::PipelineError::Cancelled),
-        };
-        let mut first = 0;
-        for points in self.yarns.points().chunks(UPLOAD_POINTS) {
-            session.upload(first, points)?;
-            first += points.len() as u64;
-            tell(0)?;
-        }
-        session.scan()?;
-        let shared = self.settings.topology == Topology::Shared;
-        if shared {
-            indices.copy_from_slice(&self.plan.shared_indices());
-        }
-        let (mut vertices_left, mut indices_left) = (vertices, if shared { &mut [][..] } else { indices });
-        for (number, chunk) in self.chunks.iter().enumerate() {
-            let (vertices, others) = vertices_left.split_at_mut(chunk.vertices() as usize);
-            let (indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
-            (vertices_left, indices_left) = (others, other_indices);
-            session.mesh_into(chunk, MeshMut { vertices, indices })?;
-            tell(number as u64 + 1)?;
-        }
-        Ok(())
+    /// The plan on its way through the device, with `run` told how far it has come.
+    pub(crate) fn start(&self, run: Option<Arc<crate::run::Run>>) -> Result<Run<'_>, Failure> {
+        let (device, mut report) = (&*self.device.backend, reporter(run));
+        Ok(Run::start(device, self.plan.clone(), self.yarns.points(), LIMITS, move |done| {
+            report(done.rings as f64 / done.total.max(1) as f64)
+        })?)
+    }
+
+    /// The chunk of a number.
+    pub(crate) fn chunk(&self, number: u64) -> Result<&Chunk, Failure> {
+        let chunk = usize::try_from(number).ok().and_then(|number| self.chunks.get(number));
+        chunk.ok_or_else(|| {
+            Failure::argument(format!("chunk is {number}, and there are {}, from 0", self.chunks.len()))
+        })
+    }
+
+    /// The draws of a chunk.
+    pub(crate) fn draws_of(&self, chunk: &Chunk) -> &[texere_draw] {
+        let number = chunk.index() as usize;
+        &self.draws[self.draw_offsets[number]..self.draw_offsets[number + 1]]
     }
 }
-
-/// Control points of an upload: 16 MB, so that a cancelled run is noticed in between.
-const UPLOAD_POINTS: usize = 1 << 20;
 
 /// Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
 /// holds then.
@@ -215,58 +195,81 @@ pub unsafe extern "C" fn texere_plan_draws(
     })
 }
 
-/// Makes the mesh of a plan in the caller's memory. `run` may be null.
+/// Lends where the rings of each yarn begin, and behind them how many rings there are in all:
+/// one number more than the plan has yarns, the first of which is 0. They are valid until the plan
+/// is freed. `count` gets how many numbers there are.
 ///
-/// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-/// `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
-/// holds then is not said.
+/// Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn texere_plan_mesh(
+pub unsafe extern "C" fn texere_plan_ring_offsets(
     plan: *const texere_plan,
-    run: *const texere_run,
-    vertices: *mut texere_vertex,
-    vertex_count: u64,
-    indices: *mut u32,
-    index_count: u64,
+    offsets: *mut *const u64,
+    count: *mut u64,
 ) -> texere_status {
     guard(|| {
-        let (plan, run) = (get(plan)?, get_any(run)?);
-        let [vertex_length, index_length] = [plan.counts.vertices as usize, plan.counts.indices as usize];
-        exactly("vertex_count", vertex_count, vertex_length)?;
-        exactly("index_count", index_count, index_length)?;
-        // SAFETY: the caller vouches for both; their lengths are those that were asked for. A
-        // `texere_vertex` and a `Vertex` are six `f32` each.
-        let (vertices, indices) = unsafe {
-            (
-                slice_mut("vertices", vertices.cast::<Vertex>(), vertex_length)?,
-                slice_mut("indices", indices, index_length)?,
-            )
-        };
-        plan.mesh(vertices, indices, reporter(run))
+        check("offsets", offsets)?;
+        check("count", count)?;
+        let plan = get(plan)?;
+        let own = plan.plan.ring_offsets();
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        unsafe {
+            offsets.write(own.as_ptr());
+            count.write(own.len() as u64);
+        }
+        Ok(())
     })
 }
 
-/// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-/// be null. A file of that name is replaced once the new one is whole.
+/// A chunk of a plan, and where it lies in the mesh.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_chunk {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// Zero.
+    pub reserved: u32,
+    /// The number of its first vertex in the mesh.
+    pub first_vertex: u64,
+    /// How many vertices it has.
+    pub vertex_count: u64,
+    /// The number of its first index in the mesh.
+    pub first_index: u64,
+    /// How many indices it has. They count from its first vertex.
+    pub index_count: u64,
+    /// Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+    pub draws: *const texere_draw,
+    /// How many draws it has.
+    pub draw_count: u64,
+}
+
+/// Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
+/// how many there are. The caller has set `chunk->struct_size`.
 ///
-/// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
-/// cancelled.
+/// Fails with TEXERE_ARGUMENT where there is no chunk of that number.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn texere_plan_write(
+pub unsafe extern "C" fn texere_plan_chunk(
     plan: *const texere_plan,
-    run: *const texere_run,
-    path: *const c_char,
-    path_length: usize,
+    number: u64,
+    chunk: *mut texere_chunk,
 ) -> texere_status {
     guard(|| {
-        // SAFETY: the caller vouches for `path`.
-        let path = unsafe { text("path", path, path_length) }?;
-        let (plan, run) = (get(plan)?, get_any(run)?);
-        let mut report = reporter(run);
-        let pipeline = Pipeline::new(&plan.yarns)
-            .settings(plan.settings)
-            .progress(move |done| report(done.rings as f64 / done.total.max(1) as f64));
-        texere::write::stream(pipeline, &*plan.device.backend, path)?;
+        // SAFETY: the caller vouches for `chunk`.
+        unsafe { check_sized("chunk", chunk) }?;
+        let plan = get(plan)?;
+        let own = plan.chunk(number)?;
+        let draws = plan.draws_of(own);
+        let found = texere_chunk {
+            struct_size: size_of::<texere_chunk>() as u32,
+            reserved: 0,
+            first_vertex: own.first_vertex(),
+            vertex_count: own.vertices().into(),
+            first_index: own.first_index(),
+            index_count: own.indices().into(),
+            draws: draws.as_ptr(),
+            draw_count: draws.len() as u64,
+        };
+        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        unsafe { chunk.write(found) };
         Ok(())
     })
 }

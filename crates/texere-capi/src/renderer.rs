@@ -94,7 +94,7 @@ pub unsafe extern "C" fn texere_renderer_extent(
 }
 
 /// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
-/// each pixel from the left, a byte each, sRGB; rows from the top. `pixels.stride` is the bytes
+/// each pixel from the left, a byte each, sRGB; rows from the top. `pixels->stride` is the bytes
 /// from one row to the next, at least four times the width. Alpha is 255 unless the background is
 /// nothing; colours are not multiplied by it. `run` may be null.
 ///
@@ -106,14 +106,15 @@ pub unsafe extern "C" fn texere_renderer_picture(
     renderer: *const texere_renderer,
     picture: *const texere_picture,
     run: *const texere_run,
-    pixels: texere_view,
+    pixels: *const texere_view,
 ) -> texere_status {
     guard(|| {
         // SAFETY: the caller vouches for `picture`.
         let picture = unsafe { checked(picture) }?;
         let [width, height] = [picture.width, picture.height].map(|side| side as usize);
-        // SAFETY: the caller vouches for `pixels`.
-        let mut rows = unsafe { pixels.rows("pixels", height, width.saturating_mul(PIXEL)) }?;
+        check("pixels", pixels)?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        let mut rows = unsafe { pixels.read().rows("pixels", height, width.saturating_mul(PIXEL)) }?;
         let run = get_any(run)?;
         let made = alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
         let lines = made.rgb.chunks_exact(3 * width).zip(made.alpha.chunks_exact(width));

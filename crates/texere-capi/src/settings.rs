@@ -1,7 +1,7 @@
 //! What can be chosen about a mesh.
 
 use texere::Settings;
-use texere::mesh::{Frame, Topology};
+use texere::mesh::{Frame, Quantum, Topology};
 
 use crate::argument::{check_sized, sized};
 use crate::error::guard;
@@ -38,6 +38,8 @@ pub struct texere_settings {
     pub topology: u32,
     /// 1 if the ends of yarns are closed, else 0.
     pub caps: u32,
+    /// The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
+    pub quantum_mm: f32,
 }
 
 /// The settings that `pointer` names, or those that suit `yarns` where it is null.
@@ -49,9 +51,8 @@ pub(crate) unsafe fn chosen(
     pointer: *const texere_settings,
     yarns: &texere::Yarns,
 ) -> Result<Settings, Failure> {
-    let usual = Settings::of(yarns);
     if pointer.is_null() {
-        return Ok(usual);
+        return Ok(Settings::of(yarns));
     }
     // SAFETY: the caller vouches for it.
     let given = unsafe { sized("settings", pointer) }?;
@@ -71,8 +72,12 @@ pub(crate) unsafe fn chosen(
         1 => true,
         other => return Err(Failure::argument(format!("settings.caps is {other}, expected 0 or 1"))),
     };
+    let mm = given.quantum_mm;
+    let quantum = Quantum::of(mm).ok_or_else(|| {
+        Failure::argument(format!("settings.quantum_mm is {mm}, expected a power of two from 2^-24 to 2^11"))
+    })?;
     let (subdivisions, sides) = (given.subdivisions, given.sides);
-    Ok(Settings { subdivisions, sides, frame, topology, caps, ..usual })
+    Ok(Settings { subdivisions, sides, frame, topology, caps, quantum })
 }
 
 /// Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
@@ -100,6 +105,7 @@ pub unsafe extern "C" fn texere_settings_default(
                 Topology::None => TEXERE_TOPOLOGY_NONE,
             },
             caps: u32::from(usual.caps),
+            quantum_mm: usual.quantum.mm(),
         };
         // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
         unsafe { settings.write(found) };

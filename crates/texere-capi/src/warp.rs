@@ -27,7 +27,7 @@ pub struct texere_lap {
 }
 
 /// The yarn of an empty guide.
-pub const TEXERE_NO_YARN: u32 = u32::MAX;
+pub const TEXERE_NO_YARN: u32 = 4294967295;
 
 /// A guide bar.
 #[repr(C)]

@@ -64,7 +64,7 @@ fn drawn(renderer: *const texere_renderer, picture: &texere_picture, stride: usi
     let view =
         texere_view { data: pixels.as_mut_ptr().cast(), size: pixels.len() as u64, stride: stride as u64 };
     // SAFETY: the view is that of `pixels`.
-    let made = unsafe { texere_renderer_picture(renderer, picture, null(), view) };
+    let made = unsafe { texere_renderer_picture(renderer, picture, null(), &view) };
     assert_eq!(made, TEXERE_OK, "{}", message());
     pixels
 }
@@ -197,7 +197,7 @@ fn a_cancelled_run_ends_a_picture_and_leaves_memory_and_file_alone() {
     unsafe {
         assert_eq!(texere_run_new(&mut run), TEXERE_OK);
         assert_eq!(texere_run_cancel(run), TEXERE_OK);
-        assert_eq!(texere_renderer_picture(renderer, &asked, run, view), TEXERE_CANCELLED, "{}", message());
+        assert_eq!(texere_renderer_picture(renderer, &asked, run, &view), TEXERE_CANCELLED, "{}", message());
         let written = texere_renderer_write(renderer, &asked, run, text.as_ptr().cast(), text.len());
         assert_eq!(written, TEXERE_CANCELLED);
         assert!(!path.exists() && pixels.iter().all(|byte| *byte == 77));

@@ -2,36 +2,25 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
-/// Adds a call to `cases`.
-macro_rules! case {
-    ($cases:ident, $name:ident($($argument:expr),*)) => {
-        // SAFETY: what is wrong is what the library says that it refuses.
-        $cases.push((stringify!($name), Box::new(move || unsafe { $name($($argument),*) })))
-    };
-}
-
 mod common;
+#[path = "refusals/outputs.rs"]
+mod outputs;
 #[path = "refusals/pictures.rs"]
 mod pictures;
 #[path = "refusals/structures.rs"]
 mod structures;
+#[path = "refusals/tools.rs"]
+mod tools;
 
 use std::ffi::CStr;
 use std::path::Path;
-use std::ptr::{null, null_mut, without_provenance_mut};
+use std::ptr::{null, null_mut};
 
 use texere_c::texere_status::*;
 use texere_c::*;
 
 use common::{message, sized};
-
-/// A call, and the statuses that it may end with.
-type Case = (&'static str, Box<dyn Fn() -> texere_status>);
-
-/// A handle that was freed, and one that never was any.
-fn strange<H>() -> [*mut H; 2] {
-    [without_provenance_mut(usize::MAX & !15), without_provenance_mut(8)]
-}
+use tools::{Case, strange};
 
 /// All handles of a small cloth on `cpu`.
 struct Handles {
@@ -244,17 +233,18 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
 }
 
 fn settings() -> texere_settings {
-    texere_settings { subdivisions: 1, sides: 6, ..sized() }
+    texere_settings { subdivisions: 1, sides: 6, quantum_mm: 1.0, ..sized() }
 }
 
 /// Functions that can't fail.
-const CANT_FAIL: [&str; 10] = [
+const CANT_FAIL: [&str; 11] = [
     "texere_abi",
     "texere_version",
     "texere_error_message",
     "texere_device_free",
     "texere_design_free",
     "texere_run_free",
+    "texere_session_free",
     "texere_cloth_free",
     "texere_yarns_free",
     "texere_plan_free",
@@ -264,7 +254,8 @@ const CANT_FAIL: [&str; 10] = [
 #[test]
 fn every_function_refuses_what_it_can_not_take() {
     let own: &'static Handles = Box::leak(Box::new(Handles::new()));
-    let cases = wrong_calls(own);
+    let mut cases = wrong_calls(own);
+    cases.extend(outputs::cases(own));
     for (number, (name, call)) in cases.iter().enumerate() {
         assert_eq!(call(), TEXERE_ARGUMENT, "{name}, case {number}: {}", message());
         assert!(!message().is_empty(), "{name}, case {number}");

@@ -150,7 +150,7 @@ fn a_run_that_another_thread_cancels_ends_rest() {
 #[test]
 fn a_run_that_another_thread_cancels_ends_a_mesh() {
     let (device, yarns) = (device(), placed(&woven(400, false)));
-    let settings = texere_settings { subdivisions: 3, sides: 12, caps: 1, ..sized() };
+    let settings = texere_settings { subdivisions: 3, sides: 12, caps: 1, quantum_mm: 1.0, ..sized() };
     let (mut plan, mut counts) = (null_mut(), sized::<texere_counts>());
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
@@ -178,7 +178,7 @@ fn a_run_that_another_thread_cancels_ends_a_picture() {
         assert_eq!(texere_renderer_show(renderer, yarns.0, null(), null()), TEXERE_OK, "{}", message());
         assert_eq!(texere_picture_default(&mut picture), TEXERE_OK);
         let picture = texere_picture { width: 640, height: 480, ..picture };
-        let ended = cancelled(|run| texere_renderer_picture(renderer, &picture, run, view));
+        let ended = cancelled(|run| texere_renderer_picture(renderer, &picture, run, &view));
         assert_eq!(ended, TEXERE_CANCELLED, "{}", message());
         assert!(pixels.iter().all(|byte| *byte == 0));
     }

@@ -6,8 +6,10 @@
 //! | part | types |
 //! |---|---|
 //! | tables of yarns, blocks and chunks | [`Plan`], [`Block`], [`Chunk`], [`Chunks`], [`Part`] |
+//! | a plan's run on a device, chunk by chunk | [`Run`] |
 //! | the driver and its rules | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
 //! | the work of one device | [`Engine`], [`ScanChunks`] |
+//! | callbacks that are asked whether to go on | [`Watch`] |
 //! | callbacks and slices that take results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
 //! | a mesh that stays on the device | [`LiveMesh`], [`Edits`], [`Draw`] |
 //! | allocations that may fail | [`zeroed`], [`filled`], [`room`], [`room_for`] |
@@ -17,7 +19,7 @@
 
 pub use crate::device::Schedule;
 pub use crate::engine::{
-    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
+    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, Watch,
     take_over_host,
 };
 pub use crate::layout::Edits;
@@ -26,6 +28,7 @@ pub use crate::memory::{filled, room, room_for, zeroed};
 pub use crate::mesh::{ChunkDraw, Draw, MeshMut};
 pub use crate::null::NullBackend;
 pub use crate::padded::{PaddedPoints, renew_virtual_ends};
+pub use crate::pipeline::Run;
 pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Part, Plan, TablesId, WINDOW_POINTS};
 pub use crate::ring::Trajectory;
 pub use crate::session::{Session, SessionError};

@@ -227,17 +227,10 @@ pub trait Engine: Any + fmt::Debug + Send {
     ///
     /// The provided method calls `mesh`, then reads and copies. An engine that can write there
     /// directly overrides it.
-    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, mut out: MeshMut<'_>) -> Result<(), BackendError> {
         self.mesh(slot, chunk)?;
         let mut copy = |piece: MeshPiece<'_>| {
-            match piece {
-                MeshPiece::Vertices { first, vertices } => {
-                    out.vertices[first as usize..][..vertices.len()].copy_from_slice(vertices);
-                }
-                MeshPiece::Indices { first, indices } => {
-                    out.indices[first as usize..][..indices.len()].copy_from_slice(indices);
-                }
-            }
+            out.take(piece);
             ControlFlow::Continue(())
         };
         self.read_mesh(slot, chunk, &mut copy).map(|_| ())
@@ -279,14 +272,29 @@ pub struct ScanChunk {
 
 /// The chunks of a scan, in order, each with its slot. An engine that uses a chunk has to load the
 /// chunk's tables unless they are in the slot already.
+/// The chunks end early if the caller wants no more of the scan.
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
     yarns: Range<usize>,
+    watch: Watch<'a>,
 }
 
+/// A callback that is asked, now and then, whether to go on.
+pub type Watch<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
+
 impl<'a> ScanChunks<'a> {
-    pub(crate) fn new(chunks: &'a mut dyn Iterator<Item = ScanChunk>, yarns: Range<usize>) -> Self {
-        Self { chunks, yarns }
+    pub(crate) fn new(
+        chunks: &'a mut dyn Iterator<Item = ScanChunk>,
+        yarns: Range<usize>,
+        watch: Watch<'a>,
+    ) -> Self {
+        Self { chunks, yarns, watch }
+    }
+
+    /// Asks whether to go on. An engine that does not take the chunks one by one asks a few times
+    /// in each 50 ms. After `Break` it returns early: nobody reads its results.
+    pub fn watch(&mut self) -> ControlFlow<()> {
+        (self.watch)()
     }
 
     /// The yarns whose rolls, or lengths, are asked for.
@@ -300,7 +308,7 @@ impl Iterator for ScanChunks<'_> {
     type Item = ScanChunk;
 
     fn next(&mut self) -> Option<ScanChunk> {
-        self.chunks.next()
+        if self.watch().is_continue() { self.chunks.next() } else { None }
     }
 }
 

@@ -294,7 +294,10 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
                 let chunk = (!rows.is_empty()).then(|| plan.patch(chunk, &[rows]))?;
                 Some(ScanChunk { slot: Slot::new(number as u32), chunk, loaded: false })
             });
-            scan(&mut self.engine, ScanChunks::new(&mut patches, yarns.clone()))?;
+            scan(
+                &mut self.engine,
+                ScanChunks::new(&mut patches, yarns.clone(), &mut || ControlFlow::Continue(())),
+            )?;
         }
         Ok(())
     }

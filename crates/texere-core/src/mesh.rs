@@ -48,23 +48,36 @@ impl Plan {
         self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
     }
 
+    /// The lengths of the mesh of `chunks`, which are all chunks of the plan: how many vertices, and
+    /// how many indices. A ring at which two chunks meet counts twice.
+    #[must_use]
+    pub fn mesh_lengths(&self, chunks: &[Chunk]) -> [u64; 2] {
+        let total = |count: fn(&Chunk) -> u32| chunks.iter().map(|chunk| u64::from(count(chunk))).sum();
+        let indices = match self.settings().topology {
+            Topology::Shared => self.shared_index_count(),
+            _ => total(Chunk::indices),
+        };
+        [total(Chunk::vertices), indices]
+    }
+
     /// The indices of [`Topology::Shared`]: the pattern of as many gaps as one draw may cover. With
     /// caps, the indices of the start cap and of the finish cap follow for each section.
     #[must_use]
     pub fn shared_indices(&self) -> Vec<u32> {
+        self.shared().collect()
+    }
+
+    /// [`Plan::shared_indices`], one by one.
+    pub(crate) fn shared(&self) -> impl Iterator<Item = u32> {
         let sides = self.settings().sides;
         let pattern = index_pattern(sides);
-        let mut indices: Vec<u32> = (0..self.shared_gaps() as u32)
-            .flat_map(|gap| pattern.iter().map(move |index| gap * sides + index))
-            .collect();
-        if self.settings().caps {
-            for section in 0..self.layout().sections().len() {
-                for end in [End::Start, End::Finish] {
-                    indices.extend(self.cap_indices(section, end));
-                }
-            }
-        }
-        indices
+        let tubes = (0..self.shared_gaps() as u32 * sides * 6)
+            .map(move |number| number / (sides * 6) * sides + pattern[(number % (sides * 6)) as usize]);
+        let sections = if self.settings().caps { self.layout().sections().len() } else { 0 };
+        let caps = (0..sections).flat_map(move |section| {
+            [End::Start, End::Finish].into_iter().flat_map(move |end| self.cap_indices(section, end))
+        });
+        tubes.chain(caps)
     }
 
     /// The indices of [`Plan::shared_indices`] as `u16`, in half the memory, for interfaces that
@@ -200,13 +213,36 @@ impl MeshPiece<'_> {
     }
 }
 
-/// The caller's memory for a chunk's mesh: slices of exactly the planned lengths.
+/// The caller's memory for the mesh of a chunk, or of a whole plan: slices of exactly the planned
+/// lengths.
 #[derive(Debug)]
 pub struct MeshMut<'a> {
-    /// The chunk's vertices, `chunk.vertices()` of them.
+    /// Vertices: [`Chunk::vertices`] of a chunk, or as many as [`Plan::mesh_lengths`] says.
     pub vertices: &'a mut [Vertex],
-    /// The chunk's indices, `chunk.indices()` of them.
+    /// Indices: [`Chunk::indices`] of a chunk, or as many as [`Plan::mesh_lengths`] says.
     pub indices: &'a mut [u32],
+}
+
+impl MeshMut<'_> {
+    /// The bytes of both slices.
+    #[must_use]
+    pub const fn bytes(&self) -> u64 {
+        (size_of_val(self.vertices) + size_of_val(self.indices)) as u64
+    }
+
+    /// Copies a piece of the chunk to its place.
+    ///
+    /// **Panics** for a piece past the end.
+    pub fn take(&mut self, piece: MeshPiece<'_>) {
+        match piece {
+            MeshPiece::Vertices { first, vertices } => {
+                self.vertices[first as usize..][..vertices.len()].copy_from_slice(vertices);
+            }
+            MeshPiece::Indices { first, indices } => {
+                self.indices[first as usize..][..indices.len()].copy_from_slice(indices);
+            }
+        }
+    }
 }
 
 /// A whole fabric's mesh in host memory.

@@ -47,6 +47,18 @@ impl Quantum {
     /// The number of quanta after which packed coordinates repeat.
     pub const WRAP: f32 = (1 << Self::BITS) as f32;
 
+    /// The quantum of a length, mm; none unless it is a power of two from 2⁻²⁴ to 2¹¹.
+    ///
+    /// ```
+    /// use texere_core::Quantum;
+    /// assert_eq!(Quantum::of(1.0 / 4096.0), Some(Quantum::USUAL));
+    /// assert!([0.0, 0.3, -0.5, 4096.0, f32::NAN].into_iter().all(|mm| Quantum::of(mm).is_none()));
+    /// ```
+    #[must_use]
+    pub fn of(mm: f32) -> Option<Self> {
+        EXPONENTS.map(|exponent| Self { exponent }).find(|quantum| quantum.mm() == mm)
+    }
+
     /// The finest quantum that reaches `mm`. The finest of all is 2⁻²⁴ mm. If none reaches so far,
     /// the result is the coarsest, 2¹¹ mm or about 2 m.
     #[must_use]

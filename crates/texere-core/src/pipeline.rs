@@ -1,11 +1,13 @@
 //! The pipeline: it plans the work and drives any backend.
 
 mod error;
+mod run;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::backend::{Chunk, MeshMut, PaddedPoints, Plan, Session, SessionError, Trajectory, zeroed};
+use self::run::{OnProgress, Points};
+use crate::backend::{Chunk, MeshMut, PaddedPoints, Plan, Trajectory, zeroed};
 use crate::definitions::Ring;
 use crate::settling::Settler;
 use crate::{
@@ -14,10 +16,7 @@ use crate::{
 };
 
 pub use self::error::PipelineError;
-
-/// Control points per call of upload: 16 MB. Between two calls progress is reported and a
-/// cancellation noticed.
-const UPLOAD_POINTS: usize = 1 << 20;
+pub use self::run::Run;
 
 /// The progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,8 +26,6 @@ pub struct Progress {
     /// Rings in all.
     pub total: u64,
 }
-
-type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
 
 /// Makes a mesh of yarns on any backend.
 ///
@@ -47,8 +44,6 @@ pub struct Pipeline<'a> {
     follows_twist: bool,
     limits: Limits,
     within: Option<Bounds>,
-    /// Rings delivered so far.
-    done: u64,
     settler: Option<&'a mut dyn Settler>,
     progress: Option<OnProgress<'a>>,
 }
@@ -75,7 +70,6 @@ impl<'a> Pipeline<'a> {
             follows_twist: true,
             limits: Limits::default(),
             within: None,
-            done: 0,
             settler: None,
             progress: None,
         }
@@ -192,7 +186,8 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Calls `progress` during the upload of control points, with 0 rings, and after each chunk.
+    /// Calls `progress` while control points are sent and rolls worked out, with 0 rings, and after
+    /// each chunk.
     /// The last call has all rings. `Break` ends the run with [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
@@ -241,24 +236,13 @@ impl<'a> Pipeline<'a> {
     /// fits the limits; [`PipelineError::Backend`] if memory is short, the device fails, or it or
     /// its schedule can't do the work; [`PipelineError::Session`] for a settler of other yarns; and
     /// [`PipelineError::Cancelled`] if the progress callback asks to stop.
-    pub fn mesh(mut self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
-        let (plan, mut session) = self.start(device)?;
-        let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
-        let total = |count: fn(&Chunk) -> u32| chunks.iter().map(|chunk| u64::from(count(chunk))).sum();
-        let mut vertices = zeroed("vertices", total(|chunk| chunk.vertices()))?;
-        let mut indices = zeroed("indices", total(|chunk| chunk.indices()))?;
-        let (mut vertices_left, mut indices_left) = (&mut vertices[..], &mut indices[..]);
-        for chunk in &chunks {
-            let (chunk_vertices, others) = vertices_left.split_at_mut(chunk.vertices() as usize);
-            let (chunk_indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
-            (vertices_left, indices_left) = (others, other_indices);
-            session.mesh_into(chunk, MeshMut { vertices: chunk_vertices, indices: chunk_indices })?;
-            self.advance(&plan, chunk)?;
-        }
-        if plan.settings().topology == Topology::Shared {
-            indices = plan.shared_indices();
-        }
-        Ok(Mesh { vertices, indices, chunks, plan, materials: self.yarns.materials().clone() })
+    pub fn mesh(self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
+        let materials = self.yarns.materials().clone();
+        let (plan, chunks, run) = self.start(device)?;
+        let [vertices, indices] = plan.mesh_lengths(&chunks);
+        let (mut vertices, mut indices) = (zeroed("vertices", vertices)?, zeroed("indices", indices)?);
+        run.mesh_into(&chunks, MeshMut { vertices: &mut vertices, indices: &mut indices })?;
+        Ok(Mesh { vertices, indices, chunks, plan, materials })
     }
 
     /// The mesh piece by piece, each with its chunk, in bounded memory: the control points and two
@@ -269,36 +253,13 @@ impl<'a> Pipeline<'a> {
     ///
     /// **Errors**: the errors of [`Pipeline::mesh`].
     pub fn stream<B>(
-        mut self,
+        self,
         device: &dyn Backend,
-        mut sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+        sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, PipelineError> {
-        let (plan, mut session) = self.start(device)?;
-        let mut chunks = plan.chunks(&self.limits_on(device))?;
-        let mut waiting = chunks.next();
-        if let Some(chunk) = &waiting {
-            session.mesh(chunk)?;
-        }
-        while let Some(chunk) = waiting {
-            // The device works on the next chunk while this one is read.
-            waiting = chunks.next();
-            if let Some(next) = &waiting {
-                session.mesh(next)?;
-            }
-            let mut answer = None;
-            let _ = session.read_mesh(&chunk, &mut |piece| match sink(&chunk, piece) {
-                ControlFlow::Continue(()) => ControlFlow::Continue(()),
-                ControlFlow::Break(value) => {
-                    answer = Some(value);
-                    ControlFlow::Break(())
-                }
-            })?;
-            if let Some(value) = answer {
-                return Ok(ControlFlow::Break(value));
-            }
-            self.advance(&plan, &chunk)?;
-        }
-        Ok(ControlFlow::Continue(()))
+        let limits = self.limits_on(device);
+        let (plan, run) = self.run(device)?;
+        run.stream(plan.chunks(&limits)?, sink)
     }
 
     /// The attributes of each vertex, for shaders and textures, in host memory. They have the order
@@ -319,14 +280,10 @@ impl<'a> Pipeline<'a> {
     /// **Errors**: the errors of [`Pipeline::mesh`], and
     /// [`BackendError::NoAttributes`](crate::BackendError::NoAttributes).
     pub fn attributes(self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
-        self.of_vertices(device, "attributes", |session, chunk, out: &mut [Attribute]| {
-            session.measure()?;
-            session.attributes(chunk)?;
-            session.read_attributes(chunk, &mut |first, piece| {
-                out[first as usize..][..piece.len()].copy_from_slice(piece);
-                ControlFlow::Continue(())
-            })
-        })
+        let (plan, chunks, run) = self.start(device)?;
+        let mut all = zeroed("attributes", plan.mesh_lengths(&chunks)[0])?;
+        run.attributes(&chunks, copier(&mut all))?;
+        Ok(all)
     }
 
     /// Packed vertices, 12 bytes each, in host memory. They have the order of [`Pipeline::mesh`]'s
@@ -346,30 +303,9 @@ impl<'a> Pipeline<'a> {
     /// **Errors**: the errors of [`Pipeline::mesh`], and
     /// [`BackendError::NoPacking`](crate::BackendError::NoPacking).
     pub fn packed(self, device: &dyn Backend) -> Result<Vec<PackedVertex>, PipelineError> {
-        self.of_vertices(device, "packed vertices", |session, chunk, out: &mut [PackedVertex]| {
-            session.packed(chunk)?;
-            session.read_packed(chunk, &mut |first, piece| {
-                out[first as usize..][..piece.len()].copy_from_slice(piece);
-                ControlFlow::Continue(())
-            })
-        })
-    }
-
-    /// One value per vertex, made by `make` chunk by chunk, in host memory.
-    fn of_vertices<T: bytemuck::Zeroable>(
-        mut self,
-        device: &dyn Backend,
-        what: &'static str,
-        make: impl Fn(&mut Session, &Chunk, &mut [T]) -> Result<ControlFlow<()>, SessionError>,
-    ) -> Result<Vec<T>, PipelineError> {
-        let (plan, mut session) = self.start(device)?;
-        let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
-        let mut all = zeroed(what, chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum())?;
-        for chunk in &chunks {
-            let own = &mut all[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
-            let _ = make(&mut session, chunk, own)?;
-            self.advance(&plan, chunk)?;
-        }
+        let (plan, chunks, run) = self.start(device)?;
+        let mut all = zeroed("packed vertices", plan.mesh_lengths(&chunks)[0])?;
+        run.packed(&chunks, copier(&mut all))?;
         Ok(all)
     }
 
@@ -387,56 +323,34 @@ impl<'a> Pipeline<'a> {
     /// **Errors**: the errors of [`Pipeline::mesh`].
     pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
         self.within = None;
-        let (plan, mut session) = self.start(device)?;
+        let limits = self.limits_on(device);
+        let (plan, run) = self.run(device)?;
         let mut rings: Vec<Ring> = zeroed("rings", plan.counts().rings)?;
-        let mut done = 0;
-        for chunk in plan.chunks(&self.limits_on(device))? {
-            session.trajectory(&chunk)?;
-            // A repeated ring is also the first of the next chunk, which overwrites it.
-            let mut at = done;
-            let _ = session.read_trajectory(&chunk, &mut |piece| {
-                rings[at..at + piece.len()].copy_from_slice(piece);
-                at += piece.len();
-                ControlFlow::Continue(())
-            })?;
-            done += chunk.rings() as usize - usize::from(chunk.repeats_ring());
-            self.advance(&plan, &chunk)?;
-        }
+        run.trajectory(plan.chunks(&limits)?, copier(&mut rings))?;
         Ok(Trajectory { rings, offsets: plan.ring_offsets().to_vec() })
     }
 
-    /// Makes the plan, opens a session, uploads and scans.
-    fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Session), PipelineError> {
+    /// The plan, and its run on `device`.
+    fn run(self, device: &dyn Backend) -> Result<(Arc<Plan>, Run<'a>), PipelineError> {
         let plan = Arc::new(self.plan()?);
-        let mut session = Session::new(device, plan.clone())?.with_limits(&self.limits);
-        let total = plan.counts().rings;
-        if let Some(settler) = &mut self.settler {
-            session.take_settled(&mut **settler)?;
-            self.report(Progress { rings: 0, total })?;
-        } else {
-            let mut first = 0;
-            for points in self.yarns.points().chunks(UPLOAD_POINTS) {
-                session.upload(first, points)?;
-                first += points.len() as u64;
-                self.report(Progress { rings: 0, total })?;
-            }
-        }
-        if plan.needs_scan() {
-            session.scan()?;
-        }
-        Ok((plan, session))
+        let points = match self.settler {
+            Some(settler) => Points::Settled(settler),
+            None => Points::Given(self.yarns.points()),
+        };
+        let progress = self.progress.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
+        Ok((plan.clone(), Run::of(device, plan, points, &self.limits, progress)?))
     }
 
-    /// Counts a chunk as delivered.
-    fn advance(&mut self, plan: &Plan, chunk: &Chunk) -> Result<(), PipelineError> {
-        self.done += u64::from(chunk.rings()) - u64::from(chunk.repeats_ring());
-        self.report(Progress { rings: self.done, total: plan.counts().rings })
+    /// The plan, all its chunks for `device`, and its run.
+    fn start(self, device: &dyn Backend) -> Result<(Arc<Plan>, Vec<Chunk>, Run<'a>), PipelineError> {
+        let limits = self.limits_on(device);
+        let (plan, run) = self.run(device)?;
+        let chunks = plan.chunks(&limits)?.collect();
+        Ok((plan, chunks, run))
     }
+}
 
-    fn report(&mut self, progress: Progress) -> Result<(), PipelineError> {
-        match self.progress.as_mut().map(|report| report(progress)) {
-            Some(ControlFlow::Break(())) => Err(PipelineError::Cancelled),
-            _ => Ok(()),
-        }
-    }
+/// A sink that copies pieces to their places in `all`.
+fn copier<T: Copy>(all: &mut [T]) -> impl FnMut(u64, &[T]) {
+    move |first, piece| all[first as usize..][..piece.len()].copy_from_slice(piece)
 }

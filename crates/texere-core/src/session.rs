@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::backend::{Chunk, MeshMut, Plan, TablesId};
 use crate::definitions::Ring;
 use crate::engine::{
-    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
+    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, Watch,
 };
 use crate::settling::{Settler, SettlingYarn};
 use crate::traffic::Traffic;
@@ -171,11 +171,19 @@ impl<E: Engine + ?Sized> Session<E> {
     /// **Errors**: [`SessionError::Plan`] if not even one block fits the device's limits, and
     /// [`SessionError::Backend`].
     pub fn scan(&mut self) -> Result<(), SessionError> {
-        if self.plan.needs_scan() && !self.scanned {
-            self.go_through(E::scan)?;
+        self.scan_watched(&mut || ControlFlow::Continue(())).map(|_| ())
+    }
+
+    /// [`Session::scan`], which ends early where `watch` answers `Break`, and gives that answer.
+    /// `watch` is called now and then.
+    ///
+    /// **Errors**: the errors of [`Session::scan`].
+    pub fn scan_watched(&mut self, watch: Watch<'_>) -> Result<ControlFlow<()>, SessionError> {
+        if self.plan.needs_scan() && !self.scanned && self.go_through(E::scan, watch)?.is_break() {
+            return Ok(ControlFlow::Break(()));
         }
         self.scanned = true;
-        Ok(())
+        Ok(ControlFlow::Continue(()))
     }
 
     /// Works out the length of yarn before each block's start, which [`Session::attributes`] needs.
@@ -184,18 +192,34 @@ impl<E: Engine + ?Sized> Session<E> {
     ///
     /// **Errors**: [`BackendError::NoAttributes`], and the errors of [`Session::scan`].
     pub fn measure(&mut self) -> Result<(), SessionError> {
-        if !self.measured {
-            self.go_through(E::measure)?;
-        }
-        self.measured = true;
-        Ok(())
+        self.measure_watched(&mut || ControlFlow::Continue(())).map(|_| ())
     }
 
-    /// Calls `scan` with all chunks of the whole plan, each in a slot.
+    /// [`Session::measure`], which ends early where `watch` answers `Break`, and gives that answer.
+    /// `watch` is called now and then.
+    ///
+    /// **Errors**: the errors of [`Session::measure`].
+    pub fn measure_watched(&mut self, watch: Watch<'_>) -> Result<ControlFlow<()>, SessionError> {
+        if !self.measured && self.go_through(E::measure, watch)?.is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+        self.measured = true;
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Calls `scan` with all chunks of the whole plan, each in a slot, until `watch` answers `Break`.
     fn go_through(
         &mut self,
         scan: impl FnOnce(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
-    ) -> Result<(), SessionError> {
+        watch: Watch<'_>,
+    ) -> Result<ControlFlow<()>, SessionError> {
+        let mut answer = ControlFlow::Continue(());
+        let mut watch = || {
+            if answer.is_continue() {
+                answer = watch();
+            }
+            answer
+        };
         // A yarn's roll at any place depends on all of the yarn before it, so a scan covers the
         // whole plan.
         let whole = self.plan.whole();
@@ -208,9 +232,10 @@ impl<E: Engine + ?Sized> Session<E> {
             in_flight[slot.index()].tables = Some(chunk.tables().clone());
             ScanChunk { slot, chunk, loaded }
         });
-        scan(&mut self.engine, ScanChunks::new(&mut in_slots, 0..self.plan.layout().yarns().len()))?;
+        let yarns = 0..self.plan.layout().yarns().len();
+        scan(&mut self.engine, ScanChunks::new(&mut in_slots, yarns, &mut watch))?;
         self.in_flight = in_flight;
-        Ok(())
+        Ok(answer)
     }
 
     /// Stage 1: makes rings from control points. The call may return before the work is done.

@@ -43,8 +43,9 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
     ) -> Result<(), BackendError>;
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
     /// Makes the mesh of `chunk`. `rings` are the chunk's rings; they have no meaning if the
-    /// executor is [`FUSED`](Self::FUSED).
-    fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>);
+    /// executor is [`FUSED`](Self::FUSED). `out` is a part of `bytes` of memory, which are filled
+    /// before any of them is read.
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>, bytes: u64);
     /// Makes the packed vertices of `chunk`. `rings` are the chunk's rings; they have no meaning if
     /// the executor is [`FUSED`](Self::FUSED).
     fn packed(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: &mut [PackedVertex]);
@@ -100,6 +101,20 @@ pub(crate) fn resize<T: bytemuck::Zeroable>(
     Ok(())
 }
 
+/// Rings that are scanned before a cancellation is heard: some 10 ms of a slow core.
+const SCAN_RINGS: u64 = 1 << 17;
+
+/// `yarns`, cut after each [`SCAN_RINGS`] rings or so. A yarn is not cut.
+fn batches(plan: &Plan, yarns: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let (offsets, mut first) = (plan.ring_offsets(), yarns.start);
+    std::iter::from_fn(move || {
+        let from = first;
+        let end = offsets.partition_point(|offset| *offset < offsets[from] + SCAN_RINGS);
+        first = end.clamp(from + 1, yarns.end.max(from + 1));
+        (from < yarns.end).then_some(from..first)
+    })
+}
+
 fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();
     let result = work();
@@ -123,9 +138,13 @@ impl<E: Executor> Engine for CpuEngine<E> {
         Ok(())
     }
 
-    fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+    fn scan(&mut self, mut chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let Self { work: Work { plan, points, rolls, .. }, timings, executor, .. } = self;
-        timed(&mut timings.scan, || executor.scan(plan, points, rolls, chunks.yarns()))
+        timed(&mut timings.scan, || {
+            batches(plan, chunks.yarns())
+                .take_while(|_| chunks.watch().is_continue())
+                .try_for_each(|yarns| executor.scan(plan, points, rolls, yarns))
+        })
     }
 
     /// Makes room for the slot. Nothing else is needed: the stages read the tables of the chunk
@@ -151,7 +170,8 @@ impl<E: Executor> Engine for CpuEngine<E> {
         resize("vertices", vertices, chunk.vertices().into())?;
         resize("indices", indices, chunk.indices().into())?;
         let out = MeshMut { vertices, indices };
-        timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out));
+        let bytes = out.bytes();
+        timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out, bytes));
         Ok(())
     }
 
@@ -178,10 +198,14 @@ impl<E: Executor> Engine for CpuEngine<E> {
         Ok(flow)
     }
 
-    fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+    fn measure(&mut self, mut chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let Self { work: Work { plan, points, lengths, .. }, timings, executor, .. } = self;
         resize("lengths along yarns", lengths, plan.block_count())?;
-        timed(&mut timings.scan, || executor.measure(plan, points, lengths, chunks.yarns()));
+        timed(&mut timings.scan, || {
+            batches(plan, chunks.yarns())
+                .take_while(|_| chunks.watch().is_continue())
+                .for_each(|yarns| executor.measure(plan, points, lengths, yarns));
+        });
         Ok(())
     }
 
@@ -219,7 +243,9 @@ impl<E: Executor> Engine for CpuEngine<E> {
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         let rings = &self.memory[slot.index()].rings;
-        timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out));
+        // The caller has memory for the whole mesh.
+        let bytes = self.work.plan.counts().bytes().max(out.bytes());
+        timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out, bytes));
         Ok(())
     }
 

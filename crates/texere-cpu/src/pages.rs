@@ -4,20 +4,23 @@
 
 /// Asks the system for huge pages for `memory`. Pages that have been touched already stay as they
 /// are.
+///
+/// Ordinary pages at both ends count as a whole, so that memory which is filled chunk by chunk is one
+/// range in the end: a huge page lies within one range or not at all.
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     use rustix::mm::{Advice, madvise};
     /// The largest ordinary page of any Linux system, bytes. Every ordinary page's size divides it.
     const PAGE: usize = 64 << 10;
-    let memory: &[u8] = bytemuck::cast_slice(memory);
-    let start = memory.as_ptr().align_offset(PAGE);
-    if let Some(whole) = memory.get(start..) {
-        // SAFETY: the range lies within `memory`, and the advice changes no value in it. If the
-        // system refuses the advice, pages stay small, so the answer does not matter.
-        let _ = unsafe {
-            madvise(whole.as_ptr().cast_mut().cast(), whole.len() / PAGE * PAGE, Advice::LinuxHugepage)
-        };
+    let bytes = size_of_val(memory);
+    if bytes < PAGE {
+        return;
     }
+    let before = memory.as_ptr().addr() % PAGE;
+    let start = memory.as_ptr().cast_mut().wrapping_byte_sub(before).cast();
+    // SAFETY: the advice changes nothing of what any memory holds. Where the system refuses it,
+    // pages stay small, so the answer does not matter.
+    let _ = unsafe { madvise(start, (before + bytes).next_multiple_of(PAGE), Advice::LinuxHugepage) };
 }
 
 /// Other systems choose their pages themselves.

@@ -2,6 +2,7 @@
 //! timings.
 
 use std::any::Any;
+use std::ffi::c_void;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::Instant;
@@ -96,6 +97,18 @@ impl OpenClEngine {
     #[must_use]
     pub fn of(engine: &dyn Engine) -> Option<&Self> {
         (engine as &dyn Any).downcast_ref()
+    }
+
+    /// The `cl_context` that the buffers are in, valid as long as the engine.
+    #[must_use]
+    pub fn context(&self) -> *mut c_void {
+        self.opened.context.raw()
+    }
+
+    /// The `cl_command_queue` that meshes are made on, valid as long as the engine.
+    #[must_use]
+    pub fn queue(&self) -> *mut c_void {
+        self.opened.queue.raw()
     }
 
     /// The device memory of the mesh of the chunk in `slot`. None if nothing was made yet.

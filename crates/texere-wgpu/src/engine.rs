@@ -116,6 +116,12 @@ impl WgpuEngine {
         (engine as &dyn Any).downcast_ref()
     }
 
+    /// The device that the buffers are on.
+    #[must_use]
+    pub fn device(&self) -> &wgpu::Device {
+        &self.opened.gpu.device
+    }
+
     /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal,
     /// from the start of the buffer, which may be longer. None if nothing was made yet. Its usages
     /// are `VERTEX`, `STORAGE` and `COPY_SRC`.

@@ -17,6 +17,7 @@
 //! | read the tables of every yarn, block and chunk | [`Plan`], [`Block`], [`Chunk`] |
 //! | compute splines, frames and sections as all backends do | [`definitions`] |
 //! | settle on a device | [`settling`], [`crossings`] |
+//! | run a plan, its results in memory of the program's own | [`Run`] |
 //! | drive a backend chunk by chunk | [`Session`], [`Slot`], [`StageTimings`] |
 //! | keep a mesh on a device, and edit it without a structure | [`LiveMesh`], [`Edits`] |
 //!
@@ -28,8 +29,8 @@
 
 pub use texere_core::backend::{
     AttributeSink, BLOCK_RINGS, Block, Chunk, ChunkDraw, Chunks, Draw, Edits, Engine, LiveMesh, MeshMut,
-    MeshSink, NullBackend, PackedSink, PaddedPoints, Part, Plan, RingSink, ScanChunk, ScanChunks, Schedule,
-    Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory, WINDOW_POINTS, filled,
-    renew_virtual_ends, room, room_for, take_over_host, zeroed,
+    MeshSink, NullBackend, PackedSink, PaddedPoints, Part, Plan, RingSink, Run, ScanChunk, ScanChunks,
+    Schedule, Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory, WINDOW_POINTS, Watch,
+    filled, renew_virtual_ends, room, room_for, take_over_host, zeroed,
 };
 pub use texere_core::{OutOfMemory, crossings, definitions, settling};

@@ -10,5 +10,5 @@ if(NOT TARGET texere::texere)
   set_target_properties(texere::texere_static PROPERTIES
     IMPORTED_LOCATION "${texere_prefix}/lib/libtexere_c.a"
     INTERFACE_INCLUDE_DIRECTORIES "${texere_prefix}/include"
-    INTERFACE_LINK_LIBRARIES "m;pthread;dl")
+    INTERFACE_LINK_LIBRARIES "gcc_s;util;rt;pthread;m;dl")
 endif()

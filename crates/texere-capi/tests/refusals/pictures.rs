@@ -5,8 +5,9 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::TEXERE_OK;
 use texere_c::*;
 
-use super::{Case, Handles, settings, strange};
+use super::{Handles, settings};
 use crate::common::sized;
+use crate::tools::{Case, case, strange};
 
 pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -22,19 +23,20 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     );
     case!(cases, texere_renderer_extent(own.renderer, null_mut()));
     case!(cases, texere_renderer_seen(own.renderer, 0.0, 0.0, null_mut()));
-    case!(cases, texere_renderer_picture(own.renderer, null(), null(), pixels));
+    case!(cases, texere_renderer_picture(own.renderer, null(), null(), &pixels));
+    case!(cases, texere_renderer_picture(own.renderer, &picture(), null(), null()));
     case!(cases, texere_renderer_write(own.renderer, null(), null(), png, length));
     let own_of_another_kind = own.run.cast();
     for renderer in [null_mut(), strange()[0], strange()[1], own_of_another_kind] {
         case!(cases, texere_renderer_show(renderer, own.yarns, null(), null()));
         case!(cases, texere_renderer_extent(renderer, &mut texere_extent::default()));
         case!(cases, texere_renderer_seen(renderer, 0.0, 0.0, &mut texere_seen::default()));
-        case!(cases, texere_renderer_picture(renderer, &picture(), null(), pixels));
+        case!(cases, texere_renderer_picture(renderer, &picture(), null(), &pixels));
         case!(cases, texere_renderer_write(renderer, &picture(), null(), png, length));
     }
     for run in strange() {
         case!(cases, texere_renderer_show(own.renderer, own.yarns, null(), run));
-        case!(cases, texere_renderer_picture(own.renderer, &picture(), run, pixels));
+        case!(cases, texere_renderer_picture(own.renderer, &picture(), run, &pixels));
         case!(cases, texere_renderer_write(own.renderer, &picture(), run, png, length));
     }
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
@@ -45,7 +47,7 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     for size in [0, 4, u32::MAX] {
         let picture = texere_picture { struct_size: size, ..picture() };
         case!(cases, texere_picture_default(&mut { picture }));
-        case!(cases, texere_renderer_picture(own.renderer, &picture, null(), pixels));
+        case!(cases, texere_renderer_picture(own.renderer, &picture, null(), &pixels));
         case!(cases, texere_renderer_write(own.renderer, &picture, null(), png, length));
     }
     for wrong in [
@@ -54,7 +56,7 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
         texere_view { stride: 31, ..pixels },
         texere_view { stride: u64::MAX, ..pixels },
     ] {
-        case!(cases, texere_renderer_picture(own.renderer, &picture(), null(), wrong));
+        case!(cases, texere_renderer_picture(own.renderer, &picture(), null(), &wrong));
     }
     for wrong in [
         texere_picture { width: 0, ..picture() },
@@ -70,7 +72,7 @@ pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
         texere_picture { view: TEXERE_VIEW_EYE, eye: [0.0; 3], ..picture() },
         texere_picture { view: TEXERE_VIEW_PARALLEL, height_mm: -1.0, ..picture() },
     ] {
-        case!(cases, texere_renderer_picture(own.renderer, &wrong, null(), pixels));
+        case!(cases, texere_renderer_picture(own.renderer, &wrong, null(), &pixels));
     }
     let wide = texere_picture { width: u32::MAX, ..picture() };
     case!(cases, texere_renderer_write(own.renderer, &wide, null(), png, length));

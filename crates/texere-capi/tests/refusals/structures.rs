@@ -5,8 +5,9 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::TEXERE_OK;
 use texere_c::*;
 
-use super::{Case, Handles, strange};
+use super::Handles;
 use crate::common::sized;
+use crate::tools::{Case, case, strange};
 
 pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();

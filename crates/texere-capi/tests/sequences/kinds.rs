@@ -58,7 +58,16 @@ kinds! {
     5 texere_plan, freed by texere_plan_free, made by |caller: &mut Caller<'_>, out| {
         texere_plan_new(caller.live(), caller.live(), null(), out)
     };
-    6 texere_renderer, freed by texere_renderer_free, made by |_: &mut Caller<'_>, out| {
+    6 texere_session, freed by texere_session_free, made by |caller: &mut Caller<'_>, out| {
+        let (mut device, mut plan) = (null_mut(), null_mut());
+        texere_device_open(c"wgpu".as_ptr(), 4, &mut device);
+        texere_plan_new(caller.live(), device, null(), &mut plan);
+        let made = texere_session_new(plan, null(), out);
+        texere_plan_free(plan);
+        texere_device_free(device);
+        made
+    };
+    7 texere_renderer, freed by texere_renderer_free, made by |_: &mut Caller<'_>, out| {
         texere_renderer_open(null(), 0, out)
     };
 }

@@ -46,8 +46,8 @@ const CALLS: usize = 12;
 const THREADS: u64 = 8;
 const FEWER: u64 = 10;
 
-/// How many times fewer sequences make pictures.
-const FEWER_PICTURES: u64 = 1000;
+/// How many times fewer sequences work on a GPU.
+const FEWER_ON_GPU: u64 = 1000;
 
 fn main() -> ExitCode {
     let number = |name| std::env::var(name).ok().and_then(|text| text.parse().ok());
@@ -58,7 +58,7 @@ fn main() -> ExitCode {
         Trial::test("every_function_of_the_header_has_an_operation", complete),
         Trial::test("one_thread", move || one_thread(seed, count)),
         Trial::test("eight_threads", move || eight_threads(seed, count / FEWER)),
-        Trial::test("pictures", move || pictures(seed, count / FEWER_PICTURES)),
+        Trial::test("gpu", move || gpu(seed, count / FEWER_ON_GPU)),
     ];
     let arguments = Arguments::from_args();
     if !arguments.list {
@@ -84,7 +84,7 @@ fn complete() -> Result<(), Failed> {
 type Ends = BTreeMap<&'static str, [u64; 2]>;
 
 fn one_thread(seed: u64, count: u64) -> Result<(), Failed> {
-    let (table, mut ends) = (chosen(|operation| !operation.draws), Ends::new());
+    let (table, mut ends) = (chosen(|operation| !operation.on_gpu), Ends::new());
     let (watched, folder) = (Watched::new(seed), tempfile::tempdir()?);
     for number in 0..count {
         // Each sequence has a pool of its own, so that it can be made again without the others.
@@ -118,7 +118,7 @@ fn eight_threads(seed: u64, count: u64) -> Result<(), Failed> {
     thread::scope(|scope| {
         for _ in 0..THREADS {
             scope.spawn(|| {
-                let (table, mut ends) = (chosen(|operation| !operation.draws), Ends::new());
+                let (table, mut ends) = (chosen(|operation| !operation.on_gpu), Ends::new());
                 let watched = Watched::new(seed);
                 loop {
                     let number = next.fetch_add(1, Ordering::Relaxed);
@@ -141,8 +141,8 @@ fn eight_threads(seed: u64, count: u64) -> Result<(), Failed> {
     Ok(())
 }
 
-fn pictures(seed: u64, count: u64) -> Result<(), Failed> {
-    let (table, mut ends) = (chosen(|operation| operation.draws), Ends::new());
+fn gpu(seed: u64, count: u64) -> Result<(), Failed> {
+    let (table, mut ends) = (chosen(|operation| operation.on_gpu), Ends::new());
     let (watched, folder, pool) = (Watched::new(seed), tempfile::tempdir()?, Pool::new(false));
     for number in 0..count {
         sequence(&table, Random::of(seed, number), &pool, folder.path(), &watched, &mut ends);

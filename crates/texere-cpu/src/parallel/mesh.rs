@@ -20,14 +20,14 @@ use crate::pages;
 
 /// Outputs of at least this many bytes are stored past the caches. It is the size of a large
 /// processor's last cache.
-pub(super) const STREAM_BYTES: usize = 32 << 20;
+pub(super) const STREAM_BYTES: u64 = 32 << 20;
 
-pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: MeshMut<'_>) {
+pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: MeshMut<'_>, bytes: u64) {
     let settings = work.plan.settings();
     let indexed = settings.topology == Topology::Indexed;
     pages::prefer_huge(out.vertices);
     pages::prefer_huge(out.indices);
-    let streams = size_of_val(out.vertices) + size_of_val(out.indices) >= STREAM_BYTES;
+    let streams = bytes >= STREAM_BYTES;
     let (maker, table) = (Maker::new(work), indexed.then(|| IndexTable::new(settings.sides)));
     let (maker, table) = (&maker, table.as_ref());
     mesh_runs(chunk, settings.sides, indexed, &mut out)

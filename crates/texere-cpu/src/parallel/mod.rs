@@ -78,8 +78,8 @@ impl Executor for Parallel {
         trajectory::trajectory(self.0, work, chunk, out);
     }
 
-    fn mesh(self, work: &Work, chunk: &Chunk, _rings: &[Ring], out: MeshMut<'_>) {
-        mesh::mesh(self.0, work, chunk, out);
+    fn mesh(self, work: &Work, chunk: &Chunk, _rings: &[Ring], out: MeshMut<'_>, bytes: u64) {
+        mesh::mesh(self.0, work, chunk, out, bytes);
     }
 
     fn packed(self, work: &Work, chunk: &Chunk, _rings: &[Ring], out: &mut [PackedVertex]) {

@@ -27,7 +27,7 @@ type Pair = [[f32; 4]; 3];
 
 pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut [PackedVertex]) {
     let settings = work.plan.settings();
-    let (maker, streams) = (&Maker::new(work), size_of_val(out) >= STREAM_BYTES);
+    let (maker, streams) = (&Maker::new(work), size_of_val(out) as u64 >= STREAM_BYTES);
     pages::prefer_huge(out);
     vertex_runs(chunk, BLOCKS, settings.sides, out).into_par_iter().for_each_init(
         || (Vec::new(), Vec::new()),

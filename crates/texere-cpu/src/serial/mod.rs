@@ -42,7 +42,7 @@ impl Executor for Serial {
         trajectory::trajectory(work, chunk, out);
     }
 
-    fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>) {
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>, _bytes: u64) {
         mesh::mesh(work, chunk, rings, out);
     }
 

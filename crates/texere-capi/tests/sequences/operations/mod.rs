@@ -7,7 +7,7 @@ macro_rules! table {
             name: stringify!($name),
             weight: $weight,
             fails: true,
-            draws: false,
+            on_gpu: false,
             call: |$caller: &mut Caller<'_>| {
                 // SAFETY: pointers are those of values that live as long as the call, or null;
                 // handles are looked up.
@@ -18,6 +18,7 @@ macro_rules! table {
     };
 }
 
+mod outputs;
 mod structures;
 
 use std::ffi::c_void;
@@ -37,8 +38,8 @@ pub(crate) struct Operation {
     pub(crate) weight: usize,
     /// Whether the function can fail.
     pub(crate) fails: bool,
-    /// Whether it needs a renderer, which few sequences have.
-    pub(crate) draws: bool,
+    /// Whether it needs a GPU, which few sequences have.
+    pub(crate) on_gpu: bool,
     pub(crate) call: fn(&mut Caller<'_>) -> texere_status,
 }
 
@@ -76,9 +77,12 @@ pub(crate) unsafe fn read(text: &str, out: *mut *mut texere_design) -> texere_st
 
 /// All operations.
 pub(crate) fn operations() -> Vec<Operation> {
-    let mut all = [designs(), structures::operations(), cloths(), yarns(), plans(), plain()].concat();
-    let pictures = pictures().into_iter().map(|operation| Operation { draws: true, ..operation });
-    all.extend(pictures);
+    let mut all =
+        [designs(), structures::operations(), cloths(), yarns(), plans(), outputs::operations(), plain()]
+            .concat();
+    let on_gpu = [pictures(), outputs::sessions()].concat();
+    let on_gpu = on_gpu.into_iter().map(|operation| Operation { on_gpu: true, ..operation });
+    all.extend(on_gpu);
     all.extend(frees());
     all
 }
@@ -135,11 +139,12 @@ fn frees() -> Vec<Operation> {
         texere_yarns_free, 3, |caller| caller.free::<texere_yarns>();
         texere_plan_free, 3, |caller| caller.free::<texere_plan>();
     };
-    let renderer = table! {
+    let on_gpu = table! {
         texere_renderer_free, 1, |caller| caller.free::<texere_renderer>();
+        texere_session_free, 1, |caller| caller.free::<texere_session>();
     };
-    let renderer = renderer.into_iter().map(|operation| Operation { draws: true, ..operation });
-    frees.into_iter().chain(renderer).map(|operation| Operation { fails: false, ..operation }).collect()
+    let on_gpu = on_gpu.into_iter().map(|operation| Operation { on_gpu: true, ..operation });
+    frees.into_iter().chain(on_gpu).map(|operation| Operation { fails: false, ..operation }).collect()
 }
 
 /// Gives the bytes that `user` points to, whatever file is asked for.
@@ -297,6 +302,7 @@ fn settings(caller: &mut Caller<'_>) -> texere_settings {
         frame: caller.random.choice(2),
         topology: caller.random.choice(3),
         caps: caller.random.choice(2),
+        quantum_mm: caller.random.pick(&[1.0, 0.25, 0.25, 0.25, 0.3]),
         ..caller.sized()
     }
 }
@@ -392,7 +398,7 @@ fn pictures() -> Vec<Operation> {
                 size: caller.random.pick(&[1024, 1024, 900]),
                 stride: caller.random.pick(&[64, 64, 64, 31, 0, u64::MAX]),
             };
-            texere_renderer_picture(renderer, &picture, run, view)
+            texere_renderer_picture(renderer, &picture, run, &view)
         };
         texere_renderer_write, 2, |caller| {
             let (renderer, run, path) = (caller.handle(), caller.handle_or_null(), caller.path(&FILES));

@@ -1,0 +1,789 @@
+// texere: textile designs to yarn-level 3D geometry.
+//
+// A function that can fail gives a texere_status; texere_error_message says in words what went
+// wrong, and texere_error_place where in a design's file. What a `_free` function takes may be null,
+// or freed already. A handle is looked up and never followed, so a handle that was freed is refused.
+//
+// Handles may be used by several threads at once. A handle that is freed while another thread's call
+// uses it lives until that call ends.
+//
+// Strings are UTF-8 with a length in bytes. Lengths are in mm, angles in radians; x runs along the
+// weft or the courses, y along the warp or the wales, z out of the technical face.
+//
+// Made by cbindgen from crates/texere-capi: do not edit.
+
+
+#ifndef TEXERE_H
+#define TEXERE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// The number of the binary interface. A program compares it with `texere_abi` of the library
+// that it has loaded: they are equal, or the program can't use that library.
+#define TEXERE_ABI 1
+
+// The yarns are where the structure places them: the design does not ask for more.
+#define TEXERE_PLACED 0
+
+// The yarns came to rest.
+#define TEXERE_AT_REST 1
+
+// The yarns settled and are not at rest; `words` of the report says what is left.
+#define TEXERE_NOT_AT_REST 2
+
+// The yarns are where the structure places them, for they can't come to rest; `words` says why.
+#define TEXERE_REFUSED 3
+
+// Buffers are `cl_mem`.
+#define TEXERE_NATIVE_OPENCL 1
+
+// Buffers are `VkBuffer`.
+#define TEXERE_NATIVE_VULKAN 2
+
+// Sections stand with their side level. Yarns that are too steep for that are carried along.
+#define TEXERE_FRAME_UPRIGHT 0
+
+// Sections are carried along the yarn without turning.
+#define TEXERE_FRAME_ROTATION_MINIMIZING 1
+
+// Three indices a triangle, counted from the base vertex of their draw.
+#define TEXERE_TOPOLOGY_INDEXED 0
+
+// One pattern of indices for all draws.
+#define TEXERE_TOPOLOGY_SHARED 1
+
+// No indices.
+#define TEXERE_TOPOLOGY_NONE 2
+
+// glTF 2.0 in one binary file, `.glb`.
+#define TEXERE_FORMAT_GLB 0
+
+// Binary PLY, `.ply`.
+#define TEXERE_FORMAT_PLY 1
+
+// How a call ended.
+typedef enum texere_status {
+  // The call did what it is for.
+  TEXERE_OK = 0,
+  // A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind,
+  // or a value out of its range.
+  TEXERE_ARGUMENT = 1,
+  // The design can't be read, or its cloth can't be made.
+  TEXERE_DESIGN = 2,
+  // There is no such device, or it failed.
+  TEXERE_DEVICE = 3,
+  // Memory did not suffice, on the host or on the device.
+  TEXERE_MEMORY = 4,
+  // A file can't be read or written.
+  TEXERE_IO = 5,
+  // The call ended early since `texere_run_cancel` was called.
+  TEXERE_CANCELLED = 6,
+  // The library was built without what the call needs, or the device can't do it.
+  TEXERE_UNSUPPORTED = 7,
+  // A fault of the library. It was caught, and the library can still be used.
+  TEXERE_PANIC = 8,
+} texere_status;
+
+// The cloth of a design: its yarns, and how they came to rest.
+typedef struct texere_cloth texere_cloth;
+
+// A design that was read: a WIF draft, a design file, or a program of a knitting machine.
+typedef struct texere_design texere_design;
+
+// An open device: a GPU, or the CPU.
+typedef struct texere_device texere_device;
+
+// The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+//
+// A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
+// 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
+typedef struct texere_plan texere_plan;
+
+// A call that takes long, as other threads see it: how far it has come, and whether it is to end.
+// One run may be given to one call after another; each starts it at 0.
+typedef struct texere_run texere_run;
+
+// A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
+// time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+//
+// One thread at a time may use a session. A call while another thread's is under way fails with
+// TEXERE_ARGUMENT.
+typedef struct texere_session texere_session;
+
+// Yarns: their control points, sections and materials.
+typedef struct texere_yarns texere_yarns;
+
+// How the yarns of a cloth came to rest.
+typedef struct texere_report {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_PLACED, TEXERE_AT_REST, TEXERE_NOT_AT_REST or TEXERE_REFUSED.
+  uint32_t outcome;
+  // The outcome in words, UTF-8 that ends with a zero byte, valid until the cloth is freed.
+  const char *words;
+  // How many warnings `texere_cloth_warning` gives.
+  uint64_t warnings;
+} texere_report;
+
+// Gives the bytes of a file that a design names, such as a picture: sets `*data` and `*size`, and
+// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid
+// until the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
+typedef int32_t (*texere_file_callback)(void *user,
+                                        const char *path,
+                                        size_t path_length,
+                                        const uint8_t **data,
+                                        size_t *size);
+
+// What a device is. Strings end with a zero byte and are valid until the device is freed.
+typedef struct texere_device_info {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // 1 if yarns can come to rest on it, else 0.
+  uint32_t settles;
+  // The name that opens it, such as "cpu" or "opencl:0".
+  const char *name;
+  // The device as its maker calls it.
+  const char *device;
+  // Its driver, with the version.
+  const char *driver;
+  // Bytes of memory that it has; 0 where it does not say so.
+  uint64_t memory_bytes;
+} texere_device_info;
+
+// A place in a design's file.
+typedef struct texere_place {
+  // The file's name, UTF-8 that ends with a zero byte; null where the error has no place. It is
+  // valid until the next call of this thread fails.
+  const char *file;
+  // The line, from 1; 0 where it is not known.
+  uint64_t line;
+  // The column, in letters from 1; 0 where it is not known.
+  uint64_t column;
+} texere_place;
+
+// A vertex of a tube.
+typedef struct texere_vertex {
+  // Position, mm.
+  float position[3];
+  // Unit normal, out of the yarn.
+  float normal[3];
+} texere_vertex;
+
+// Values that lie in the caller's memory: in an array of their own, or as one member of the
+// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+typedef struct texere_view {
+  // The first value.
+  void *data;
+  // Bytes from `data` on that belong to the view: at least up to the end of the last value.
+  uint64_t size;
+  // Bytes from one value to the next: at least the size of a value.
+  uint64_t stride;
+} texere_view;
+
+// Where a mesh goes: arrays of their own, or members of the caller's structs. None of them overlaps
+// another one's values.
+typedef struct texere_mesh_arrays {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Positions, mm: three `float` for each vertex.
+  struct texere_view positions;
+  // Unit normals, out of the yarn: three `float` for each vertex. Null `data`: left out.
+  struct texere_view normals;
+  // Indices, a `uint32_t` each. Null `data`: left out.
+  struct texere_view indices;
+} texere_mesh_arrays;
+
+// What can be chosen about a mesh. `texere_settings_default` fills it in.
+typedef struct texere_settings {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Points that are inserted between two control points, from 0.
+  uint32_t subdivisions;
+  // Sides of the tubes, from 3.
+  uint32_t sides;
+  // A number that begins with TEXERE_FRAME.
+  uint32_t frame;
+  // A number that begins with TEXERE_TOPOLOGY.
+  uint32_t topology;
+  // 1 if the ends of yarns are closed, else 0.
+  uint32_t caps;
+  // The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
+  float quantum_mm;
+} texere_settings;
+
+// Sizes of a mesh.
+typedef struct texere_counts {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Rings of all yarns.
+  uint64_t rings;
+  // Vertices. A ring at which two chunks meet counts twice.
+  uint64_t vertices;
+  // Indices.
+  uint64_t indices;
+  // Triangles that the draws draw.
+  uint64_t triangles;
+  // Draws.
+  uint64_t draws;
+  // Chunks that the mesh is made in.
+  uint64_t chunks;
+} texere_counts;
+
+// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
+// from outside.
+typedef struct texere_draw {
+  // The first of its indices.
+  uint64_t first_index;
+  // How many indices it has, three a triangle.
+  uint64_t index_count;
+  // What to add to an index to get the number of a vertex.
+  uint64_t base_vertex;
+  // How many vertices from `base_vertex` on its indices may refer to.
+  uint64_t vertex_count;
+  // The yarn, from 0.
+  uint32_t yarn;
+  // Zero.
+  uint32_t reserved;
+} texere_draw;
+
+// A chunk of a plan, and where it lies in the mesh.
+typedef struct texere_chunk {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // The number of its first vertex in the mesh.
+  uint64_t first_vertex;
+  // How many vertices it has.
+  uint64_t vertex_count;
+  // The number of its first index in the mesh.
+  uint64_t first_index;
+  // How many indices it has. They count from its first vertex.
+  uint64_t index_count;
+  // Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+  const struct texere_draw *draws;
+  // How many draws it has.
+  uint64_t draw_count;
+} texere_chunk;
+
+// Objects that a session works with, as numbers: cast each to the type of its interface.
+typedef struct texere_native {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+  uint32_t kind;
+  // The `VkInstance`; 0 with OpenCL.
+  uint64_t instance;
+  // The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+  uint64_t physical_device;
+  // The `VkDevice` or `cl_context`.
+  uint64_t device;
+  // The `VkQueue` or `cl_command_queue` that chunks are made on.
+  uint64_t queue;
+  // The family of the `VkQueue`; 0 with OpenCL.
+  uint32_t queue_family;
+  // Zero.
+  uint32_t reserved;
+} texere_native;
+
+// A part of a buffer on a device.
+typedef struct texere_device_buffer {
+  // The `cl_mem` or `VkBuffer`; 0 where there is none.
+  uint64_t buffer;
+  // Where the values begin, bytes.
+  uint64_t offset;
+  // How many bytes the values have.
+  uint64_t size;
+} texere_device_buffer;
+
+// The mesh of a chunk on its device.
+//
+// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
+// that reads them waits for it.
+//
+// With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
+// queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
+// call `texere_session_wait` first. No other thread may call the library with the same device
+// while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
+// the source of a transfer, indices as an index or storage buffer or as that source.
+typedef struct texere_device_mesh {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
+  uint32_t kind;
+  // The vertices, a `texere_vertex` each.
+  struct texere_device_buffer vertices;
+  // The indices, a `uint32_t` each, counted from the chunk's first vertex.
+  struct texere_device_buffer indices;
+  // The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
+  uint64_t ready;
+} texere_device_mesh;
+
+// A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
+// draws until the plan is freed.
+typedef struct texere_piece {
+  // Bytes of this struct, which the library sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // The chunk that the piece is of, from 0.
+  uint64_t chunk;
+  // The number of the chunk's first vertex in the mesh: what to add to an index to get the
+  // number of a vertex.
+  uint64_t base_vertex;
+  // The draws of the chunk, whose numbers are those of the whole mesh.
+  const struct texere_draw *draws;
+  // How many draws the chunk has.
+  uint64_t draw_count;
+  // Vertices; null in a piece of indices.
+  const struct texere_vertex *vertices;
+  // The number of the first of these vertices in the mesh.
+  uint64_t first_vertex;
+  // How many vertices the piece has.
+  uint64_t vertex_count;
+  // Indices; null in a piece of vertices.
+  const uint32_t *indices;
+  // The number of the first of these indices in the mesh.
+  uint64_t first_index;
+  // How many indices the piece has.
+  uint64_t index_count;
+} texere_piece;
+
+// Takes a piece of a mesh. Anything else than 0 ends the call that was given this callback.
+typedef int32_t (*texere_piece_callback)(void *user, const struct texere_piece *piece);
+
+// Takes `size` bytes of a file, which belong at byte `offset` of it. Pieces come in order, but at
+// the end a writer may go back to fill in what is known last. Anything else than 0 ends the call
+// that was given this callback. `data` is valid until the callback returns.
+typedef int32_t (*texere_write_callback)(void *user,
+                                         uint64_t offset,
+                                         const uint8_t *data,
+                                         size_t size);
+
+// A place on the centreline of a yarn, mm.
+typedef struct texere_point {
+  // Along the weft or the courses.
+  float x;
+  // Along the warp or the wales.
+  float y;
+  // Out of the technical face.
+  float z;
+  // Half the width of the yarn, across the cloth.
+  float half_width;
+  // Half the height of the yarn, out of the cloth. A round yarn has its half width.
+  float half_height;
+} texere_point;
+
+// Yarns as the caller's arrays.
+typedef struct texere_yarn_arrays {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Tension of the splines through the control points, from 0 to below 1; 0 is usual.
+  float tension;
+  // How many yarns there are.
+  uint64_t yarns;
+  // Where the points of each yarn begin, and behind them how many points there are in all:
+  // `yarns + 1` numbers, the first of which is 0.
+  const uint64_t *offsets;
+  // The points of all yarns, yarn after yarn.
+  const struct texere_point *points;
+  // For each yarn 1 if its last point joins up with its first, else 0. Null: all are open.
+  const uint8_t *closed;
+  // For each yarn its twist, radians a mm; positive is Z twist. Null: none has twist.
+  const float *twist;
+} texere_yarn_arrays;
+
+// How much yarns hold.
+typedef struct texere_yarn_counts {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Tension of their splines.
+  float tension;
+  // How many yarns there are.
+  uint64_t yarns;
+  // How many control points they have in all.
+  uint64_t points;
+} texere_yarn_counts;
+
+// Where on its yarn a vertex lies, for shaders and textures.
+typedef struct texere_attribute {
+  // The yarn, from 0.
+  uint32_t yarn;
+  // The angle round the section from its first corner, radians. It turns with the twist.
+  float angle;
+  // The length of the yarn from its start to the vertex's ring, mm.
+  float along;
+  // The unit tangent of the yarn there.
+  float tangent[3];
+} texere_attribute;
+
+// A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+typedef struct texere_packed_vertex {
+  // The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
+  // these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+  uint32_t position[2];
+  // The normal on an octahedron, in steps of 1/32767.
+  int16_t normal[2];
+} texere_packed_vertex;
+
+// A ring: a sample of a yarn's centreline.
+typedef struct texere_ring {
+  // Centre, mm.
+  float centre[3];
+  // Half the width of the yarn, mm.
+  float half_width;
+  // Unit tangent.
+  float tangent[3];
+  // Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+  uint32_t roll;
+  // Half the height of the yarn, mm.
+  float half_height;
+  // Growth of the half width along the yarn, mm per mm.
+  float width_growth;
+  // Growth of the half height along the yarn, mm per mm.
+  float height_growth;
+  // Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+  uint32_t lean;
+} texere_ring;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The number of the binary interface of this library: `TEXERE_ABI` of its header.
+uint32_t texere_abi(void);
+
+// The version of this library, such as "0.1.0". The string ends with a zero byte and is valid as
+// long as the library is loaded.
+const char *texere_version(void);
+
+// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
+// design asks for it. `run` may be null.
+//
+// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are
+// placed: `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be
+// made, and with TEXERE_CANCELLED where `run` was cancelled.
+enum texere_status texere_cloth_rest(const struct texere_design *design,
+                                     const struct texere_device *device,
+                                     const struct texere_run *run,
+                                     struct texere_cloth **out);
+
+// Makes the cloth of a design with its yarns as the structure places them, whatever it asks for.
+//
+// Fails with TEXERE_DESIGN where the cloth can't be made.
+enum texere_status texere_cloth_placed(const struct texere_design *design,
+                                       struct texere_cloth **out);
+
+// Writes how the yarns of a cloth came to rest. The caller has set `report->struct_size`.
+enum texere_status texere_cloth_report(const struct texere_cloth *cloth,
+                                       struct texere_report *report);
+
+// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
+// until the cloth is freed.
+//
+// Fails with TEXERE_ARGUMENT where there are fewer.
+enum texere_status texere_cloth_warning(const struct texere_cloth *cloth,
+                                        uint64_t number,
+                                        const char **words);
+
+// Gives the yarns of a cloth, as a handle of their own. They stay valid when the cloth is freed.
+enum texere_status texere_cloth_yarns(const struct texere_cloth *cloth, struct texere_yarns **out);
+
+// Frees a cloth, or nothing where it is null.
+void texere_cloth_free(struct texere_cloth *cloth);
+
+// Reads the design in a file: `.wif`, `.toml`, `.k`.
+//
+// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it is no design;
+// `texere_error_place` says where.
+enum texere_status texere_design_read(const char *path,
+                                      size_t path_length,
+                                      struct texere_design **out);
+
+// Reads a design that the caller has in memory. `name` says by its ending what kind of design it
+// is; errors call it so. `files` gives the files that the design names; it may be null, and then
+// there are none. `user` is handed to it.
+//
+// Fails as `texere_design_read` does.
+enum texere_status texere_design_read_memory(const char *name,
+                                             size_t name_length,
+                                             const uint8_t *data,
+                                             size_t size,
+                                             texere_file_callback files,
+                                             void *user,
+                                             struct texere_design **out);
+
+// Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
+void texere_design_free(struct texere_design *design);
+
+// Opens the device of a name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
+// "wgpu" and so on. A `name_length` of 0 is "auto".
+//
+// Fails with TEXERE_DEVICE where there is none of that name, and with TEXERE_UNSUPPORTED where the
+// library was built without it.
+enum texere_status texere_device_open(const char *name,
+                                      size_t name_length,
+                                      struct texere_device **out);
+
+// Writes what a device is. The caller has set `info->struct_size`.
+enum texere_status texere_device_describe(const struct texere_device *device,
+                                          struct texere_device_info *info);
+
+// Frees a device, or nothing where it is null. What was made with it stays valid.
+void texere_device_free(struct texere_device *device);
+
+// What went wrong in the last call of this thread that failed, with all its causes, in one line of
+// UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
+// call of this thread fails.
+const char *texere_error_message(void);
+
+// Where in a design's file the last call of this thread that failed has found the fault.
+//
+// Fails with TEXERE_ARGUMENT for a null `place`.
+enum texere_status texere_error_place(struct texere_place *place);
+
+// Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
+// indices. `run` may be null.
+//
+// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
+// `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
+// holds then is not said.
+enum texere_status texere_plan_mesh(const struct texere_plan *plan,
+                                    const struct texere_run *run,
+                                    struct texere_vertex *vertices,
+                                    uint64_t vertex_count,
+                                    uint32_t *indices,
+                                    uint64_t index_count);
+
+// Makes the mesh of a plan in arrays of the caller's choice: positions and normals apart, as
+// members of the caller's structs, or one behind the other as in `texere_vertex`. `run` may be
+// null. `texere_plan_counts` says how many vertices and indices there are; memory between values
+// stays as it is.
+//
+// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with indices
+// one behind the other, are the fastest: the device writes there without a copy.
+//
+// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
+// TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
+enum texere_status texere_plan_mesh_arrays(const struct texere_plan *plan,
+                                           const struct texere_run *run,
+                                           const struct texere_mesh_arrays *arrays);
+
+// Makes the packed vertices of a plan in the caller's memory: a `texere_packed_vertex` for each
+// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+//
+// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, with
+// TEXERE_CANCELLED where `run` was cancelled, and with TEXERE_UNSUPPORTED where the device packs
+// none.
+enum texere_status texere_plan_packed(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      const struct texere_view *packed);
+
+// Makes the attributes of a plan's vertices in the caller's memory: a `texere_attribute` for each
+// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+//
+// Fails as `texere_plan_packed` does.
+enum texere_status texere_plan_attributes(const struct texere_plan *plan,
+                                          const struct texere_run *run,
+                                          const struct texere_view *attributes);
+
+// Makes the centrelines of a plan's yarns in the caller's memory: a `texere_ring` for each ring
+// that `texere_plan_counts` counts, yarn after yarn as `texere_plan_ring_offsets` says. `run` may
+// be null.
+//
+// Fails as `texere_plan_packed` does.
+enum texere_status texere_plan_trajectory(const struct texere_plan *plan,
+                                          const struct texere_run *run,
+                                          const struct texere_view *rings);
+
+// Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
+// holds then.
+//
+// Fails with TEXERE_ARGUMENT for settings out of range.
+enum texere_status texere_plan_new(const struct texere_yarns *yarns,
+                                   const struct texere_device *device,
+                                   const struct texere_settings *settings,
+                                   struct texere_plan **out);
+
+// Writes the sizes of a plan's mesh. The caller has set `counts->struct_size`.
+enum texere_status texere_plan_counts(const struct texere_plan *plan, struct texere_counts *counts);
+
+// Lends the draws of a plan's mesh: `texere_plan_counts` says how many there are. They are valid
+// until the plan is freed.
+//
+// Fails with TEXERE_ARGUMENT for a null `draws`.
+enum texere_status texere_plan_draws(const struct texere_plan *plan,
+                                     const struct texere_draw **draws);
+
+// Lends where the rings of each yarn begin, and behind them how many rings there are in all:
+// one number more than the plan has yarns, the first of which is 0. They are valid until the plan
+// is freed. `count` gets how many numbers there are.
+//
+// Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
+enum texere_status texere_plan_ring_offsets(const struct texere_plan *plan,
+                                            const uint64_t **offsets,
+                                            uint64_t *count);
+
+// Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
+// how many there are. The caller has set `chunk->struct_size`.
+//
+// Fails with TEXERE_ARGUMENT where there is no chunk of that number.
+enum texere_status texere_plan_chunk(const struct texere_plan *plan,
+                                     uint64_t number,
+                                     struct texere_chunk *chunk);
+
+// Frees a plan, or nothing where it is null.
+void texere_plan_free(struct texere_plan *plan);
+
+// Makes a run.
+//
+// Fails with TEXERE_ARGUMENT for a null `out`.
+enum texere_status texere_run_new(struct texere_run **out);
+
+// Asks the call that `run` was given to, and every later one, to end with TEXERE_CANCELLED. Any
+// thread may ask.
+enum texere_status texere_run_cancel(const struct texere_run *run);
+
+// Writes how much of the call is done, from 0 to 1. Any thread may ask.
+//
+// Fails with TEXERE_ARGUMENT for a null `share`.
+enum texere_status texere_run_progress(const struct texere_run *run, double *share);
+
+// Frees a run, or nothing where it is null.
+void texere_run_free(struct texere_run *run);
+
+// Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
+// may be freed.
+//
+// Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
+// with TEXERE_CANCELLED where `run` was cancelled.
+enum texere_status texere_session_new(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      struct texere_session **out);
+
+// Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
+// computes with its buffers. They are valid until the session is freed. The caller has set
+// `native->struct_size`.
+enum texere_status texere_session_native(const struct texere_session *session,
+                                         struct texere_native *native);
+
+// Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
+// `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
+// many there are. The call may return before the device is done: `texere_device_mesh` says what to
+// wait for. The caller has set `mesh->struct_size`.
+//
+// The buffers belong to the library, and may be read only. They stay valid until the session is
+// freed, and hold this chunk's mesh until the next chunk but one is made.
+//
+// Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+enum texere_status texere_session_mesh(const struct texere_session *session,
+                                       uint64_t number,
+                                       struct texere_device_mesh *mesh);
+
+// Waits until the device has done all that the session has asked of it.
+enum texere_status texere_session_wait(const struct texere_session *session);
+
+// Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+//
+// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
+// says, and where the chunk was not made or is no longer there.
+enum texere_status texere_session_read(const struct texere_session *session,
+                                       uint64_t number,
+                                       struct texere_vertex *vertices,
+                                       uint64_t vertex_count,
+                                       uint32_t *indices,
+                                       uint64_t index_count);
+
+// Frees a session with its buffers, or nothing where it is null. No command of the program's that
+// uses the buffers may be under way.
+void texere_session_free(struct texere_session *session);
+
+// Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
+// their polygons have. The caller has set `settings->struct_size`.
+enum texere_status texere_settings_default(const struct texere_yarns *yarns,
+                                           struct texere_settings *settings);
+
+// Makes the mesh of a plan piece by piece, in bounded memory: the control points and two chunks at
+// a time. Chunks come in order, each as all its vertices and then all its indices; a piece of
+// indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of all draws comes
+// first, as indices of chunk 0. `run` may be null. `user` is handed to the callback, which runs on
+// the calling thread.
+//
+// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+// 0.
+enum texere_status texere_plan_stream(const struct texere_plan *plan,
+                                      const struct texere_run *run,
+                                      texere_piece_callback callback,
+                                      void *user);
+
+// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
+// be null. A file of that name is replaced once the new one is whole.
+//
+// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+// cancelled.
+enum texere_status texere_plan_write(const struct texere_plan *plan,
+                                     const struct texere_run *run,
+                                     const char *path,
+                                     size_t path_length);
+
+// Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
+// `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
+// handed to the callback, which runs on the calling thread.
+//
+// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+// 0. What came before is no whole file.
+enum texere_status texere_plan_write_to(const struct texere_plan *plan,
+                                        const struct texere_run *run,
+                                        uint32_t format,
+                                        texere_write_callback callback,
+                                        void *user);
+
+// Makes round and flattened yarns of the caller's arrays, which are copied.
+//
+// Fails with TEXERE_ARGUMENT for arrays that no yarns can be: the message names yarn, point, value
+// and limit.
+enum texere_status texere_yarns_new(const struct texere_yarn_arrays *arrays,
+                                    struct texere_yarns **out);
+
+// Reads yarns that were saved in a `.yarns` file.
+//
+// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no
+// yarns.
+enum texere_status texere_yarns_read(const char *path,
+                                     size_t path_length,
+                                     struct texere_yarns **out);
+
+// Saves yarns in a `.yarns` file, to the bit.
+//
+// Fails with TEXERE_IO where the file can't be written.
+enum texere_status texere_yarns_write(const struct texere_yarns *yarns,
+                                      const char *path,
+                                      size_t path_length);
+
+// Writes how much yarns hold. The caller has set `counts->struct_size`.
+enum texere_status texere_yarns_counts(const struct texere_yarns *yarns,
+                                       struct texere_yarn_counts *counts);
+
+// Copies offsets and control points to the caller's memory: `yarns + 1` offsets and `points`
+// points, as `texere_yarns_counts` says.
+//
+// Fails with TEXERE_ARGUMENT where `offset_count` or `point_count` is another number.
+enum texere_status texere_yarns_points(const struct texere_yarns *yarns,
+                                       uint64_t *offsets,
+                                       uint64_t offset_count,
+                                       struct texere_point *points,
+                                       uint64_t point_count);
+
+// Frees yarns, or nothing where they are null. Plans that were made of them stay valid.
+void texere_yarns_free(struct texere_yarns *yarns);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* TEXERE_H */

@@ -1,0 +1,225 @@
+// texere for .NET: classes over the library's calls. docs/C.md goes from the install to the first mesh.
+
+using System;
+using System.Collections.Generic;
+
+namespace Texere
+{
+    /// <summary>Progress of calls, and their end before they are done. Any thread may ask and cancel.</summary>
+    public sealed unsafe class Run : Handle
+    {
+        /// <summary>A run that was given to no call yet.</summary>
+        public Run() : base(Made()) { }
+
+        static texere_run* Made()
+        {
+            texere_run* made;
+            Call.Check(Native.texere_run_new(&made));
+            return made;
+        }
+
+        texere_run* Own => (texere_run*)Pointer;
+
+        /// <summary>The handle of a run that may be left out.</summary>
+        internal static texere_run* Of(Run run) => run == null ? null : run.Own;
+
+        /// <summary>Asks the call that has it, and every later one, to end with <see cref="Status.Cancelled"/>.</summary>
+        public void Cancel() => Call.Check(Native.texere_run_cancel(Own), this);
+
+        /// <summary>How much of the call is done, from 0 to 1.</summary>
+        public double Progress
+        {
+            get
+            {
+                double share;
+                Call.Check(Native.texere_run_progress(Own, &share), this);
+                return share;
+            }
+        }
+
+        /// <inheritdoc/>
+        protected override bool ReleaseHandle()
+        {
+            Native.texere_run_free((texere_run*)handle);
+            return true;
+        }
+    }
+
+    /// <summary>An open device: a GPU, or the CPU.</summary>
+    public sealed unsafe class Device : Handle
+    {
+        /// <summary>Opens "auto", "cpu", "opencl:0", "wgpu" and so on.</summary>
+        public Device(string name = "auto") : base(Made(name)) { }
+
+        static texere_device* Made(string name)
+        {
+            texere_device* made;
+            var bytes = Call.Bytes(name);
+            fixed (byte* text = bytes)
+            {
+                Call.Check(Native.texere_device_open(text, (UIntPtr)bytes.Length, &made));
+            }
+            return made;
+        }
+
+        internal texere_device* Own => (texere_device*)Pointer;
+
+        texere_device_info Info
+        {
+            get
+            {
+                var info = new texere_device_info { struct_size = (uint)sizeof(texere_device_info) };
+                Call.Check(Native.texere_device_describe(Own, &info), this);
+                return info;
+            }
+        }
+
+        /// <summary>The name that opens it, such as "cpu" or "opencl:0".</summary>
+        public string Name => Copied(Info.name);
+        /// <summary>The device as its maker calls it.</summary>
+        public override string ToString() => Copied(Info.device);
+        /// <summary>Its driver, with the version.</summary>
+        public string Driver => Copied(Info.driver);
+        /// <summary>Whether yarns can come to rest on it.</summary>
+        public bool Settles => Info.settles != 0;
+        /// <summary>Bytes of memory that it has; 0 where it does not say so.</summary>
+        public ulong MemoryBytes => Info.memory_bytes;
+
+        /// <inheritdoc/>
+        protected override bool ReleaseHandle()
+        {
+            Native.texere_device_free((texere_device*)handle);
+            return true;
+        }
+    }
+
+    /// <summary>A design that was read: a WIF draft, a design file, or a program of a knitting machine.</summary>
+    public sealed unsafe class Design : Handle
+    {
+        Design(texere_design* made) : base(made) { }
+
+        /// <summary>Reads the design in a file: .wif, .toml, .k.</summary>
+        public static Design Read(string path)
+        {
+            texere_design* made;
+            var bytes = Call.Bytes(path);
+            fixed (byte* text = bytes)
+            {
+                Call.Check(Native.texere_design_read(text, (UIntPtr)bytes.Length, &made));
+            }
+            return new Design(made);
+        }
+
+        /// <summary>Reads a design that lies in memory and names no files.</summary>
+        /// <param name="name">Says by its ending what kind of design it is; errors call it so.</param>
+        /// <param name="data">What the file would hold.</param>
+        public static Design Read(string name, ReadOnlySpan<byte> data)
+        {
+            texere_design* made;
+            var bytes = Call.Bytes(name);
+            fixed (byte* text = bytes, first = data)
+            {
+                Call.Check(Native.texere_design_read_memory(
+                    text, (UIntPtr)bytes.Length, first, (UIntPtr)data.Length, null, null, &made));
+            }
+            return new Design(made);
+        }
+
+        internal texere_design* Own => (texere_design*)Pointer;
+
+        /// <inheritdoc/>
+        protected override bool ReleaseHandle()
+        {
+            Native.texere_design_free((texere_design*)handle);
+            return true;
+        }
+    }
+
+    /// <summary>How the yarns of a cloth came to rest.</summary>
+    public enum Outcome
+    {
+        /// <summary>They are where the structure places them: the design does not ask for more.</summary>
+        Placed = 0,
+        /// <summary>They came to rest.</summary>
+        AtRest = 1,
+        /// <summary>They settled and are not at rest; the report says what is left.</summary>
+        NotAtRest = 2,
+        /// <summary>They are where the structure places them, for they can't come to rest; the report says why.</summary>
+        Refused = 3,
+    }
+
+    /// <summary>The cloth of a design: its yarns, and how they came to rest.</summary>
+    public sealed unsafe class Cloth : Handle
+    {
+        Cloth(texere_cloth* made) : base(made) { }
+
+        /// <summary>Makes the cloth, with its yarns at rest where the design asks for it.</summary>
+        public static Cloth Rest(Design design, Device device, Run run = null)
+        {
+            texere_cloth* made;
+            var status = Native.texere_cloth_rest(design.Own, device.Own, Run.Of(run), &made);
+            Call.Check(status, design, device, run);
+            return new Cloth(made);
+        }
+
+        /// <summary>Makes the cloth with its yarns as the structure places them.</summary>
+        public static Cloth Placed(Design design)
+        {
+            texere_cloth* made;
+            Call.Check(Native.texere_cloth_placed(design.Own, &made), design);
+            return new Cloth(made);
+        }
+
+        texere_cloth* Own => (texere_cloth*)Pointer;
+
+        texere_report Told
+        {
+            get
+            {
+                var report = new texere_report { struct_size = (uint)sizeof(texere_report) };
+                Call.Check(Native.texere_cloth_report(Own, &report), this);
+                return report;
+            }
+        }
+
+        /// <summary>How the yarns came to rest.</summary>
+        public Outcome Outcome => (Outcome)Told.outcome;
+
+        /// <summary>The outcome in words.</summary>
+        public string Report => Copied(Told.words);
+
+        /// <summary>What is doubtful about the cloth.</summary>
+        public IReadOnlyList<string> Warnings
+        {
+            get
+            {
+                var warnings = new string[Told.warnings];
+                for (var number = 0; number < warnings.Length; number++)
+                {
+                    byte* words;
+                    Call.Check(Native.texere_cloth_warning(Own, (ulong)number, &words), this);
+                    warnings[number] = Copied(words);
+                }
+                return warnings;
+            }
+        }
+
+        /// <summary>The yarns, which stay valid when the cloth is disposed of.</summary>
+        public Yarns Yarns
+        {
+            get
+            {
+                texere_yarns* made;
+                Call.Check(Native.texere_cloth_yarns(Own, &made), this);
+                return new Yarns(made);
+            }
+        }
+
+        /// <inheritdoc/>
+        protected override bool ReleaseHandle()
+        {
+            Native.texere_cloth_free((texere_cloth*)handle);
+            return true;
+        }
+    }
+}

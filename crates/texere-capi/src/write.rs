@@ -1,0 +1,124 @@
+//! Meshes in files.
+
+use std::ffi::{c_char, c_void};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::sync::Arc;
+
+use texere::Pipeline;
+use texere::write::Format;
+
+use crate::argument::text;
+use crate::callback::{Answer, given};
+use crate::error::guard;
+use crate::failure::Failure;
+use crate::handle::{get, get_any};
+use crate::plan::{LIMITS, Planned, texere_plan};
+use crate::run::{Run, reporter, texere_run};
+use crate::status::texere_status;
+
+/// glTF 2.0 in one binary file, `.glb`.
+pub const TEXERE_FORMAT_GLB: u32 = 0;
+/// Binary PLY, `.ply`.
+pub const TEXERE_FORMAT_PLY: u32 = 1;
+
+/// Takes `size` bytes of a file, which belong at byte `offset` of it. Pieces come in order, but at
+/// the end a writer may go back to fill in what is known last. Anything else than 0 ends the call
+/// that was given this callback. `data` is valid until the callback returns.
+pub type texere_write_callback =
+    Option<unsafe extern "C" fn(user: *mut c_void, offset: u64, data: *const u8, size: usize) -> i32>;
+
+/// A file that goes to the caller's callback.
+struct CallbackFile<F> {
+    take: F,
+    position: u64,
+    end: u64,
+}
+
+impl<F: FnMut(u64, &[u8]) -> i32> Write for CallbackFile<F> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Answer::of((self.take)(self.position, bytes)).map_err(io::Error::other)?;
+        self.position += bytes.len() as u64;
+        self.end = self.end.max(self.position);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl<F> Seek for CallbackFile<F> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let place = match to {
+            SeekFrom::Start(place) => Some(place),
+            SeekFrom::Current(by) => self.position.checked_add_signed(by),
+            SeekFrom::End(by) => self.end.checked_add_signed(by),
+        };
+        self.position = place.ok_or_else(|| io::Error::from(io::ErrorKind::InvalidInput))?;
+        Ok(self.position)
+    }
+}
+
+impl Planned {
+    /// The pipeline that a writer runs.
+    fn pipeline(&self, run: Option<Arc<Run>>) -> Pipeline<'_> {
+        let mut report = reporter(run);
+        Pipeline::new(&self.yarns)
+            .settings(self.settings)
+            .limits(LIMITS)
+            .progress(move |done| report(done.rings as f64 / done.total.max(1) as f64))
+    }
+}
+
+/// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
+/// be null. A file of that name is replaced once the new one is whole.
+///
+/// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+/// cancelled.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_plan_write(
+    plan: *const texere_plan,
+    run: *const texere_run,
+    path: *const c_char,
+    path_length: usize,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `path`.
+        let path = unsafe { text("path", path, path_length) }?;
+        let (plan, run) = (get(plan)?, get_any(run)?);
+        texere::write::stream(plan.pipeline(run), &*plan.device.backend, path)?;
+        Ok(())
+    })
+}
+
+/// Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
+/// `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
+/// handed to the callback, which runs on the calling thread.
+///
+/// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
+/// 0. What came before is no whole file.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_plan_write_to(
+    plan: *const texere_plan,
+    run: *const texere_run,
+    format: u32,
+    callback: texere_write_callback,
+    user: *mut c_void,
+) -> texere_status {
+    guard(|| {
+        let callback = given(callback)?;
+        let format = match format {
+            TEXERE_FORMAT_GLB => Format::Glb,
+            TEXERE_FORMAT_PLY => Format::Ply,
+            other => return Err(Failure::argument(format!("format is {other}, expected 0 or 1"))),
+        };
+        let (plan, run) = (get(plan)?, get_any(run)?);
+        let take = |offset, bytes: &[u8]| {
+            // SAFETY: the caller vouches for the callback; the bytes are valid while it runs.
+            unsafe { callback(user, offset, bytes.as_ptr(), bytes.len()) }
+        };
+        let file = CallbackFile { take, position: 0, end: 0 };
+        texere::write::stream_to(plan.pipeline(run), &*plan.device.backend, format, file)?;
+        Ok(())
+    })
+}

@@ -1,0 +1,269 @@
+//! A plan that is run on a device, chunk by chunk.
+
+use std::borrow::Borrow;
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::{PipelineError, Progress};
+use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError, Watch};
+use crate::definitions::Ring;
+use crate::settling::Settler;
+use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, Topology};
+
+/// Control points per call of upload: 16 MB. Between two calls progress is reported and a
+/// cancellation noticed.
+const UPLOAD_POINTS: usize = 1 << 20;
+
+pub(super) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
+
+/// The origin of control points.
+pub(super) enum Points<'a> {
+    Given(&'a [ControlPoint]),
+    Settled(&'a mut dyn Settler),
+}
+
+/// A plan that is run on a device, chunk by chunk, with its results in the caller's memory. A
+/// program that has planned already, and knows the chunks, takes it in place of a
+/// [`Pipeline`](crate::Pipeline), which plans and cuts each time.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use std::sync::Arc;
+/// use texere_core::backend::{MeshMut, NullBackend, Plan, Run};
+/// use texere_core::{ControlPoint, Limits, Settings, Vertex, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let (yarns, device) = (yarns.build()?, NullBackend::default());
+/// let (plan, limits) = (Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?), Limits::default());
+/// let chunks: Vec<_> = plan.chunks(&limits)?.collect();
+/// let [vertices, indices] = plan.mesh_lengths(&chunks).map(|length| length as usize);
+/// let run = Run::start(&device, plan, yarns.points(), limits, |_| ControlFlow::Continue(()))?;
+/// let (mut vertices, mut indices) = (vec![Vertex::default(); vertices], vec![0; indices]);
+/// run.mesh_into(&chunks, MeshMut { vertices: &mut vertices, indices: &mut indices })?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Run<'a> {
+    plan: Arc<Plan>,
+    session: Session,
+    progress: OnProgress<'a>,
+    /// Rings delivered so far.
+    done: u64,
+}
+
+impl fmt::Debug for Run<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Run").field("done", &self.done).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Run<'a> {
+    /// Starts a run: opens a session of `plan` on `device`, sends the control points of the yarns
+    /// that the plan is of, and works out rolls. `progress` is called as
+    /// [`Pipeline::progress`](crate::Pipeline::progress) says.
+    ///
+    /// `limits` are those that chunks are cut to, if they are stricter than the device's own. With
+    /// others the results are equal, but the tables of yarns that turn are sent twice.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn start(
+        device: &dyn Backend,
+        plan: Arc<Plan>,
+        points: &[ControlPoint],
+        limits: Limits,
+        progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a,
+    ) -> Result<Self, PipelineError> {
+        Self::of(device, plan, Points::Given(points), &limits, Box::new(progress))
+    }
+
+    pub(super) fn of(
+        device: &dyn Backend,
+        plan: Arc<Plan>,
+        points: Points<'_>,
+        limits: &Limits,
+        progress: OnProgress<'a>,
+    ) -> Result<Self, PipelineError> {
+        let session = Session::new(device, plan.clone())?.with_limits(limits);
+        let mut run = Self { plan, session, progress, done: 0 };
+        match points {
+            Points::Settled(settler) => {
+                run.session.take_settled(settler)?;
+                run.report()?;
+            }
+            Points::Given(all) => {
+                let mut first = 0;
+                for points in all.chunks(UPLOAD_POINTS) {
+                    run.session.upload(first, points)?;
+                    first += points.len() as u64;
+                    run.report()?;
+                }
+            }
+        }
+        run.watched(Session::scan_watched)?;
+        Ok(run)
+    }
+
+    /// The session, for stages one by one.
+    #[must_use]
+    pub fn into_session(self) -> Session {
+        self.session
+    }
+
+    /// Makes the mesh of `chunks`, which are all chunks of the plan in order. `out` has the lengths
+    /// that [`Plan::mesh_lengths`] says. Indices are those of a [`Mesh`](crate::Mesh): chunk after
+    /// chunk, or the shared pattern.
+    ///
+    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and the errors of
+    /// [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn mesh_into(mut self, chunks: &[Chunk], out: MeshMut<'_>) -> Result<(), PipelineError> {
+        let [vertices, indices] = self.plan.mesh_lengths(chunks);
+        for (what, given, planned) in
+            [("vertices", out.vertices.len(), vertices), ("indices", out.indices.len(), indices)]
+        {
+            if given as u64 != planned {
+                return Err(SessionError::OutputLength { what, given: given as u64, planned }.into());
+            }
+        }
+        let (mut vertices_left, mut indices_left) = (out.vertices, out.indices);
+        if self.plan.settings().topology == Topology::Shared {
+            indices_left.iter_mut().zip(self.plan.shared()).for_each(|(place, index)| *place = index);
+            indices_left = &mut [];
+        }
+        for chunk in chunks {
+            let (vertices, others) = vertices_left.split_at_mut(chunk.vertices() as usize);
+            let (indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
+            (vertices_left, indices_left) = (others, other_indices);
+            self.session.mesh_into(chunk, MeshMut { vertices, indices })?;
+            self.advance(chunk)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the mesh of `chunks` piece by piece, as [`Pipeline::stream`](crate::Pipeline::stream)
+    /// does.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn stream<B>(
+        mut self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, PipelineError> {
+        let mut chunks = chunks.into_iter();
+        let mut waiting = chunks.next();
+        if let Some(chunk) = &waiting {
+            self.session.mesh(chunk.borrow())?;
+        }
+        while let Some(chunk) = waiting {
+            // The device works on the next chunk while this one is read.
+            waiting = chunks.next();
+            if let Some(next) = &waiting {
+                self.session.mesh(next.borrow())?;
+            }
+            let (chunk, mut answer) = (chunk.borrow(), None);
+            let _ = self.session.read_mesh(chunk, &mut |piece| match sink(chunk, piece) {
+                ControlFlow::Continue(()) => ControlFlow::Continue(()),
+                ControlFlow::Break(value) => {
+                    answer = Some(value);
+                    ControlFlow::Break(())
+                }
+            })?;
+            if let Some(value) = answer {
+                return Ok(ControlFlow::Break(value));
+            }
+            self.advance(chunk)?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Makes the attributes of the vertices of `chunks`. `sink` takes them piece by piece, each with
+    /// the number of its first vertex among all.
+    ///
+    /// **Errors**: the errors of [`Pipeline::attributes`](crate::Pipeline::attributes).
+    pub fn attributes(
+        mut self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(u64, &[Attribute]),
+    ) -> Result<(), PipelineError> {
+        self.watched(Session::measure_watched)?;
+        self.each(chunks, |session, chunk, _| {
+            session.attributes(chunk)?;
+            session.read_attributes(chunk, &mut |first, piece| {
+                sink(chunk.first_vertex() + u64::from(first), piece);
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// Makes the packed vertices of `chunks`. `sink` takes them piece by piece, each with the
+    /// number of its first vertex among all.
+    ///
+    /// **Errors**: the errors of [`Pipeline::packed`](crate::Pipeline::packed).
+    pub fn packed(
+        self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(u64, &[PackedVertex]),
+    ) -> Result<(), PipelineError> {
+        self.each(chunks, |session, chunk, _| {
+            session.packed(chunk)?;
+            session.read_packed(chunk, &mut |first, piece| {
+                sink(chunk.first_vertex() + u64::from(first), piece);
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// Makes the rings of `chunks`. `sink` takes them piece by piece, each with the number of its
+    /// first ring among all. A ring that two chunks share comes twice, with equal bits.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn trajectory(
+        self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut sink: impl FnMut(u64, &[Ring]),
+    ) -> Result<(), PipelineError> {
+        self.each(chunks, |session, chunk, done| {
+            session.trajectory(chunk)?;
+            let mut first = done;
+            session.read_trajectory(chunk, &mut |piece| {
+                sink(first, piece);
+                first += piece.len() as u64;
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// Calls `make` for each chunk, with the number of rings before it.
+    fn each(
+        mut self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        mut make: impl FnMut(&mut Session, &Chunk, u64) -> Result<ControlFlow<()>, SessionError>,
+    ) -> Result<(), PipelineError> {
+        for chunk in chunks {
+            let _ = make(&mut self.session, chunk.borrow(), self.done)?;
+            self.advance(chunk.borrow())?;
+        }
+        Ok(())
+    }
+
+    /// Counts a chunk as delivered.
+    fn advance(&mut self, chunk: &Chunk) -> Result<(), PipelineError> {
+        self.done += u64::from(chunk.rings()) - u64::from(chunk.repeats_ring());
+        self.report()
+    }
+
+    fn report(&mut self) -> Result<(), PipelineError> {
+        self.watched(|_, watch| Ok(watch()))
+    }
+
+    /// Calls `work` with a watch that reports progress. Fails if that asks to stop.
+    fn watched(
+        &mut self,
+        work: impl FnOnce(&mut Session, Watch<'_>) -> Result<ControlFlow<()>, SessionError>,
+    ) -> Result<(), PipelineError> {
+        let now = Progress { rings: self.done, total: self.plan.counts().rings };
+        match work(&mut self.session, &mut || (self.progress)(now))? {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(PipelineError::Cancelled),
+        }
+    }
+}

@@ -1,0 +1,50 @@
+# Builds the examples below PREFIX as its users do, with the system's compilers and nothing else, and runs them in the
+# folder OUT. They make what the program of the repository makes, to the bit.
+set -eu
+examples=$PREFIX/share/texere/examples designs=$PWD/designs texere=$PWD/target/release/texere
+capi=$PWD/crates/texere-capi kept=$PWD/xtask/src/hosts/kept.supp
+export PKG_CONFIG_PATH="$PREFIX/lib/pkgconfig"
+cd "$OUT"
+# All memory is freed, but for what kept.supp explains. Valgrind has no AVX-512, and the library sees that.
+watched() {
+    valgrind --quiet --leak-check=full --show-leak-kinds=all --errors-for-leak-kinds=all "--suppressions=$kept" \
+        --error-exitcode=99 "$@"
+}
+set -x
+
+# The number of the binary interface is the same everywhere.
+abi=$(sed -n 's/^#define TEXERE_ABI //p' "$PREFIX/include/texere.h")
+test "$(readlink "$PREFIX/lib/libtexere_c.so")" = "libtexere_c.so.$abi"
+readelf --dynamic "$PREFIX/lib/libtexere_c.so" | grep "SONAME.*\[libtexere_c.so.$abi\]"
+grep "libtexere_c.so.$abi\"" "$PREFIX/lib/cmake/texere/texere-config.cmake"
+
+for example in mesh yarns; do
+    cc -std=c99 -Wall -Wextra -Werror -pedantic "$examples/$example.c" -o $example \
+        $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
+done
+cmake -S "$examples/obj" -B obj "-DCMAKE_PREFIX_PATH=$PREFIX" "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -pedantic"
+cmake --build obj
+assembly=$PREFIX/share/texere/nuget/lib/netstandard2.1
+mcs -langversion:latest -warnaserror "-r:$assembly/Texere.dll" "$examples/weave.cs" -out:weave.exe
+# What the classes for C++ and C# promise.
+for standard in 17 20; do
+    c++ -std=c++$standard -Wall -Wextra -Wshadow -Werror -pedantic "$capi/tests/hosts/wrappers.cpp" -o wrappers \
+        $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
+    watched ./wrappers
+done
+mcs -langversion:latest -unsafe "-recurse:$capi/csharp/*.cs" "$capi/tests/hosts/wrappers.cs" -out:wrappers.exe
+LD_LIBRARY_PATH="$PREFIX/lib" mono wrappers.exe
+
+for design in poplin jersey tricot; do
+    "$texere" mesh "$designs/$design.toml" --device cpu -o $design.ply
+    ./mesh "$designs/$design.toml" cpu mesh.ply
+    cmp $design.ply mesh.ply
+done
+watched ./mesh "$designs/jersey.toml" cpu watched.ply
+cmp jersey.ply watched.ply
+watched ./yarns two.yarns
+watched obj/obj "$designs/tricot.toml" cpu tricot.obj
+obj/obj_static "$designs/tricot.toml" cpu static.obj
+cmp tricot.obj static.obj
+"$texere" mesh "$designs/herringbone.wif" --device cpu -o herringbone.ply
+LD_LIBRARY_PATH="$PREFIX/lib" MONO_PATH="$assembly" mono weave.exe "$designs/herringbone.wif" cpu herringbone.bin

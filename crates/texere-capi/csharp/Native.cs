@@ -31,6 +31,35 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_REFUSED = 3;
         /// <summary>
+        ///  The structure's own choice: loops of a knit reach the length that its gauge asks for, or are
+        ///  free.
+        /// </summary>
+        internal const uint TEXERE_LENGTH_USUAL = 0;
+        /// <summary>
+        ///  No yarn is drawn through.
+        /// </summary>
+        internal const uint TEXERE_LENGTH_HELD = 1;
+        /// <summary>
+        ///  Yarns get `length` times their length, 0.5 to 2.
+        /// </summary>
+        internal const uint TEXERE_LENGTH_GIVEN = 2;
+        /// <summary>
+        ///  Yarns take the length that they need; `length` is a tension that draws them in, 0 to 0.1.
+        /// </summary>
+        internal const uint TEXERE_LENGTH_FREE = 3;
+        /// <summary>
+        ///  Cloth is not stretched.
+        /// </summary>
+        internal const uint TEXERE_STRETCH_NONE = 0;
+        /// <summary>
+        ///  Woven cloth is stretched along its warp.
+        /// </summary>
+        internal const uint TEXERE_STRETCH_WARP = 1;
+        /// <summary>
+        ///  Woven cloth is stretched along its weft.
+        /// </summary>
+        internal const uint TEXERE_STRETCH_WEFT = 2;
+        /// <summary>
         ///  Buffers are `cl_mem`.
         /// </summary>
         internal const uint TEXERE_NATIVE_OPENCL = 1;
@@ -43,6 +72,71 @@ namespace Texere
         ///  that it has loaded: they are equal, or the program can't use that library.
         /// </summary>
         internal const uint TEXERE_ABI = 1;
+        /// <summary>
+        ///  A circle.
+        /// </summary>
+        internal const uint TEXERE_SECTION_CIRCLE = 0;
+        /// <summary>
+        ///  An ellipse: `aspect`.
+        /// </summary>
+        internal const uint TEXERE_SECTION_ELLIPSE = 1;
+        /// <summary>
+        ///  Two arcs that meet in two edges: `aspect`, and as `form` the height of the edges above the
+        ///  middle, in half heights, -0.9 to 0.9.
+        /// </summary>
+        internal const uint TEXERE_SECTION_LENTICULAR = 2;
+        /// <summary>
+        ///  An ellipse whose height is |sin|^`form`: `aspect`, and a `form` from 0.1 to 4; 1 is an ellipse.
+        /// </summary>
+        internal const uint TEXERE_SECTION_POWER_ELLIPSE = 3;
+        /// <summary>
+        ///  Plies that are twisted together: `count` of them, 2 to 12.
+        /// </summary>
+        internal const uint TEXERE_SECTION_LOBED = 4;
+        /// <summary>
+        ///  The outline in `corners`, 3 to 256 of them.
+        /// </summary>
+        internal const uint TEXERE_SECTION_POLYGON = 5;
+        /// <summary>
+        ///  The whole cloth from straight above its face.
+        /// </summary>
+        internal const uint TEXERE_VIEW_FACE = 0;
+        /// <summary>
+        ///  The whole cloth from above its lower edge, turned by `turn`.
+        /// </summary>
+        internal const uint TEXERE_VIEW_OBLIQUE = 1;
+        /// <summary>
+        ///  A stretch of `width_mm` round the point `at`, from above and aside.
+        /// </summary>
+        internal const uint TEXERE_VIEW_CLOSE_UP = 2;
+        /// <summary>
+        ///  A cut across the ends, through the point `at`, `width_mm` of it.
+        /// </summary>
+        internal const uint TEXERE_VIEW_CUT_WARP = 3;
+        /// <summary>
+        ///  A cut across the picks, through the point `at`, `width_mm` of it.
+        /// </summary>
+        internal const uint TEXERE_VIEW_CUT_WEFT = 4;
+        /// <summary>
+        ///  From `eye` to `target`, with `field_of_view`.
+        /// </summary>
+        internal const uint TEXERE_VIEW_EYE = 5;
+        /// <summary>
+        ///  From `eye` to `target` with parallel lines of sight; the picture shows `height_mm`.
+        /// </summary>
+        internal const uint TEXERE_VIEW_PARALLEL = 6;
+        /// <summary>
+        ///  Light grey ground that the cloth lies on and casts its shadow on.
+        /// </summary>
+        internal const uint TEXERE_BACKGROUND_GROUND = 0;
+        /// <summary>
+        ///  The colour `color`.
+        /// </summary>
+        internal const uint TEXERE_BACKGROUND_COLOR = 1;
+        /// <summary>
+        ///  Nothing: alpha says how much of each pixel is yarn.
+        /// </summary>
+        internal const uint TEXERE_BACKGROUND_NOTHING = 2;
         /// <summary>
         ///  Sections stand with their side level. Yarns that are too steep for that are carried along.
         /// </summary>
@@ -63,6 +157,78 @@ namespace Texere
         ///  No indices.
         /// </summary>
         internal const uint TEXERE_TOPOLOGY_NONE = 2;
+        /// <summary>
+        ///  As many control points as the bends of a yarn need.
+        /// </summary>
+        internal const uint TEXERE_CELLS_ROUND = 0;
+        /// <summary>
+        ///  Equally many control points for each stitch.
+        /// </summary>
+        internal const uint TEXERE_CELLS_EVEN = 1;
+        /// <summary>
+        ///  The yarn of an empty guide.
+        /// </summary>
+        internal const uint TEXERE_NO_YARN = 4294967295;
+        /// <summary>
+        ///  The front needle knits.
+        /// </summary>
+        internal const uint TEXERE_STITCH_KNIT = 0;
+        /// <summary>
+        ///  The back needle knits.
+        /// </summary>
+        internal const uint TEXERE_STITCH_PURL = 1;
+        /// <summary>
+        ///  Front and back needle both knit, on two beds.
+        /// </summary>
+        internal const uint TEXERE_STITCH_BOTH = 2;
+        /// <summary>
+        ///  The needle takes the yarn and keeps its loops; on two beds it is the front needle.
+        /// </summary>
+        internal const uint TEXERE_STITCH_TUCK = 3;
+        /// <summary>
+        ///  The back needle tucks, on two beds.
+        /// </summary>
+        internal const uint TEXERE_STITCH_BACK_TUCK = 4;
+        /// <summary>
+        ///  The yarn floats past.
+        /// </summary>
+        internal const uint TEXERE_STITCH_MISS = 5;
+        /// <summary>
+        ///  The front needle knits, and its loop moves by `moved` needles, in front of the others.
+        /// </summary>
+        internal const uint TEXERE_STITCH_MOVED = 6;
+        /// <summary>
+        ///  The front needle knits, and its loop moves by `moved` needles, behind the others.
+        /// </summary>
+        internal const uint TEXERE_STITCH_MOVED_BEHIND = 7;
+        /// <summary>
+        ///  Threads bend round one another as round threads do, and floats lie flat.
+        /// </summary>
+        internal const uint TEXERE_SHAPE_ROUND = 0;
+        /// <summary>
+        ///  One control point a crossing, and one before and after.
+        /// </summary>
+        internal const uint TEXERE_SHAPE_CROSSING = 1;
+        /// <summary>
+        ///  Threads that lie too close are only reported.
+        /// </summary>
+        internal const uint TEXERE_RELIEF_REPORT = 0;
+        /// <summary>
+        ///  Threads that lie too close are flattened.
+        /// </summary>
+        internal const uint TEXERE_RELIEF_FLATTEN = 1;
+        /// <summary>
+        ///  Threads that lie too close are made thinner.
+        /// </summary>
+        internal const uint TEXERE_RELIEF_SHRINK = 2;
+        /// <summary>
+        ///  The stiffer set stays the straighter.
+        /// </summary>
+        internal const uint TEXERE_CRIMP_STIFFNESS = 0;
+        /// <summary>
+        ///  The warp has `warp_share` of the crimp.
+        /// </summary>
+        internal const uint TEXERE_CRIMP_SHARE = 1;
         /// <summary>
         ///  glTF 2.0 in one binary file, `.glb`.
         /// </summary>
@@ -150,6 +316,16 @@ namespace Texere
         internal static extern texere_status texere_design_read_memory(byte* name, System.UIntPtr name_length, byte* data, System.UIntPtr size, texere_design_read_memory_files_delegate files, void* user, texere_design** @out);
 
         /// <summary>
+        ///  Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
+        ///  file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
+        ///  is replaced once the new one is whole.
+        ///
+        ///  Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_write(texere_design* design, byte* path, System.UIntPtr path_length);
+
+        /// <summary>
         ///  Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -178,6 +354,17 @@ namespace Texere
         internal static extern void texere_device_free(texere_device* device);
 
         /// <summary>
+        ///  Draws a design on squared paper, in a `.png` file: the draft or the point paper of woven cloth,
+        ///  the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 for the cloth
+        ///  turned over sideways, else 0. A file of that name is replaced once the new one is whole.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO where the
+        ///  file can't be written.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_draft", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_draft(texere_design* design, uint back, byte* path, System.UIntPtr path_length);
+
+        /// <summary>
         ///  What went wrong in the last call of this thread that failed, with all its causes, in one line of
         ///  UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
         ///  call of this thread fails.
@@ -194,6 +381,21 @@ namespace Texere
         internal static extern texere_status texere_error_place(texere_place* place);
 
         /// <summary>
+        ///  Writes the finish of a design. The caller has set `finish-&gt;struct_size`.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_finish", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_finish(texere_design* design, texere_finish* finish);
+
+        /// <summary>
+        ///  Makes a design like another one with a finish of the caller's.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for a finish out of range, and for one that the structure does not
+        ///  have.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_finished", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_finished(texere_design* design, texere_finish* finish, texere_design** @out);
+
+        /// <summary>
         ///  The number of the binary interface of this library: `TEXERE_ABI` of its header.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_abi", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -205,6 +407,15 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_version", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* texere_version();
+
+        /// <summary>
+        ///  Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
+        ///  air in the yarn: 0.909 is usual for cotton.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_diameter", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_diameter(double tex, double density, double* diameter_mm);
 
         /// <summary>
         ///  Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
@@ -263,6 +474,13 @@ namespace Texere
         internal static extern texere_status texere_plan_trajectory(texere_plan* plan, texere_run* run, texere_view* rings);
 
         /// <summary>
+        ///  Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
+        ///  samples each, with fibres, on the ground. The caller has set `picture-&gt;struct_size`.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_picture_default", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_picture_default(texere_picture* picture);
+
+        /// <summary>
         ///  Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
         ///  holds then.
         ///
@@ -310,6 +528,72 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_plan_free(texere_plan* plan);
+
+        /// <summary>
+        ///  Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
+        ///  `name_length` of 0 is "auto".
+        ///
+        ///  Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
+        ///  built without pictures.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_open", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_open(byte* name, System.UIntPtr name_length, texere_renderer** @out);
+
+        /// <summary>
+        ///  Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
+        ///  null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
+        ///  null.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
+        ///  cancelled. The renderer then shows nothing.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_show", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_show(texere_renderer* renderer, texere_yarns* yarns, texere_settings* settings, texere_run* run);
+
+        /// <summary>
+        ///  Writes the box round the yarns that a renderer shows.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where it shows none.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_extent", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_extent(texere_renderer* renderer, texere_extent* extent);
+
+        /// <summary>
+        ///  Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
+        ///  each pixel from the left, a byte each, sRGB; rows from the top. `pixels-&gt;stride` is the bytes
+        ///  from one row to the next, at least four times the width. Alpha is 255 unless the background is
+        ///  nothing; colours are not multiplied by it. `run` may be null.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
+        ///  or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
+        ///  `run` was cancelled. The memory is then as it was.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_picture", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_picture(texere_renderer* renderer, texere_picture* picture, texere_run* run, texere_view* pixels);
+
+        /// <summary>
+        ///  Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
+        ///  A file of that name is replaced once the new one is whole.
+        ///
+        ///  Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_write(texere_renderer* renderer, texere_picture* picture, texere_run* run, byte* path, System.UIntPtr path_length);
+
+        /// <summary>
+        ///  Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
+        ///  edges. No yarn is seen outside the picture, and before the first one.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_seen", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_seen(texere_renderer* renderer, float x, float y, texere_seen* seen);
+
+        /// <summary>
+        ///  Frees a renderer, or nothing where it is null.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_renderer_free(texere_renderer* renderer);
 
         /// <summary>
         ///  Makes a run.
@@ -415,6 +699,36 @@ namespace Texere
         internal static extern texere_status texere_plan_stream(texere_plan* plan, texere_run* run, texere_plan_stream_callback_delegate callback, void* user);
 
         /// <summary>
+        ///  Makes a design of a warp knit from the caller's arrays, which are copied. Its yarns settle;
+        ///  `texere_design_finished` says otherwise.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
+        ///  0, value and limit.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_warp_knit", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_warp_knit(texere_warp_knit* knit, texere_design** @out);
+
+        /// <summary>
+        ///  Makes a design of a weft knit from the caller's arrays, which are copied. Its yarns settle;
+        ///  `texere_design_finished` says otherwise.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
+        ///  0, value and limit.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_weft_knit", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_weft_knit(texere_weft_knit* knit, texere_design** @out);
+
+        /// <summary>
+        ///  Makes a design of woven cloth from the caller's arrays, which are copied. Its yarns settle;
+        ///  `texere_design_finished` says otherwise.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for arrays that no cloth can be: the message names array, number from
+        ///  0, value and limit.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_woven", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_woven(texere_woven* woven, texere_design** @out);
+
+        /// <summary>
         ///  Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
         ///  be null. A file of that name is replaced once the new one is whole.
         ///
@@ -518,7 +832,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A design that was read: a WIF draft, a design file, or a program of a knitting machine.
+    ///  A design: a WIF draft, a design file or a program of a knitting machine that was read, or a
+    ///  structure by arrays.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_design
@@ -584,6 +899,58 @@ namespace Texere
         ///  The column, in letters from 1; 0 where it is not known.
         /// </summary>
         public ulong column;
+    }
+
+    /// <summary>
+    ///  Whether and how the yarns of a design come to rest.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_finish
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  1 if the yarns come to rest, 0 if they stay where the structure places them.
+        /// </summary>
+        public uint settle;
+        /// <summary>
+        ///  Of knits: a number that begins with TEXERE_LENGTH.
+        /// </summary>
+        public uint length_kind;
+        /// <summary>
+        ///  What the kind of length says.
+        /// </summary>
+        public float length;
+        /// <summary>
+        ///  Of knits: distance of two plates that press the cloth, 0.001 to 1000 mm; 0: no plates.
+        /// </summary>
+        public float press_mm;
+        /// <summary>
+        ///  Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
+        /// </summary>
+        public float warp_tension;
+        /// <summary>
+        ///  Of woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
+        /// </summary>
+        public float weft_tension;
+        /// <summary>
+        ///  Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
+        /// </summary>
+        public float calender;
+        /// <summary>
+        ///  A number that begins with TEXERE_STRETCH.
+        /// </summary>
+        public uint stretch;
+        /// <summary>
+        ///  The most passes of either form of a knit, 1 to 1000000.
+        /// </summary>
+        public uint passes;
+        /// <summary>
+        ///  How many times as long stretched cloth becomes, 0.5 to 2.
+        /// </summary>
+        public double stretch_by;
     }
 
     /// <summary>
@@ -681,6 +1048,91 @@ namespace Texere
         ///  The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
         /// </summary>
         public ulong ready;
+    }
+
+    /// <summary>
+    ///  What yarns are made of.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_material
+    {
+        /// <summary>
+        ///  Its name, UTF-8.
+        /// </summary>
+        public byte* name;
+        /// <summary>
+        ///  Bytes of the name.
+        /// </summary>
+        public System.UIntPtr name_length;
+        /// <summary>
+        ///  Linear density, tex; 0 where it is not known.
+        /// </summary>
+        public float tex;
+        /// <summary>
+        ///  Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+        /// </summary>
+        public float hairiness;
+        /// <summary>
+        ///  Red, green and blue, sRGB.
+        /// </summary>
+        public fixed byte srgb[3];
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public byte reserved;
+    }
+
+    /// <summary>
+    ///  The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_section
+    {
+        /// <summary>
+        ///  A number that begins with TEXERE_SECTION.
+        /// </summary>
+        public uint shape;
+        /// <summary>
+        ///  How many plies or corners.
+        /// </summary>
+        public uint count;
+        /// <summary>
+        ///  Width over height, 0.05 to 20.
+        /// </summary>
+        public float aspect;
+        /// <summary>
+        ///  What the shape says.
+        /// </summary>
+        public float form;
+        /// <summary>
+        ///  Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
+        ///  has two numbers a corner.
+        /// </summary>
+        public float* corners;
+    }
+
+    /// <summary>
+    ///  Materials and sections that yarns refer to by their number, from 0.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_looks
+    {
+        /// <summary>
+        ///  Materials. Null and 0: undyed yarn.
+        /// </summary>
+        public texere_material* materials;
+        /// <summary>
+        ///  How many materials.
+        /// </summary>
+        public ulong material_count;
+        /// <summary>
+        ///  Sections. Null and 0: a circle.
+        /// </summary>
+        public texere_section* sections;
+        /// <summary>
+        ///  How many sections.
+        /// </summary>
+        public ulong section_count;
     }
 
     /// <summary>
@@ -810,6 +1262,123 @@ namespace Texere
     }
 
     /// <summary>
+    ///  What a picture shows, and how. `texere_picture_default` fills it in.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_picture
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Pixels across.
+        /// </summary>
+        public uint width;
+        /// <summary>
+        ///  Pixels down.
+        /// </summary>
+        public uint height;
+        /// <summary>
+        ///  Pixels that are drawn for each pixel of the picture, each way, from 1; each of them has four
+        ///  samples.
+        /// </summary>
+        public uint supersampling;
+        /// <summary>
+        ///  1 if fibres that stand off yarns are drawn, else 0.
+        /// </summary>
+        public uint hairs;
+        /// <summary>
+        ///  A number that begins with TEXERE_BACKGROUND.
+        /// </summary>
+        public uint background;
+        /// <summary>
+        ///  A colour of the background, sRGB.
+        /// </summary>
+        public fixed byte color[3];
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public byte reserved;
+        /// <summary>
+        ///  A number that begins with TEXERE_VIEW.
+        /// </summary>
+        public uint view;
+        /// <summary>
+        ///  1 if the cloth is turned over sideways, so that its back is seen, else 0.
+        /// </summary>
+        public uint turned_over;
+        /// <summary>
+        ///  Turn about the cloth's middle, radians, counter-clockwise as seen from above.
+        /// </summary>
+        public float turn;
+        /// <summary>
+        ///  A point of the cloth, x and y, mm.
+        /// </summary>
+        public fixed float at[2];
+        /// <summary>
+        ///  What the picture's width shows, mm.
+        /// </summary>
+        public float width_mm;
+        /// <summary>
+        ///  The eye, mm.
+        /// </summary>
+        public fixed float eye[3];
+        /// <summary>
+        ///  The point in the middle of the picture, mm.
+        /// </summary>
+        public fixed float target[3];
+        /// <summary>
+        ///  What is up in the picture, of any length.
+        /// </summary>
+        public fixed float up[3];
+        /// <summary>
+        ///  From the picture's lower to its upper edge, radians, 0.0001 to 3.1.
+        /// </summary>
+        public float field_of_view;
+        /// <summary>
+        ///  What the picture's height shows, mm.
+        /// </summary>
+        public float height_mm;
+    }
+
+    /// <summary>
+    ///  The box round yarns.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_extent
+    {
+        /// <summary>
+        ///  The least x, y and z, mm.
+        /// </summary>
+        public fixed float low[3];
+        /// <summary>
+        ///  The greatest x, y and z, mm.
+        /// </summary>
+        public fixed float high[3];
+    }
+
+    /// <summary>
+    ///  What a picture shows at a point.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_seen
+    {
+        /// <summary>
+        ///  The place on the yarn's surface, mm; how far it is from the eye follows.
+        /// </summary>
+        public fixed double position[3];
+        /// <summary>
+        ///  The yarn, from 0.
+        /// </summary>
+        public uint yarn;
+        /// <summary>
+        ///  1 where a yarn is seen, else 0.
+        /// </summary>
+        public uint is_yarn;
+    }
+
+    /// <summary>
     ///  The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
     ///
     ///  A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
@@ -934,6 +1503,15 @@ namespace Texere
     }
 
     /// <summary>
+    ///  A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
+    ///  call while another thread's is under way fails with TEXERE_ARGUMENT.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_renderer
+    {
+    }
+
+    /// <summary>
     ///  A call that takes long, as other threads see it: how far it has come, and whether it is to end.
     ///  One run may be given to one call after another; each starts it at 0.
     /// </summary>
@@ -1049,6 +1627,34 @@ namespace Texere
     }
 
     /// <summary>
+    ///  A yarn of a knit.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_knit_yarn
+    {
+        /// <summary>
+        ///  Its diameter, mm; `texere_diameter` gives it for a yarn count.
+        /// </summary>
+        public double diameter_mm;
+        /// <summary>
+        ///  Twist, radians a mm; positive is Z twist.
+        /// </summary>
+        public float twist;
+        /// <summary>
+        ///  The number of its material, from 0.
+        /// </summary>
+        public uint material;
+        /// <summary>
+        ///  The number of its section, from 0.
+        /// </summary>
+        public uint section;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+    }
+
+    /// <summary>
     ///  Values that lie in the caller's memory: in an array of their own, or as one member of the
     ///  structs of an array. `data` and `stride` are multiples of what the values are aligned to.
     /// </summary>
@@ -1067,6 +1673,329 @@ namespace Texere
         ///  Bytes from one value to the next: at least the size of a value.
         /// </summary>
         public ulong stride;
+    }
+
+    /// <summary>
+    ///  The movement of a guide at one course: from a needle space, in front of the needles, to another.
+    ///  Space n lies between the needles n - 1 and n.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_lap
+    {
+        /// <summary>
+        ///  The needle space before the overlap, 0 to 512.
+        /// </summary>
+        public int from;
+        /// <summary>
+        ///  The needle space after it, 0 to 512, and two needles away at most. No needle: an inlay.
+        /// </summary>
+        public int to;
+    }
+
+    /// <summary>
+    ///  A guide bar.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_bar
+    {
+        /// <summary>
+        ///  Its chain: laps, course after course from the first one knitted.
+        /// </summary>
+        public texere_lap* laps;
+        /// <summary>
+        ///  How many laps, 1 to 4096. After the last one the first one follows again.
+        /// </summary>
+        public ulong lap_count;
+        /// <summary>
+        ///  The yarn of each guide, from 0, or TEXERE_NO_YARN. Null and 0: yarn 0 for all.
+        /// </summary>
+        public uint* threading;
+        /// <summary>
+        ///  How many guides until the threading begins again.
+        /// </summary>
+        public ulong guide_count;
+        /// <summary>
+        ///  Run-in: length of yarn for a rack of 480 courses, mm; 0 leaves it to the bar.
+        /// </summary>
+        public double run_in_mm;
+        /// <summary>
+        ///  Needles by which the whole bar is moved towards the high numbers.
+        /// </summary>
+        public int offset;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+    }
+
+    /// <summary>
+    ///  A warp knit as the caller's arrays.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_warp_knit
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  A number that begins with TEXERE_CELLS.
+        /// </summary>
+        public uint cells;
+        /// <summary>
+        ///  Wales, a multiple of those after which all bars begin again.
+        /// </summary>
+        public uint wales;
+        /// <summary>
+        ///  Courses, a multiple of those after which all bars begin again.
+        /// </summary>
+        public uint courses;
+        /// <summary>
+        ///  Copies of the whole along the courses and along the wales, each from 1.
+        /// </summary>
+        public fixed uint copies[2];
+        /// <summary>
+        ///  What the design is called, UTF-8.
+        /// </summary>
+        public byte* name;
+        /// <summary>
+        ///  Bytes of the name.
+        /// </summary>
+        public System.UIntPtr name_length;
+        /// <summary>
+        ///  The guide bars, the front one first.
+        /// </summary>
+        public texere_bar* bars;
+        /// <summary>
+        ///  How many guide bars, 1 to 64.
+        /// </summary>
+        public ulong bar_count;
+        /// <summary>
+        ///  The yarns.
+        /// </summary>
+        public texere_knit_yarn* yarns;
+        /// <summary>
+        ///  How many yarns.
+        /// </summary>
+        public ulong yarn_count;
+        /// <summary>
+        ///  From one wale to the next, mm.
+        /// </summary>
+        public double wale_mm;
+        /// <summary>
+        ///  From one course to the next, mm.
+        /// </summary>
+        public double course_mm;
+        /// <summary>
+        ///  What the yarns refer to.
+        /// </summary>
+        public texere_looks looks;
+    }
+
+    /// <summary>
+    ///  The stitch in one wale of one course.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_stitch
+    {
+        /// <summary>
+        ///  A number that begins with TEXERE_STITCH.
+        /// </summary>
+        public uint kind;
+        /// <summary>
+        ///  Needles to the right, negative to the left, 256 at most, by which the loop moves.
+        /// </summary>
+        public int moved;
+    }
+
+    /// <summary>
+    ///  A weft knit as the caller's arrays: one repeat of stitches, and its copies.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_weft_knit
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Beds of needles, 1 or 2.
+        /// </summary>
+        public uint beds;
+        /// <summary>
+        ///  A number that begins with TEXERE_CELLS.
+        /// </summary>
+        public uint cells;
+        /// <summary>
+        ///  Copies of the repeat along the courses and along the wales, each from 1.
+        /// </summary>
+        public fixed uint copies[2];
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+        /// <summary>
+        ///  What the design is called, UTF-8.
+        /// </summary>
+        public byte* name;
+        /// <summary>
+        ///  Bytes of the name.
+        /// </summary>
+        public System.UIntPtr name_length;
+        /// <summary>
+        ///  Wales of the repeat, 1 to 65536.
+        /// </summary>
+        public ulong wales;
+        /// <summary>
+        ///  Courses of the repeat, 1 to 65536.
+        /// </summary>
+        public ulong courses;
+        /// <summary>
+        ///  The stitches, course after course from the first (the bottom one), each from left to right
+        ///  as seen from the technical face: `wales` times `courses` of them.
+        /// </summary>
+        public texere_stitch* stitches;
+        /// <summary>
+        ///  The yarn of each course, from 0, in turn from the first course on. Null and 0: yarn 0 for
+        ///  all. Where the turn does not go evenly into the courses, the chart is repeated upwards.
+        /// </summary>
+        public uint* turn;
+        /// <summary>
+        ///  How many yarns the turn has.
+        /// </summary>
+        public ulong turn_count;
+        /// <summary>
+        ///  The yarns.
+        /// </summary>
+        public texere_knit_yarn* yarns;
+        /// <summary>
+        ///  How many yarns.
+        /// </summary>
+        public ulong yarn_count;
+        /// <summary>
+        ///  From one wale to the next, mm.
+        /// </summary>
+        public double wale_mm;
+        /// <summary>
+        ///  From one course to the next, mm.
+        /// </summary>
+        public double course_mm;
+        /// <summary>
+        ///  The mean length of yarn in a loop that settling aims for, mm; 0 leaves it to the loops.
+        /// </summary>
+        public double loop_length_mm;
+        /// <summary>
+        ///  What the yarns refer to.
+        /// </summary>
+        public texere_looks looks;
+    }
+
+    /// <summary>
+    ///  An end or a pick.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_thread
+    {
+        /// <summary>
+        ///  Width of its column of the cloth, mm. Two neighbours are half of each spacing apart.
+        /// </summary>
+        public double spacing_mm;
+        /// <summary>
+        ///  Diameter of the yarn where it is round, mm; `texere_diameter` gives it for a yarn count.
+        /// </summary>
+        public double diameter_mm;
+        /// <summary>
+        ///  Width over height in the cloth, 0.1 to 10; 0 stands for 1, which is round.
+        /// </summary>
+        public float flatness;
+        /// <summary>
+        ///  Stiffness against bending, 0.01 to 100, 1 for cotton of its diameter; 0 stands for 1.
+        /// </summary>
+        public float stiffness;
+        /// <summary>
+        ///  Twist, radians a mm; positive is Z twist.
+        /// </summary>
+        public float twist;
+        /// <summary>
+        ///  The number of its material, from 0.
+        /// </summary>
+        public uint material;
+        /// <summary>
+        ///  The number of its section, from 0.
+        /// </summary>
+        public uint section;
+        /// <summary>
+        ///  Zero.
+        /// </summary>
+        public uint reserved;
+    }
+
+    /// <summary>
+    ///  Woven cloth as the caller's arrays.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_woven
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  A number that begins with TEXERE_SHAPE.
+        /// </summary>
+        public uint shape;
+        /// <summary>
+        ///  A number that begins with TEXERE_RELIEF.
+        /// </summary>
+        public uint relief;
+        /// <summary>
+        ///  1 if the weft turns back round the edge ends, 0 if each pick is cut at both edges.
+        /// </summary>
+        public uint selvedge;
+        /// <summary>
+        ///  A number that begins with TEXERE_CRIMP.
+        /// </summary>
+        public uint crimp;
+        /// <summary>
+        ///  The warp's share of the crimp, 0 (straight ends) to 1 (straight picks), with
+        ///  TEXERE_CRIMP_SHARE.
+        /// </summary>
+        public float warp_share;
+        /// <summary>
+        ///  What the design is called, UTF-8.
+        /// </summary>
+        public byte* name;
+        /// <summary>
+        ///  Bytes of the name.
+        /// </summary>
+        public System.UIntPtr name_length;
+        /// <summary>
+        ///  How many ends.
+        /// </summary>
+        public ulong ends;
+        /// <summary>
+        ///  How many picks.
+        /// </summary>
+        public ulong picks;
+        /// <summary>
+        ///  A row of bits for each pick, which are only read. Row 0 is the first pick, at the bottom of
+        ///  the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0 of its
+        ///  second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` + 7) / 8
+        ///  bytes, and `stride` bytes lie between the beginnings of two rows.
+        /// </summary>
+        public texere_view drawdown;
+        /// <summary>
+        ///  The ends from the left: `ends` of them.
+        /// </summary>
+        public texere_thread* warp;
+        /// <summary>
+        ///  The picks from the bottom: `picks` of them.
+        /// </summary>
+        public texere_thread* weft;
+        /// <summary>
+        ///  What the threads refer to.
+        /// </summary>
+        public texere_looks looks;
     }
 
     /// <summary>

@@ -35,11 +35,82 @@
 // The yarns are where the structure places them, for they can't come to rest; `words` says why.
 #define TEXERE_REFUSED 3
 
+// The structure's own choice: loops of a knit reach the length that its gauge asks for, or are
+// free.
+#define TEXERE_LENGTH_USUAL 0
+
+// No yarn is drawn through.
+#define TEXERE_LENGTH_HELD 1
+
+// Yarns get `length` times their length, 0.5 to 2.
+#define TEXERE_LENGTH_GIVEN 2
+
+// Yarns take the length that they need; `length` is a tension that draws them in, 0 to 0.1.
+#define TEXERE_LENGTH_FREE 3
+
+// Cloth is not stretched.
+#define TEXERE_STRETCH_NONE 0
+
+// Woven cloth is stretched along its warp.
+#define TEXERE_STRETCH_WARP 1
+
+// Woven cloth is stretched along its weft.
+#define TEXERE_STRETCH_WEFT 2
+
 // Buffers are `cl_mem`.
 #define TEXERE_NATIVE_OPENCL 1
 
 // Buffers are `VkBuffer`.
 #define TEXERE_NATIVE_VULKAN 2
+
+// A circle.
+#define TEXERE_SECTION_CIRCLE 0
+
+// An ellipse: `aspect`.
+#define TEXERE_SECTION_ELLIPSE 1
+
+// Two arcs that meet in two edges: `aspect`, and as `form` the height of the edges above the
+// middle, in half heights, -0.9 to 0.9.
+#define TEXERE_SECTION_LENTICULAR 2
+
+// An ellipse whose height is |sin|^`form`: `aspect`, and a `form` from 0.1 to 4; 1 is an ellipse.
+#define TEXERE_SECTION_POWER_ELLIPSE 3
+
+// Plies that are twisted together: `count` of them, 2 to 12.
+#define TEXERE_SECTION_LOBED 4
+
+// The outline in `corners`, 3 to 256 of them.
+#define TEXERE_SECTION_POLYGON 5
+
+// The whole cloth from straight above its face.
+#define TEXERE_VIEW_FACE 0
+
+// The whole cloth from above its lower edge, turned by `turn`.
+#define TEXERE_VIEW_OBLIQUE 1
+
+// A stretch of `width_mm` round the point `at`, from above and aside.
+#define TEXERE_VIEW_CLOSE_UP 2
+
+// A cut across the ends, through the point `at`, `width_mm` of it.
+#define TEXERE_VIEW_CUT_WARP 3
+
+// A cut across the picks, through the point `at`, `width_mm` of it.
+#define TEXERE_VIEW_CUT_WEFT 4
+
+// From `eye` to `target`, with `field_of_view`.
+#define TEXERE_VIEW_EYE 5
+
+// From `eye` to `target` with parallel lines of sight; the picture shows `height_mm`.
+#define TEXERE_VIEW_PARALLEL 6
+
+// Light grey ground that the cloth lies on and casts its shadow on.
+#define TEXERE_BACKGROUND_GROUND 0
+
+// The colour `color`.
+#define TEXERE_BACKGROUND_COLOR 1
+
+// Nothing: alpha says how much of each pixel is yarn.
+#define TEXERE_BACKGROUND_NOTHING 2
 
 // Sections stand with their side level. Yarns that are too steep for that are carried along.
 #define TEXERE_FRAME_UPRIGHT 0
@@ -55,6 +126,60 @@
 
 // No indices.
 #define TEXERE_TOPOLOGY_NONE 2
+
+// As many control points as the bends of a yarn need.
+#define TEXERE_CELLS_ROUND 0
+
+// Equally many control points for each stitch.
+#define TEXERE_CELLS_EVEN 1
+
+// The yarn of an empty guide.
+#define TEXERE_NO_YARN 4294967295
+
+// The front needle knits.
+#define TEXERE_STITCH_KNIT 0
+
+// The back needle knits.
+#define TEXERE_STITCH_PURL 1
+
+// Front and back needle both knit, on two beds.
+#define TEXERE_STITCH_BOTH 2
+
+// The needle takes the yarn and keeps its loops; on two beds it is the front needle.
+#define TEXERE_STITCH_TUCK 3
+
+// The back needle tucks, on two beds.
+#define TEXERE_STITCH_BACK_TUCK 4
+
+// The yarn floats past.
+#define TEXERE_STITCH_MISS 5
+
+// The front needle knits, and its loop moves by `moved` needles, in front of the others.
+#define TEXERE_STITCH_MOVED 6
+
+// The front needle knits, and its loop moves by `moved` needles, behind the others.
+#define TEXERE_STITCH_MOVED_BEHIND 7
+
+// Threads bend round one another as round threads do, and floats lie flat.
+#define TEXERE_SHAPE_ROUND 0
+
+// One control point a crossing, and one before and after.
+#define TEXERE_SHAPE_CROSSING 1
+
+// Threads that lie too close are only reported.
+#define TEXERE_RELIEF_REPORT 0
+
+// Threads that lie too close are flattened.
+#define TEXERE_RELIEF_FLATTEN 1
+
+// Threads that lie too close are made thinner.
+#define TEXERE_RELIEF_SHRINK 2
+
+// The stiffer set stays the straighter.
+#define TEXERE_CRIMP_STIFFNESS 0
+
+// The warp has `warp_share` of the crimp.
+#define TEXERE_CRIMP_SHARE 1
 
 // glTF 2.0 in one binary file, `.glb`.
 #define TEXERE_FORMAT_GLB 0
@@ -88,7 +213,8 @@ typedef enum texere_status {
 // The cloth of a design: its yarns, and how they came to rest.
 typedef struct texere_cloth texere_cloth;
 
-// A design that was read: a WIF draft, a design file, or a program of a knitting machine.
+// A design: a WIF draft, a design file or a program of a knitting machine that was read, or a
+// structure by arrays.
 typedef struct texere_design texere_design;
 
 // An open device: a GPU, or the CPU.
@@ -99,6 +225,10 @@ typedef struct texere_device texere_device;
 // A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
 // 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
 typedef struct texere_plan texere_plan;
+
+// A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
+// call while another thread's is under way fails with TEXERE_ARGUMENT.
+typedef struct texere_renderer texere_renderer;
 
 // A call that takes long, as other threads see it: how far it has come, and whether it is to end.
 // One run may be given to one call after another; each starts it at 0.
@@ -162,6 +292,32 @@ typedef struct texere_place {
   uint64_t column;
 } texere_place;
 
+// Whether and how the yarns of a design come to rest.
+typedef struct texere_finish {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // 1 if the yarns come to rest, 0 if they stay where the structure places them.
+  uint32_t settle;
+  // Of knits: a number that begins with TEXERE_LENGTH.
+  uint32_t length_kind;
+  // What the kind of length says.
+  float length;
+  // Of knits: distance of two plates that press the cloth, 0.001 to 1000 mm; 0: no plates.
+  float press_mm;
+  // Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
+  float warp_tension;
+  // Of woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
+  float weft_tension;
+  // Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
+  float calender;
+  // A number that begins with TEXERE_STRETCH.
+  uint32_t stretch;
+  // The most passes of either form of a knit, 1 to 1000000.
+  uint32_t passes;
+  // How many times as long stretched cloth becomes, 0.5 to 2.
+  double stretch_by;
+} texere_finish;
+
 // A vertex of a tube.
 typedef struct texere_vertex {
   // Position, mm.
@@ -195,6 +351,47 @@ typedef struct texere_mesh_arrays {
   // Indices, a `uint32_t` each. Null `data`: left out.
   struct texere_view indices;
 } texere_mesh_arrays;
+
+// What a picture shows, and how. `texere_picture_default` fills it in.
+typedef struct texere_picture {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Pixels across.
+  uint32_t width;
+  // Pixels down.
+  uint32_t height;
+  // Pixels that are drawn for each pixel of the picture, each way, from 1; each of them has four
+  // samples.
+  uint32_t supersampling;
+  // 1 if fibres that stand off yarns are drawn, else 0.
+  uint32_t hairs;
+  // A number that begins with TEXERE_BACKGROUND.
+  uint32_t background;
+  // A colour of the background, sRGB.
+  uint8_t color[3];
+  // Zero.
+  uint8_t reserved;
+  // A number that begins with TEXERE_VIEW.
+  uint32_t view;
+  // 1 if the cloth is turned over sideways, so that its back is seen, else 0.
+  uint32_t turned_over;
+  // Turn about the cloth's middle, radians, counter-clockwise as seen from above.
+  float turn;
+  // A point of the cloth, x and y, mm.
+  float at[2];
+  // What the picture's width shows, mm.
+  float width_mm;
+  // The eye, mm.
+  float eye[3];
+  // The point in the middle of the picture, mm.
+  float target[3];
+  // What is up in the picture, of any length.
+  float up[3];
+  // From the picture's lower to its upper edge, radians, 0.0001 to 3.1.
+  float field_of_view;
+  // What the picture's height shows, mm.
+  float height_mm;
+} texere_picture;
 
 // What can be chosen about a mesh. `texere_settings_default` fills it in.
 typedef struct texere_settings {
@@ -270,6 +467,24 @@ typedef struct texere_chunk {
   // How many draws it has.
   uint64_t draw_count;
 } texere_chunk;
+
+// The box round yarns.
+typedef struct texere_extent {
+  // The least x, y and z, mm.
+  float low[3];
+  // The greatest x, y and z, mm.
+  float high[3];
+} texere_extent;
+
+// What a picture shows at a point.
+typedef struct texere_seen {
+  // The place on the yarn's surface, mm; how far it is from the eye follows.
+  double position[3];
+  // The yarn, from 0.
+  uint32_t yarn;
+  // 1 where a yarn is seen, else 0.
+  uint32_t is_yarn;
+} texere_seen;
 
 // Objects that a session works with, as numbers: cast each to the type of its interface.
 typedef struct texere_native {
@@ -356,6 +571,228 @@ typedef struct texere_piece {
 
 // Takes a piece of a mesh. Anything else than 0 ends the call that was given this callback.
 typedef int32_t (*texere_piece_callback)(void *user, const struct texere_piece *piece);
+
+// The movement of a guide at one course: from a needle space, in front of the needles, to another.
+// Space n lies between the needles n - 1 and n.
+typedef struct texere_lap {
+  // The needle space before the overlap, 0 to 512.
+  int32_t from;
+  // The needle space after it, 0 to 512, and two needles away at most. No needle: an inlay.
+  int32_t to;
+} texere_lap;
+
+// A guide bar.
+typedef struct texere_bar {
+  // Its chain: laps, course after course from the first one knitted.
+  const struct texere_lap *laps;
+  // How many laps, 1 to 4096. After the last one the first one follows again.
+  uint64_t lap_count;
+  // The yarn of each guide, from 0, or TEXERE_NO_YARN. Null and 0: yarn 0 for all.
+  const uint32_t *threading;
+  // How many guides until the threading begins again.
+  uint64_t guide_count;
+  // Run-in: length of yarn for a rack of 480 courses, mm; 0 leaves it to the bar.
+  double run_in_mm;
+  // Needles by which the whole bar is moved towards the high numbers.
+  int32_t offset;
+  // Zero.
+  uint32_t reserved;
+} texere_bar;
+
+// A yarn of a knit.
+typedef struct texere_knit_yarn {
+  // Its diameter, mm; `texere_diameter` gives it for a yarn count.
+  double diameter_mm;
+  // Twist, radians a mm; positive is Z twist.
+  float twist;
+  // The number of its material, from 0.
+  uint32_t material;
+  // The number of its section, from 0.
+  uint32_t section;
+  // Zero.
+  uint32_t reserved;
+} texere_knit_yarn;
+
+// What yarns are made of.
+typedef struct texere_material {
+  // Its name, UTF-8.
+  const char *name;
+  // Bytes of the name.
+  size_t name_length;
+  // Linear density, tex; 0 where it is not known.
+  float tex;
+  // Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+  float hairiness;
+  // Red, green and blue, sRGB.
+  uint8_t srgb[3];
+  // Zero.
+  uint8_t reserved;
+} texere_material;
+
+// The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
+typedef struct texere_section {
+  // A number that begins with TEXERE_SECTION.
+  uint32_t shape;
+  // How many plies or corners.
+  uint32_t count;
+  // Width over height, 0.05 to 20.
+  float aspect;
+  // What the shape says.
+  float form;
+  // Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
+  // has two numbers a corner.
+  const float *corners;
+} texere_section;
+
+// Materials and sections that yarns refer to by their number, from 0.
+typedef struct texere_looks {
+  // Materials. Null and 0: undyed yarn.
+  const struct texere_material *materials;
+  // How many materials.
+  uint64_t material_count;
+  // Sections. Null and 0: a circle.
+  const struct texere_section *sections;
+  // How many sections.
+  uint64_t section_count;
+} texere_looks;
+
+// A warp knit as the caller's arrays.
+typedef struct texere_warp_knit {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // A number that begins with TEXERE_CELLS.
+  uint32_t cells;
+  // Wales, a multiple of those after which all bars begin again.
+  uint32_t wales;
+  // Courses, a multiple of those after which all bars begin again.
+  uint32_t courses;
+  // Copies of the whole along the courses and along the wales, each from 1.
+  uint32_t copies[2];
+  // What the design is called, UTF-8.
+  const char *name;
+  // Bytes of the name.
+  size_t name_length;
+  // The guide bars, the front one first.
+  const struct texere_bar *bars;
+  // How many guide bars, 1 to 64.
+  uint64_t bar_count;
+  // The yarns.
+  const struct texere_knit_yarn *yarns;
+  // How many yarns.
+  uint64_t yarn_count;
+  // From one wale to the next, mm.
+  double wale_mm;
+  // From one course to the next, mm.
+  double course_mm;
+  // What the yarns refer to.
+  struct texere_looks looks;
+} texere_warp_knit;
+
+// The stitch in one wale of one course.
+typedef struct texere_stitch {
+  // A number that begins with TEXERE_STITCH.
+  uint32_t kind;
+  // Needles to the right, negative to the left, 256 at most, by which the loop moves.
+  int32_t moved;
+} texere_stitch;
+
+// A weft knit as the caller's arrays: one repeat of stitches, and its copies.
+typedef struct texere_weft_knit {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Beds of needles, 1 or 2.
+  uint32_t beds;
+  // A number that begins with TEXERE_CELLS.
+  uint32_t cells;
+  // Copies of the repeat along the courses and along the wales, each from 1.
+  uint32_t copies[2];
+  // Zero.
+  uint32_t reserved;
+  // What the design is called, UTF-8.
+  const char *name;
+  // Bytes of the name.
+  size_t name_length;
+  // Wales of the repeat, 1 to 65536.
+  uint64_t wales;
+  // Courses of the repeat, 1 to 65536.
+  uint64_t courses;
+  // The stitches, course after course from the first (the bottom one), each from left to right
+  // as seen from the technical face: `wales` times `courses` of them.
+  const struct texere_stitch *stitches;
+  // The yarn of each course, from 0, in turn from the first course on. Null and 0: yarn 0 for
+  // all. Where the turn does not go evenly into the courses, the chart is repeated upwards.
+  const uint32_t *turn;
+  // How many yarns the turn has.
+  uint64_t turn_count;
+  // The yarns.
+  const struct texere_knit_yarn *yarns;
+  // How many yarns.
+  uint64_t yarn_count;
+  // From one wale to the next, mm.
+  double wale_mm;
+  // From one course to the next, mm.
+  double course_mm;
+  // The mean length of yarn in a loop that settling aims for, mm; 0 leaves it to the loops.
+  double loop_length_mm;
+  // What the yarns refer to.
+  struct texere_looks looks;
+} texere_weft_knit;
+
+// An end or a pick.
+typedef struct texere_thread {
+  // Width of its column of the cloth, mm. Two neighbours are half of each spacing apart.
+  double spacing_mm;
+  // Diameter of the yarn where it is round, mm; `texere_diameter` gives it for a yarn count.
+  double diameter_mm;
+  // Width over height in the cloth, 0.1 to 10; 0 stands for 1, which is round.
+  float flatness;
+  // Stiffness against bending, 0.01 to 100, 1 for cotton of its diameter; 0 stands for 1.
+  float stiffness;
+  // Twist, radians a mm; positive is Z twist.
+  float twist;
+  // The number of its material, from 0.
+  uint32_t material;
+  // The number of its section, from 0.
+  uint32_t section;
+  // Zero.
+  uint32_t reserved;
+} texere_thread;
+
+// Woven cloth as the caller's arrays.
+typedef struct texere_woven {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // A number that begins with TEXERE_SHAPE.
+  uint32_t shape;
+  // A number that begins with TEXERE_RELIEF.
+  uint32_t relief;
+  // 1 if the weft turns back round the edge ends, 0 if each pick is cut at both edges.
+  uint32_t selvedge;
+  // A number that begins with TEXERE_CRIMP.
+  uint32_t crimp;
+  // The warp's share of the crimp, 0 (straight ends) to 1 (straight picks), with
+  // TEXERE_CRIMP_SHARE.
+  float warp_share;
+  // What the design is called, UTF-8.
+  const char *name;
+  // Bytes of the name.
+  size_t name_length;
+  // How many ends.
+  uint64_t ends;
+  // How many picks.
+  uint64_t picks;
+  // A row of bits for each pick, which are only read. Row 0 is the first pick, at the bottom of
+  // the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0 of its
+  // second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` + 7) / 8
+  // bytes, and `stride` bytes lie between the beginnings of two rows.
+  struct texere_view drawdown;
+  // The ends from the left: `ends` of them.
+  const struct texere_thread *warp;
+  // The picks from the bottom: `picks` of them.
+  const struct texere_thread *weft;
+  // What the threads refer to.
+  struct texere_looks looks;
+} texere_woven;
 
 // Takes `size` bytes of a file, which belong at byte `offset` of it. Pieces come in order, but at
 // the end a writer may go back to fill in what is known last. Anything else than 0 ends the call
@@ -518,6 +955,15 @@ enum texere_status texere_design_read_memory(const char *name,
                                              void *user,
                                              struct texere_design **out);
 
+// Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
+// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
+// is replaced once the new one is whole.
+//
+// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
+enum texere_status texere_design_write(const struct texere_design *design,
+                                       const char *path,
+                                       size_t path_length);
+
 // Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
 void texere_design_free(struct texere_design *design);
 
@@ -537,6 +983,17 @@ enum texere_status texere_device_describe(const struct texere_device *device,
 // Frees a device, or nothing where it is null. What was made with it stays valid.
 void texere_device_free(struct texere_device *device);
 
+// Draws a design on squared paper, in a `.png` file: the draft or the point paper of woven cloth,
+// the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 for the cloth
+// turned over sideways, else 0. A file of that name is replaced once the new one is whole.
+//
+// Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO where the
+// file can't be written.
+enum texere_status texere_design_draft(const struct texere_design *design,
+                                       uint32_t back,
+                                       const char *path,
+                                       size_t path_length);
+
 // What went wrong in the last call of this thread that failed, with all its causes, in one line of
 // UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
 // call of this thread fails.
@@ -546,6 +1003,24 @@ const char *texere_error_message(void);
 //
 // Fails with TEXERE_ARGUMENT for a null `place`.
 enum texere_status texere_error_place(struct texere_place *place);
+
+// Writes the finish of a design. The caller has set `finish->struct_size`.
+enum texere_status texere_design_finish(const struct texere_design *design,
+                                        struct texere_finish *finish);
+
+// Makes a design like another one with a finish of the caller's.
+//
+// Fails with TEXERE_ARGUMENT for a finish out of range, and for one that the structure does not
+// have.
+enum texere_status texere_design_finished(const struct texere_design *design,
+                                          const struct texere_finish *finish,
+                                          struct texere_design **out);
+
+// Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
+// air in the yarn: 0.909 is usual for cotton.
+//
+// Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
+enum texere_status texere_diameter(double tex, double density, double *diameter_mm);
 
 // Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
 // indices. `run` may be null.
@@ -601,6 +1076,10 @@ enum texere_status texere_plan_trajectory(const struct texere_plan *plan,
                                           const struct texere_run *run,
                                           const struct texere_view *rings);
 
+// Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
+// samples each, with fibres, on the ground. The caller has set `picture->struct_size`.
+enum texere_status texere_picture_default(struct texere_picture *picture);
+
 // Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
 // holds then.
 //
@@ -639,6 +1118,67 @@ enum texere_status texere_plan_chunk(const struct texere_plan *plan,
 
 // Frees a plan, or nothing where it is null.
 void texere_plan_free(struct texere_plan *plan);
+
+// Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
+// `name_length` of 0 is "auto".
+//
+// Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
+// built without pictures.
+enum texere_status texere_renderer_open(const char *name,
+                                        size_t name_length,
+                                        struct texere_renderer **out);
+
+// Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
+// null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
+// null.
+//
+// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
+// cancelled. The renderer then shows nothing.
+enum texere_status texere_renderer_show(const struct texere_renderer *renderer,
+                                        const struct texere_yarns *yarns,
+                                        const struct texere_settings *settings,
+                                        const struct texere_run *run);
+
+// Writes the box round the yarns that a renderer shows.
+//
+// Fails with TEXERE_ARGUMENT where it shows none.
+enum texere_status texere_renderer_extent(const struct texere_renderer *renderer,
+                                          struct texere_extent *extent);
+
+// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
+// each pixel from the left, a byte each, sRGB; rows from the top. `pixels->stride` is the bytes
+// from one row to the next, at least four times the width. Alpha is 255 unless the background is
+// nothing; colours are not multiplied by it. `run` may be null.
+//
+// Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
+// or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
+// `run` was cancelled. The memory is then as it was.
+enum texere_status texere_renderer_picture(const struct texere_renderer *renderer,
+                                           const struct texere_picture *picture,
+                                           const struct texere_run *run,
+                                           const struct texere_view *pixels);
+
+// Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
+// A file of that name is replaced once the new one is whole.
+//
+// Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
+                                         const struct texere_picture *picture,
+                                         const struct texere_run *run,
+                                         const char *path,
+                                         size_t path_length);
+
+// Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
+// edges. No yarn is seen outside the picture, and before the first one.
+//
+// Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+enum texere_status texere_renderer_seen(const struct texere_renderer *renderer,
+                                        float x,
+                                        float y,
+                                        struct texere_seen *seen);
+
+// Frees a renderer, or nothing where it is null.
+void texere_renderer_free(struct texere_renderer *renderer);
 
 // Makes a run.
 //
@@ -720,6 +1260,30 @@ enum texere_status texere_plan_stream(const struct texere_plan *plan,
                                       const struct texere_run *run,
                                       texere_piece_callback callback,
                                       void *user);
+
+// Makes a design of a warp knit from the caller's arrays, which are copied. Its yarns settle;
+// `texere_design_finished` says otherwise.
+//
+// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
+// 0, value and limit.
+enum texere_status texere_design_warp_knit(const struct texere_warp_knit *knit,
+                                           struct texere_design **out);
+
+// Makes a design of a weft knit from the caller's arrays, which are copied. Its yarns settle;
+// `texere_design_finished` says otherwise.
+//
+// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
+// 0, value and limit.
+enum texere_status texere_design_weft_knit(const struct texere_weft_knit *knit,
+                                           struct texere_design **out);
+
+// Makes a design of woven cloth from the caller's arrays, which are copied. Its yarns settle;
+// `texere_design_finished` says otherwise.
+//
+// Fails with TEXERE_ARGUMENT for arrays that no cloth can be: the message names array, number from
+// 0, value and limit.
+enum texere_status texere_design_woven(const struct texere_woven *woven,
+                                       struct texere_design **out);
 
 // Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
 // be null. A file of that name is replaced once the new one is whole.

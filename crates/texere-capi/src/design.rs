@@ -1,4 +1,4 @@
-//! Designs: from a file, or from memory.
+//! Designs: from a file, or from memory; and to a file.
 
 use std::ffi::{c_char, c_void};
 use std::io;
@@ -8,10 +8,12 @@ use texere::Design;
 
 use crate::argument::{slice, text};
 use crate::error::guard;
-use crate::handle::{Handle, clear, free, give};
+use crate::failure::Failure;
+use crate::handle::{Handle, clear, free, get, give};
 use crate::status::texere_status;
 
-/// A design that was read: a WIF draft, a design file, or a program of a knitting machine.
+/// A design: a WIF draft, a design file or a program of a knitting machine that was read, or a
+/// structure by arrays.
 #[derive(Debug)]
 pub struct texere_design;
 
@@ -89,6 +91,34 @@ pub unsafe extern "C" fn texere_design_read_memory(
         };
         // SAFETY: as above.
         unsafe { give(out, texere::read_from(name, bytes, file)?) }
+    })
+}
+
+/// Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
+/// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
+/// is replaced once the new one is whole.
+///
+/// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_write(
+    design: *const texere_design,
+    path: *const c_char,
+    path_length: usize,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `path`.
+        let path = unsafe { text("path", path, path_length) }?;
+        let design = get(design)?;
+        let ending = Path::new(path).extension().map(|ending| ending.to_ascii_lowercase());
+        match ending.as_deref().and_then(|ending| ending.to_str()) {
+            Some("toml") => texere::write::toml(&design, path)?,
+            Some("wif") => texere::write::wif(&design, path)?,
+            _ => {
+                let said = format!("path is {path:?}, expected one that ends in .toml or .wif");
+                return Err(Failure::argument(said));
+            }
+        };
+        Ok(())
     })
 }
 

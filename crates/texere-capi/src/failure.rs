@@ -9,6 +9,8 @@ use std::path::Path;
 
 use texere::backend::{OutOfMemory, SessionError};
 use texere::check::ContactError;
+#[cfg(feature = "render")]
+use texere::picture::RenderError;
 use texere::read::{FilePlace, Refusal};
 use texere::rest::{CrossingsError, FinishError, SettlingError};
 use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
@@ -123,9 +125,18 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
             _ => None,
         };
     }
+    #[cfg(feature = "render")]
+    if let Some(error) = error.downcast_ref() {
+        return match error {
+            RenderError::Cancelled => Some(TEXERE_CANCELLED),
+            RenderError::Backend(error) => status_of(error),
+            RenderError::Session(_) => Some(TEXERE_DEVICE),
+            _ => None,
+        };
+    }
     if let Some(error) = error.downcast_ref::<WriteError>() {
         return match error {
-            WriteError::Feature { .. } => Some(TEXERE_UNSUPPORTED),
+            WriteError::Feature { .. } | WriteError::Unheld { .. } => Some(TEXERE_UNSUPPORTED),
             WriteError::Pipeline(error) => status_of(error),
             WriteError::Io { .. } | WriteError::Writer { .. } => Some(TEXERE_IO),
             _ => None,

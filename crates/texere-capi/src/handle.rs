@@ -7,7 +7,7 @@ use std::any::Any;
 use std::collections::HashMap;
 use std::ptr::{null_mut, without_provenance_mut};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, LazyLock, PoisonError, RwLock};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError, RwLock, TryLockError};
 
 use crate::argument::check;
 use crate::failure::Failure;
@@ -73,6 +73,26 @@ pub(crate) fn get<H: Handle>(handle: *const H) -> Result<Arc<H::Value>, Failure>
 /// What a handle stands for, or none for a null one.
 pub(crate) fn get_any<H: Handle>(handle: *const H) -> Result<Option<Arc<H::Value>>, Failure> {
     if handle.is_null() { Ok(None) } else { get(handle).map(Some) }
+}
+
+/// Does `work` with what a handle stands for. No other thread may be using it: there is no waiting,
+/// since two threads that change one thing in turn are a fault of the program.
+pub(crate) fn alone<H, T, R>(
+    handle: *const H,
+    work: impl FnOnce(&mut T) -> Result<R, Failure>,
+) -> Result<R, Failure>
+where
+    H: Handle<Value = Mutex<T>>,
+{
+    let value = get(handle)?;
+    let mut held = match value.try_lock() {
+        Ok(held) => held,
+        Err(TryLockError::Poisoned(held)) => held.into_inner(),
+        Err(TryLockError::WouldBlock) => {
+            return Err(Failure::argument(format!("the {} is in use by another thread", H::NAME)));
+        }
+    };
+    work(&mut held)
 }
 
 /// Forgets a handle. One that is null, was freed already or is of another kind is left alone.

@@ -28,6 +28,40 @@ pub(crate) struct Strided<'a, T> {
     memory: PhantomData<&'a mut [T]>,
 }
 
+/// A view whose memory holds as many rows of bytes as were asked for.
+#[derive(Debug)]
+pub(crate) struct Rows<'a> {
+    first: *mut u8,
+    stride: usize,
+    count: usize,
+    bytes: usize,
+    memory: PhantomData<&'a mut [u8]>,
+}
+
+impl Rows<'_> {
+    /// The bytes of a row.
+    ///
+    /// **Panics** past the last row.
+    pub(crate) fn row(&self, number: usize) -> &[u8] {
+        // SAFETY: the row lies within the memory that `rows` has checked; whoever made it vouches
+        // for the rest.
+        unsafe { std::slice::from_raw_parts(self.place(number), self.bytes) }
+    }
+
+    /// The bytes of a row, to be written.
+    ///
+    /// **Panics** past the last row.
+    pub(crate) fn row_mut(&mut self, number: usize) -> &mut [u8] {
+        // SAFETY: as for `row`.
+        unsafe { std::slice::from_raw_parts_mut(self.place(number), self.bytes) }
+    }
+
+    fn place(&self, number: usize) -> *mut u8 {
+        assert!(number < self.count, "row {number} of {}", self.count);
+        self.first.wrapping_byte_add(number * self.stride)
+    }
+}
+
 impl texere_view {
     /// Makes sure that the view holds `count` values, where it is not null.
     ///
@@ -55,27 +89,56 @@ impl texere_view {
         name: &str,
         count: usize,
     ) -> Result<Strided<'a, T>, Failure> {
-        let Self { data, size, stride } = *self;
+        let Self { data, stride, .. } = *self;
         let (first, memory) = (data.cast::<T>(), PhantomData);
-        let Some(last) = count.checked_sub(1) else {
+        if count == 0 {
             return Ok(Strided { first, stride: size_of::<T>(), count, memory });
-        };
+        }
         check(&format!("{name}.data"), first)?;
-        let least = size_of::<T>() as u64;
-        if stride < least || stride % align_of::<T>() as u64 != 0 {
-            let align = align_of::<T>();
+        self.check_room(name, count, size_of::<T>(), align_of::<T>(), "values")?;
+        Ok(Strided { first, stride: stride as usize, count, memory })
+    }
+
+    /// Makes sure that the view holds `count` rows of `bytes` bytes each, both from 1.
+    ///
+    /// # Safety
+    ///
+    /// As for `holds`.
+    pub(crate) unsafe fn rows<'a>(
+        &self,
+        name: &str,
+        count: usize,
+        bytes: usize,
+    ) -> Result<Rows<'a>, Failure> {
+        check(&format!("{name}.data"), self.data)?;
+        self.check_room(name, count, bytes, 1, "rows")?;
+        let (first, stride) = (self.data.cast(), self.stride as usize);
+        Ok(Rows { first, stride, count, bytes, memory: PhantomData })
+    }
+
+    /// Makes sure that `count` items of `least` bytes, `what` by name, lie within the view.
+    fn check_room(
+        &self,
+        name: &str,
+        count: usize,
+        least: usize,
+        align: usize,
+        what: &str,
+    ) -> Result<(), Failure> {
+        let (Self { size, stride, .. }, least) = (*self, least as u64);
+        if stride < least || stride % align as u64 != 0 {
             return Err(Failure::argument(format!(
                 "{name}.stride is {stride}, expected a multiple of {align} from {least} bytes"
             )));
         }
-        let needed = (last as u64).checked_mul(stride).and_then(|bytes| bytes.checked_add(least));
+        let needed = (count as u64 - 1).checked_mul(stride).and_then(|bytes| bytes.checked_add(least));
         match needed.filter(|bytes| isize::try_from(*bytes).is_ok()) {
-            Some(needed) if size >= needed => Ok(Strided { first, stride: stride as usize, count, memory }),
+            Some(needed) if size >= needed => Ok(()),
             Some(needed) => Err(Failure::argument(format!(
-                "{name}.size is {size} bytes, and {count} values need {needed}"
+                "{name}.size is {size} bytes, and {count} {what} need {needed}"
             ))),
             None => Err(Failure::argument(format!(
-                "{name} has {count} values of {stride} bytes, more than memory can hold"
+                "{name} has {count} {what} of {stride} bytes, more than memory can hold"
             ))),
         }
     }

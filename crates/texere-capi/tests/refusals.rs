@@ -2,8 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
+mod common;
 #[path = "refusals/outputs.rs"]
 mod outputs;
+#[path = "refusals/pictures.rs"]
+mod pictures;
+#[path = "refusals/structures.rs"]
+mod structures;
 #[path = "refusals/tools.rs"]
 mod tools;
 
@@ -14,12 +19,8 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::*;
 use texere_c::*;
 
+use common::{message, sized};
 use tools::{Case, strange};
-
-fn message() -> String {
-    // SAFETY: the library ends it with a zero byte.
-    unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap().to_owned()
-}
 
 /// All handles of a small cloth on `cpu`.
 struct Handles {
@@ -29,6 +30,7 @@ struct Handles {
     cloth: *mut texere_cloth,
     yarns: *mut texere_yarns,
     plan: *mut texere_plan,
+    renderer: *mut texere_renderer,
 }
 
 const DESIGN: &str = "weave = { notation = \"plain\", ends = 4, picks = 4 }\nfinish.settle = false\n\
@@ -44,6 +46,7 @@ impl Handles {
             cloth: null_mut(),
             yarns: null_mut(),
             plan: null_mut(),
+            renderer: null_mut(),
         };
         // SAFETY: all pointers are those of values that live as long as the calls.
         unsafe {
@@ -67,6 +70,8 @@ impl Handles {
             assert_eq!(texere_cloth_rest(all.design, all.device, all.run, &mut all.cloth), TEXERE_OK);
             assert_eq!(texere_cloth_yarns(all.cloth, &mut all.yarns), TEXERE_OK);
             assert_eq!(texere_plan_new(all.yarns, all.device, null(), &mut all.plan), TEXERE_OK);
+            assert_eq!(texere_renderer_open(null(), 0, &mut all.renderer), TEXERE_OK, "{}", message());
+            assert_eq!(texere_renderer_show(all.renderer, all.yarns, null(), null()), TEXERE_OK);
         }
         all
     }
@@ -191,6 +196,8 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
             }
         }),
     ));
+    cases.extend(structures::cases(own));
+    cases.extend(pictures::cases(own));
     // Settings and arrays out of range.
     for settings in [
         texere_settings { sides: 2, ..settings() },
@@ -225,22 +232,12 @@ fn wrong_calls(own: &'static Handles) -> Vec<Case> {
     cases
 }
 
-/// A struct of zeros that says its size.
-fn sized<T>() -> T {
-    // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
-    unsafe {
-        let mut value: T = std::mem::zeroed();
-        (&raw mut value).cast::<u32>().write(size_of::<T>() as u32);
-        value
-    }
-}
-
 fn settings() -> texere_settings {
     texere_settings { subdivisions: 1, sides: 6, quantum_mm: 1.0, ..sized() }
 }
 
 /// Functions that can't fail.
-const CANT_FAIL: [&str; 10] = [
+const CANT_FAIL: [&str; 11] = [
     "texere_abi",
     "texere_version",
     "texere_error_message",
@@ -251,6 +248,7 @@ const CANT_FAIL: [&str; 10] = [
     "texere_cloth_free",
     "texere_yarns_free",
     "texere_plan_free",
+    "texere_renderer_free",
 ];
 
 #[test]
@@ -294,6 +292,7 @@ fn what_was_freed_is_refused_and_may_be_freed_again() {
             texere_run_free(own.run);
             texere_cloth_free(own.cloth);
             texere_yarns_free(own.yarns);
+            texere_renderer_free(own.renderer);
         }
         // The plan keeps what it needs.
         let mut counts: texere_counts = sized();

@@ -46,3 +46,4 @@ pub use error::ContactError;
 pub use length::{length_mm, lengths_mm, part_length_mm, round_length_mm};
 pub use linking::{LINKING_CHANGE, Linking, Passage, linking, linking_with_progress};
 pub use under::yarns_under;
+pub use watch::{Report, Watch};

@@ -9,10 +9,10 @@ use crate::ContactError;
 
 /// The caller's progress function. It is behind a pointer, so that the code that calls it is
 /// compiled once for all callers.
-pub(crate) type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
+pub type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
 
 /// Reports progress to a caller, from any working thread.
-pub(crate) struct Watch<'a> {
+pub struct Watch<'a> {
     total: AtomicU64,
     done: AtomicU64,
     stopped: AtomicBool,
@@ -27,7 +27,7 @@ impl fmt::Debug for Watch<'_> {
 
 impl<'a> Watch<'a> {
     /// Starts at 0 of `total` units.
-    pub(crate) fn new(total: u64, report: &'a mut Report<'a>) -> Self {
+    pub fn new(total: u64, report: &'a mut Report<'a>) -> Self {
         Self {
             total: total.into(),
             done: AtomicU64::new(0),
@@ -37,14 +37,14 @@ impl<'a> Watch<'a> {
     }
 
     /// Adds units to the total. To be called before any unit is done.
-    pub(crate) fn expect(&self, units: u64) {
+    pub fn expect(&self, units: u64) {
         self.total.fetch_add(units, Ordering::Relaxed);
     }
 
     /// Counts units as done, and calls the progress function with the share of the total.
     ///
     /// **Errors**: [`ContactError::Cancelled`] once the caller has asked to stop.
-    pub(crate) fn advance(&self, units: u64) -> Result<(), ContactError> {
+    pub fn advance(&self, units: u64) -> Result<(), ContactError> {
         self.done.fetch_add(units, Ordering::Relaxed);
         // If another thread is reporting, this one does not wait.
         if let Ok(mut report) = self.report.try_lock() {

@@ -48,6 +48,9 @@ pub enum RenderError {
     /// No plan can be made for the settings.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// The progress callback asked to stop.
+    #[error("cancelled")]
+    Cancelled,
     /// The device failed.
     #[error(transparent)]
     Backend(#[from] BackendError),

@@ -28,6 +28,7 @@ mod seen;
 #[cfg(test)]
 mod tests;
 mod uniform;
+mod watch;
 
 pub use background::Background;
 pub use camera::{Camera, Cut, Pose};

@@ -2,6 +2,7 @@
 //! of each sample, and work out what that triangle shows.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::backend::{BLOCK_RINGS, Chunk, Plan};
@@ -12,7 +13,8 @@ use wgpu::{BindingResource, BufferUsages};
 
 use crate::rasteriser::{Keys, Kind, Pipelines, group};
 use crate::screen::{SCREEN_GROUP, Screen};
-use crate::{Renderer, hairs};
+use crate::watch::Watch;
+use crate::{RenderError, Renderer, hairs};
 
 /// `Sweep` of `fabric.wgsl`.
 #[repr(C)]
@@ -55,6 +57,8 @@ const LISTED_BLOCKS: u32 = 64;
 /// chunk so far needed.
 #[derive(Debug)]
 pub(crate) struct Raster {
+    /// What the next picture shows: the scene's.
+    view: wgpu::Buffer,
     /// The parameters of each round. With 32-bit atomics the first round finds depths and the
     /// second finds triangles. With 64-bit atomics there is one round.
     sweeps: [wgpu::Buffer; 2],
@@ -74,11 +78,17 @@ pub(crate) struct Raster {
 }
 
 impl Raster {
-    pub(crate) fn new(renderer: &Renderer, plan: &Plan, yarns: &Yarns) -> Result<Self, BackendError> {
+    pub(crate) fn new(
+        renderer: &Renderer,
+        view: wgpu::Buffer,
+        plan: &Plan,
+        yarns: &Yarns,
+    ) -> Result<Self, BackendError> {
         let buffer = |what, bytes, usage| renderer.buffer(what, bytes, usage);
         let sweep = || buffer("sweep", size_of::<Sweep>() as u64, BufferUsages::UNIFORM);
         let reach = plan.outlines().iter().map(|point| point.x.hypot(point.y)).fold(0.0, f32::max);
         Ok(Self {
+            view,
             sweeps: [sweep()?, sweep()?],
             listed: buffer("listed blocks", 0, BufferUsages::STORAGE)?,
             groups: buffer("workgroups", 3 * GROUPS_BYTES, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
@@ -122,20 +132,31 @@ impl Raster {
         Limits { blocks: numbered.min(windows).min(tables).min(blocks).max(2), ..Limits::NONE }
     }
 
+    /// The shaders that draw chunks with these tables.
+    ///
+    /// **Errors**: [`RenderError::Backend`], [`RenderError::Cancelled`].
+    pub(crate) fn pipelines(
+        &self,
+        renderer: &Renderer,
+        tables: ChunkTables<'_>,
+        watch: &mut Watch<'_>,
+    ) -> Result<Arc<Pipelines>, RenderError> {
+        let kind = Kind { flattened: tables.are_flattened(), rolled: self.rolled, hairy: self.is_hairy() };
+        renderer.rasteriser.pipelines(&renderer.device, kind, watch)
+    }
+
     /// Draws a chunk on the rows `band` of the screen, over what earlier chunks left there, and
     /// submits the work to the device.
     pub(crate) fn draw(
         &mut self,
         renderer: &Renderer,
+        pipelines: &Pipelines,
         tables: ChunkTables<'_>,
         chunk: &Chunk,
-        view: &wgpu::Buffer,
         screen: &Screen,
         band: Range<u32>,
     ) -> Result<wgpu::SubmissionIndex, BackendError> {
         let (device, keys) = (&renderer.device, renderer.rasteriser.keys);
-        let kind = Kind { flattened: tables.are_flattened(), rolled: self.rolled, hairy: self.is_hairy() };
-        let pipelines = renderer.rasteriser.pipelines(device, kind)?;
         let rows = band.end - band.start;
         renderer.reserve(&mut self.listed, LISTED_BYTES * (chunk.blocks().len() as u64 + 1))?;
         if self.rolled {
@@ -159,9 +180,9 @@ impl Raster {
             encoder.clear_buffer(&self.listed, 0, Some(LISTED_BYTES));
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                let of = Binder { raster: self, device: device.device(), tables, view, screen };
-                of.list(&mut pass, &pipelines, chunk, self.sees_all && rows == screen.large()[1]);
-                of.find(&mut pass, &pipelines, chunk, keys);
+                let of = Binder { raster: self, device: device.device(), tables, screen };
+                of.list(&mut pass, pipelines, chunk, self.sees_all && rows == screen.large()[1]);
+                of.find(&mut pass, pipelines, chunk, keys);
                 of.show(&mut pass, &pipelines.resolve, [screen.large()[0], rows]);
             }
             device.queue().submit([encoder.finish()])
@@ -174,7 +195,6 @@ struct Binder<'a> {
     raster: &'a Raster,
     device: &'a wgpu::Device,
     tables: ChunkTables<'a>,
-    view: &'a wgpu::Buffer,
     screen: &'a Screen,
 }
 
@@ -211,7 +231,7 @@ impl Binder<'_> {
             self.set(pass, &pipelines.list_all, &[Params], &[listed]);
             grid(blocks.div_ceil(LISTED_BLOCKS))
         } else {
-            let view = (0, self.view.as_entire_binding());
+            let view = (0, self.raster.view.as_entire_binding());
             self.set(pass, &pipelines.cull, &[Params, Points, Blocks], &[view, self.sweep(0), listed]);
             grid(blocks.div_ceil(CULLED_BLOCKS))
         };
@@ -222,7 +242,7 @@ impl Binder<'_> {
     fn find(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, keys: Keys) {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Rolls, Yarns};
         let Raster { listed, groups, ring_rolls, rolled, hair_densities, has_hairs, .. } = self.raster;
-        let view = (0, self.view.as_entire_binding());
+        let view = (0, self.raster.view.as_entire_binding());
         let [listed, counted, samples, rolls] =
             [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
                 .map(|(number, buffer)| (number, buffer.as_entire_binding()));
@@ -274,7 +294,7 @@ impl Binder<'_> {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Yarns};
         let fabric = [Params, Points, Yarns, Blocks, Outlines, CapRows, CapPattern];
         let own = [
-            (0, self.view.as_entire_binding()),
+            (0, self.raster.view.as_entire_binding()),
             self.sweep(0),
             (4, self.screen.keys.as_entire_binding()),
             (5, self.raster.ring_rolls.as_entire_binding()),

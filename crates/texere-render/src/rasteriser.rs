@@ -9,6 +9,9 @@ use texere_shaders::picture;
 use texere_wgpu::{LONG_ATOMICS, WgpuBackend};
 use wgpu::{BindGroupEntry, BindingResource};
 
+use crate::RenderError;
+use crate::watch::Watch;
+
 /// The kind of atomics that find the nearest triangle of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Keys {
@@ -85,31 +88,47 @@ impl Rasteriser {
         Self { resolve: Cow::Owned(resolve), ..self }
     }
 
-    /// The shaders for a kind of fabric.
+    /// The shaders for a kind of fabric. `watch` is asked after each that is compiled, for a driver
+    /// takes a tenth of a second for some.
     ///
-    /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
-    pub(crate) fn pipelines(&self, device: &WgpuBackend, kind: Kind) -> Result<Arc<Pipelines>, BackendError> {
+    /// **Errors**: [`RenderError::Backend`], [`RenderError::Cancelled`].
+    pub(crate) fn pipelines(
+        &self,
+        device: &WgpuBackend,
+        kind: Kind,
+        watch: &mut Watch<'_>,
+    ) -> Result<Arc<Pipelines>, RenderError> {
         let Kind { flattened, rolled, hairy } = kind;
         let place = &self.kinds[usize::from(flattened)][usize::from(rolled)][usize::from(hairy)];
-        let compiled = compiled_once(place, device, |device| {
-            let before = prelude(Language::Wgsl, flattened);
-            let module = |source: &str| module(device, before.clone() + source);
-            let cull = module(picture::CULL);
-            let raster = module(self.raster[usize::from(rolled)]);
-            let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve));
-            Arc::new(Pipelines {
-                cull: pipeline(device, &cull, "cull"),
-                list_all: pipeline(device, &cull, "list_all"),
-                count_listed: pipeline(device, &cull, "count_listed"),
-                count_left: pipeline(device, &cull, "count_left"),
-                rasters: ["raster", "raster_few", "raster_many"]
-                    .map(|entry| pipeline(device, &raster, entry)),
-                caps: pipeline(device, &raster, "raster_caps"),
-                hairs: hairy.then(|| pipeline(device, &module(self.hairs), "hairs")),
-                resolve: pipeline(device, &resolve, "resolve"),
-            })
-        })?;
-        Ok(compiled.clone())
+        if let Some(compiled) = place.get() {
+            return Ok(compiled.clone());
+        }
+        let before = prelude(Language::Wgsl, flattened);
+        let call = "Device::create_compute_pipeline";
+        let module = |source: &str| device.scoped(call, || module(device.device(), before.clone() + source));
+        let mut pipeline = |module: &wgpu::ShaderModule, entry_point: &str| {
+            let compiled = device.scoped(call, || pipeline(device.device(), module, entry_point))?;
+            watch.ask().map(|()| compiled)
+        };
+        let cull = module(picture::CULL)?;
+        let raster = module(self.raster[usize::from(rolled)])?;
+        let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve))?;
+        let compiled = Pipelines {
+            cull: pipeline(&cull, "cull")?,
+            list_all: pipeline(&cull, "list_all")?,
+            count_listed: pipeline(&cull, "count_listed")?,
+            count_left: pipeline(&cull, "count_left")?,
+            rasters: [
+                pipeline(&raster, "raster")?,
+                pipeline(&raster, "raster_few")?,
+                pipeline(&raster, "raster_many")?,
+            ],
+            caps: pipeline(&raster, "raster_caps")?,
+            hairs: if hairy { Some(pipeline(&module(self.hairs)?, "hairs")?) } else { None },
+            resolve: pipeline(&resolve, "resolve")?,
+        };
+        // Another scene may have been faster.
+        Ok(place.get_or_init(|| Arc::new(compiled)).clone())
     }
 }
 

@@ -1,13 +1,14 @@
 //! A fabric on the device, and pictures of it.
 
 use std::borrow::Borrow;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use texere_core::backend::{Chunk, Plan, SessionError, Traffic};
+use texere_core::backend::{Chunk, Plan, Traffic};
 use texere_core::settling::Settler;
-use texere_core::{ControlPoint, Limits, PlanError, Settings, Topology, Yarns};
+use texere_core::{ControlPoint, DeviceKind, Limits, PlanError, Settings, Topology, Yarns};
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
@@ -15,10 +16,18 @@ use crate::raster::Raster;
 use crate::rasteriser::group;
 use crate::screen::{SCREEN_GROUP, Screen};
 use crate::uniform::{ViewUniform, YarnLook};
+use crate::watch::Watch;
 use crate::{Background, Camera, Extent, RenderError, Renderer};
 
 /// The number of chunks whose tables a session keeps on the device.
 const CHUNKS_KEPT: usize = 2;
+
+/// Control points of an upload: 16 MB, so that a wish to stop is heard in between.
+const UPLOAD_POINTS: usize = 1 << 20;
+
+/// The share of a picture's progress at which all chunks are drawn, and at which they are lit.
+const DRAWN: f64 = 0.7;
+const LIT: f64 = 0.9;
 
 /// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,6 +127,8 @@ pub struct Scene {
     is_far: bool,
     /// The camera of the last picture.
     pub(crate) camera: Option<Camera>,
+    /// What a picture that was not finished has left to the device.
+    under_way: Option<wgpu::SubmissionIndex>,
 }
 
 /// A picture that stays on the device, made by [`Scene::frame`].
@@ -140,7 +151,30 @@ impl Renderer {
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
-        self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
+        self.scene_with_progress(yarns, settings, |_| ControlFlow::Continue(()))
+    }
+
+    /// Sends a fabric to the device as [`Renderer::scene`] does. `progress` gets the share of the
+    /// control points that are sent, from 0 to 1; `Break` ends it.
+    ///
+    /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Cancelled`].
+    pub fn scene_with_progress(
+        &self,
+        yarns: &Yarns,
+        settings: &Settings,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Scene, RenderError> {
+        let (points, mut watch) = (yarns.points(), Watch::new(&mut progress));
+        let extent = Extent::of(yarns);
+        self.scene_of(yarns, settings, extent, &mut watch, |session, watch| {
+            let mut first = 0;
+            for piece in points.chunks(UPLOAD_POINTS) {
+                session.upload(first, piece)?;
+                first += piece.len() as u64;
+                watch.tell(first as f64 / points.len() as f64)?;
+            }
+            Ok(())
+        })
     }
 
     /// The scene of `yarns` where `settler` has placed them. If the settler is on this renderer's
@@ -157,7 +191,9 @@ impl Renderer {
         settler: &mut dyn Settler,
     ) -> Result<Scene, RenderError> {
         let extent = Extent::settled(yarns, settler)?;
-        self.scene_of(yarns, settings, extent, |session| session.take_settled(settler))
+        let mut unheard = |_| ControlFlow::Continue(());
+        let watch = &mut Watch::new(&mut unheard);
+        self.scene_of(yarns, settings, extent, watch, |session, _| Ok(session.take_settled(settler)?))
     }
 
     /// A scene whose session gets its control points from `send`.
@@ -166,20 +202,25 @@ impl Renderer {
         yarns: &Yarns,
         settings: &Settings,
         extent: Extent,
-        send: impl FnOnce(&mut WgpuSession) -> Result<(), SessionError>,
+        watch: &mut Watch<'_>,
+        send: impl FnOnce(&mut WgpuSession, &mut Watch<'_>) -> Result<(), RenderError>,
     ) -> Result<Scene, RenderError> {
+        watch.tell(0.0)?;
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        watch.tell(0.0)?;
         let mut session = self.device.lending_session(plan.clone())?;
+        watch.tell(0.0)?;
         let limits = Raster::chunk_limits(&plan, yarns, self.info());
         let mut chunks = Ok(Vec::new());
         // Chunks are cut while points are sent.
         rayon::in_place_scope(|scope| {
             scope.spawn(|_| chunks = kept_chunks(&plan, &limits));
-            send(&mut session)?;
-            session.scan()
+            send(&mut session, watch)?;
+            Ok::<_, RenderError>(session.scan()?)
         })?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
+        let view = buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?;
         Ok(Scene {
             renderer: self.clone(),
             session,
@@ -189,12 +230,13 @@ impl Renderer {
                 bytemuck::cast_slice(&YarnLook::all(yarns, &ring_lengths(yarns, &plan))),
                 BufferUsages::STORAGE,
             )?,
-            raster: Raster::new(self, &plan, yarns)?,
-            view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
+            raster: Raster::new(self, view.clone(), &plan, yarns)?,
+            view,
             background: Background::Ground,
             screen: None,
             is_far: false,
             camera: None,
+            under_way: None,
             chunks: chunks?,
             limits,
             plan,
@@ -240,7 +282,21 @@ impl Scene {
     /// too large for the device's textures, [`RenderError::Plan`] if not even one block fits the
     /// limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
-        let timings = self.frame(camera, quality)?.timings;
+        self.picture_with_progress(camera, quality, |_| ControlFlow::Continue(()))
+    }
+
+    /// Makes a picture as [`Scene::picture`] does. `progress` gets the share of the work done, from
+    /// 0 to 1, and is asked every ten milliseconds while the device works. `Break` ends the wait;
+    /// what the device has begun goes on, and the next picture comes after it.
+    ///
+    /// **Errors**: those of [`Scene::picture`], and [`RenderError::Cancelled`].
+    pub fn picture_with_progress(
+        &mut self,
+        camera: &Camera,
+        quality: Quality,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Picture, RenderError> {
+        let timings = self.watched_frame(camera, quality, &mut Watch::new(&mut progress))?.timings;
         let start = Instant::now();
         let [rgb, alpha] = self.copy()?;
         let timings = PictureTimings { copy: start.elapsed(), ..timings };
@@ -252,12 +308,30 @@ impl Scene {
     ///
     /// **Errors**: those of [`Scene::picture`].
     pub fn frame(&mut self, camera: &Camera, quality: Quality) -> Result<DevicePicture, RenderError> {
+        self.watched_frame(camera, quality, &mut Watch::new(&mut |_| ControlFlow::Continue(())))
+    }
+
+    fn watched_frame(
+        &mut self,
+        camera: &Camera,
+        quality: Quality,
+        watch: &mut Watch<'_>,
+    ) -> Result<DevicePicture, RenderError> {
+        watch.tell(0.0)?;
+        if let Some(submission) = self.under_way.clone() {
+            watch.wait(&self.renderer.device, &submission)?;
+            self.under_way = None;
+        }
         let start = Instant::now();
         let texture = self.look(camera, quality)?;
         let screened = Instant::now();
-        self.draw()?;
-        let drawn = Instant::now();
-        self.shade()?;
+        // A picture that was not finished shows nothing at any point.
+        let drawn = self.draw(watch).map(|()| Instant::now());
+        let lit = drawn.and_then(|drawn| self.shade(watch).map(|()| drawn));
+        let drawn = lit.inspect_err(|_| {
+            self.camera = None;
+            self.under_way = watch.take_under_way();
+        })?;
         let timings = PictureTimings {
             screen: screened - start,
             draw: drawn - screened,
@@ -304,41 +378,49 @@ impl Scene {
     }
 
     /// Draws all chunks, one after the other.
-    pub(crate) fn draw(&mut self) -> Result<(), RenderError> {
+    pub(crate) fn draw(&mut self, watch: &mut Watch<'_>) -> Result<(), RenderError> {
         if self.chunks.is_empty() {
             let plan = self.plan.clone();
-            return self.draw_chunks(plan.chunks(&self.limits)?);
+            return self.draw_chunks(plan.chunks(&self.limits)?, watch);
         }
         let kept = std::mem::take(&mut self.chunks);
-        let drawn = self.draw_chunks(kept.iter());
+        let drawn = self.draw_chunks(kept.iter(), watch);
         self.chunks = kept;
         drawn
     }
 
     /// Draws `chunks`. While one is drawn, the tables of the next are sent.
-    fn draw_chunks(&mut self, chunks: impl Iterator<Item: Borrow<Chunk>>) -> Result<(), RenderError> {
-        let Self { renderer, session, raster, view, screen: Some(screen), .. } = self else { return Ok(()) };
-        let mut before = None;
+    fn draw_chunks(
+        &mut self,
+        chunks: impl Iterator<Item: Borrow<Chunk>>,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), RenderError> {
+        let all = self.plan.counts().rings.max(1) as f64;
+        let Self { renderer, session, raster, screen: Some(screen), .. } = self else { return Ok(()) };
+        let is_cpu = renderer.info().kind == DeviceKind::Cpu;
+        let (mut before, mut rings) = (None, 0_u64);
         for chunk in chunks {
             let chunk = chunk.borrow();
             let tables = session.chunk_tables(chunk)?;
+            let pipelines = raster.pipelines(renderer, tables, watch)?;
             for band in screen.bands() {
-                let drawn = raster.draw(renderer, tables, chunk, view, screen, band)?;
+                let drawn = raster.draw(renderer, &pipelines, tables, chunk, screen, band)?;
                 // No more than two chunks are in progress, so that each wait is for one chunk and
-                // not for a whole fabric.
-                if let Some(submission) = before.replace(drawn) {
-                    renderer.device.wait(submission)?;
+                // not for a whole fabric. On a CPU the driver's call that submits a second one only
+                // returns when the first is done, so that the caller could not end it.
+                let waited = if is_cpu { Some(drawn) } else { before.replace(drawn) };
+                if let Some(submission) = waited {
+                    watch.wait(&renderer.device, &submission)?;
                 }
             }
+            rings += u64::from(chunk.rings());
+            watch.tell(DRAWN * (rings as f64 / all).min(1.0))?;
         }
-        match before {
-            Some(submission) => Ok(renderer.device.wait(submission)?),
-            None => Ok(()),
-        }
+        before.map_or(Ok(()), |submission| watch.wait(&renderer.device, &submission))
     }
 
     /// Works out visibility, then light, and then pixels from their samples.
-    pub(crate) fn shade(&self) -> Result<(), RenderError> {
+    pub(crate) fn shade(&self, watch: &mut Watch<'_>) -> Result<(), RenderError> {
         let (renderer, Some(screen)) = (&self.renderer, &self.screen) else { return Ok(()) };
         let texture = BindingResource::TextureView;
         let (view, visibility) = (self.view.as_entire_binding(), texture(&screen.visibility));
@@ -370,7 +452,8 @@ impl Scene {
             }
             device.queue().submit([encoder.finish()])
         })?;
-        Ok(device.wait(submission)?)
+        watch.wait(device, &submission)?;
+        watch.tell(LIT)
     }
 
     /// Copies the picture to the host, and returns its colours and its alpha.

@@ -200,6 +200,18 @@ impl WgpuBackend {
     pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), BackendError> {
         self.opened.gpu.wait(submission)
     }
+
+    /// Waits until `submission` is done, or until `goes_on` says no, which is asked every ten
+    /// milliseconds. Gives whether it is done. What is not done goes on in the device.
+    ///
+    /// **Errors**: those of [`WgpuBackend::wait`].
+    pub fn wait_while(
+        &self,
+        submission: &wgpu::SubmissionIndex,
+        goes_on: impl FnMut() -> bool,
+    ) -> Result<bool, BackendError> {
+        self.opened.gpu.wait_while(submission, goes_on)
+    }
 }
 
 impl Backend for WgpuBackend {

@@ -12,6 +12,9 @@ use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 /// a GPU and seconds on a software device. A chunk that takes two minutes is taken to hang.
 pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
 
+/// How long a wait that may be ended goes on before it is asked for again.
+const ASKED: Duration = Duration::from_millis(10);
+
 /// Every buffer's length is a multiple of this, bytes: that of the widest element of a shader's
 /// array.
 const BUFFER_STEP: u64 = 16;
@@ -145,17 +148,44 @@ impl Gpu {
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub(crate) fn wait(&self, submission: SubmissionIndex) -> Result<(), BackendError> {
+        if self.waits(submission, WAIT_LIMIT)? {
+            return Ok(());
+        }
+        Err(BackendError::Driver { call: "Device::poll", source: PollError::Timeout.into() })
+    }
+
+    /// Waits until `submission` is done, or until `goes_on` says no, which is asked every ten
+    /// milliseconds. Gives whether it is done.
+    ///
+    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
+    pub(crate) fn wait_while(
+        &self,
+        submission: &SubmissionIndex,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Result<bool, BackendError> {
+        let last = WAIT_LIMIT.as_millis() / ASKED.as_millis();
+        for _ in 1..last {
+            if self.waits(submission.clone(), ASKED)? {
+                return Ok(true);
+            }
+            if !goes_on() {
+                return Ok(false);
+            }
+        }
+        self.wait(submission.clone()).map(|()| true)
+    }
+
+    /// Waits until `submission` is done, or as long as `limit`. Gives whether it is done.
+    fn waits(&self, submission: SubmissionIndex, limit: Duration) -> Result<bool, BackendError> {
         self.check_alive()?;
-        let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(WAIT_LIMIT) };
+        let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(limit) };
         // wgpu 30 panics in `poll` if the driver reports that the device is lost, and there is no
         // other way to wait.
         let answer = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
         self.check_alive()?;
         match answer {
-            Ok(Ok(_)) => Ok(()),
-            Ok(Err(source @ PollError::Timeout)) => {
-                Err(BackendError::Driver { call: "Device::poll", source: source.into() })
-            }
+            Ok(Ok(_)) => Ok(true),
+            Ok(Err(PollError::Timeout)) => Ok(false),
             // The device never received the submission: submitting failed because the device was
             // lost.
             Ok(Err(source)) => Err(self.lost(source)),

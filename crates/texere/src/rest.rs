@@ -5,7 +5,7 @@
 //!
 //! | to | take |
 //! |---|---|
-//! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Press`] |
+//! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Length`], [`Press`] |
 //! | follow a design to rest, and know how it ended | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
 //! | settle yarns of any origin | [`Piece`], [`settle`], [`Settled`] |
 //! | settle one repeat, and copy it | [`Repeat`] |
@@ -26,6 +26,7 @@
 //! # }
 //! ```
 
+pub use texere_core::settling::Length;
 pub use texere_core::{CrossingsError, SettlingError, Subject};
 pub use texere_fabric::{
     Finish, FinishError, Finished, Piece, Press, Repeat, Settled, Verdict, WovenRest, settle,

@@ -5,8 +5,9 @@ use std::ptr::{null, null_mut};
 
 use texere_c::*;
 
+use crate::common::sized;
 use crate::tools::{Case, case, handles, sizes, strange};
-use crate::{Handles, settings, sized};
+use crate::{Handles, settings};
 
 unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
     0

@@ -1,6 +1,8 @@
 //! The judge of pictures: it draws a session's mesh by the device's own rasteriser, and lights the
 //! samples as for any picture.
 
+use std::ops::ControlFlow;
+
 use bytemuck::{Pod, Zeroable};
 use image::RgbImage;
 use texere_core::Limits;
@@ -12,6 +14,7 @@ use super::image_of;
 use crate::rasteriser::{group, module, pipeline};
 use crate::screen::{SAMPLES, SCREEN_GROUP};
 use crate::uniform::ViewUniform;
+use crate::watch::Watch;
 use crate::{Background, Camera, Quality, Scene};
 
 const DEPTH: TextureFormat = TextureFormat::Depth32Float;
@@ -124,7 +127,7 @@ pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     let mut view = ViewUniform::new(camera, Background::Ground, 1, false);
     view.spread = 0.0;
     scene.renderer.write(&scene.view, bytemuck::bytes_of(&view)).unwrap();
-    scene.draw().unwrap();
+    scene.draw(&mut Watch::new(&mut |_| ControlFlow::Continue(()))).unwrap();
     let drawn = lit(scene, camera);
     let plan = scene.plan.clone();
     let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();
@@ -136,7 +139,7 @@ pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
 
 /// The lit picture of what is on the screen.
 fn lit(scene: &Scene, camera: &Camera) -> RgbImage {
-    scene.shade().unwrap();
+    scene.shade(&mut Watch::new(&mut |_| ControlFlow::Continue(()))).unwrap();
     let [rgb, _] = scene.copy().unwrap();
     image_of(camera.size(), rgb)
 }

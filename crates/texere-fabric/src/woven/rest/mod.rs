@@ -110,7 +110,8 @@ impl Woven {
         let at_first = resting.area(self);
         let (clearance, bend, rounds) =
             certify(self, &mut resting, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
-        let (area, yarns) = (resting.area(self), resting.yarns(self)?);
+        let placed = &mut |done| progress(CERTIFIED + (1.0 - CERTIFIED) * done);
+        let (area, yarns) = (resting.area(self), resting.yarns_with_progress(self, placed)?);
         if progress(1.0).is_break() {
             return Err(FabricError::Cancelled.into());
         }

@@ -1,8 +1,10 @@
 //! The yarns of cloth whose crossings are at rest.
 
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
+use texere_contact::{Report, Watch};
 use texere_core::backend::zeroed;
 use texere_core::crossings::{CrossingState, CrossingsPlan, Set};
 use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
@@ -79,9 +81,22 @@ impl RestingRepeat {
 
     /// The yarns of a cloth with these crossings, in the order of [`Woven::yarns`].
     pub(super) fn yarns(&self, cloth: &Woven) -> Result<Yarns, FabricError> {
+        self.yarns_with_progress(cloth, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// [`RestingRepeat::yarns`] that reports the share of the threads that are placed. `Break` ends
+    /// it within a thread.
+    pub(super) fn yarns_with_progress(
+        &self,
+        cloth: &Woven,
+        progress: &mut Report<'_>,
+    ) -> Result<Yarns, FabricError> {
         let placing = Placing::new(self, cloth);
         let passes = cloth.passes();
-        let counts: Vec<usize> = passes.par_iter().map(|pass| placing.count(*pass)).collect();
+        // Each pass is counted, then laid.
+        let watch = Watch::new(2 * passes.len() as u64, progress);
+        let counts = passes.par_iter().map(|pass| watch.advance(1).map(|()| placing.count(*pass)));
+        let counts = counts.collect::<Result<Vec<usize>, _>>()?;
         let (mut table, mut offsets, mut total) = (Vec::new(), Vec::new(), 0);
         for (pass, &count) in passes.iter().zip(&counts) {
             if let Some(yarn) = cloth.yarn(pass) {
@@ -98,9 +113,10 @@ impl RestingRepeat {
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
         let mut sources: Vec<u32> = zeroed("sources", total)?;
         let pens = Pen::all(&mut points, &mut sources, counts);
-        passes.into_par_iter().zip(pens).for_each(|(pass, mut pen)| {
+        passes.into_par_iter().zip(pens).try_for_each(|(pass, mut pen)| {
             placing.lay(pass, &mut |point, source| pen.write(point, source));
-        });
+            watch.advance(1)
+        })?;
         let layout = Layout::new(table, offsets, cloth.sections().to_vec())?.with_tension(self.tension)?;
         Ok(Yarns::new(layout, cloth.materials().to_vec(), points)?.with_sources(sources)?)
     }

@@ -1,0 +1,180 @@
+//! What yarns are made of, and what their sections are.
+
+use std::ffi::c_char;
+
+use texere::yarn::{HAIRINESS_LIMIT, Material, Section};
+
+use crate::argument::{check, slice, text};
+use crate::error::guard;
+use crate::failure::Failure;
+use crate::status::texere_status;
+
+/// What yarns are made of.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_material {
+    /// Its name, UTF-8.
+    pub name: *const c_char,
+    /// Bytes of the name.
+    pub name_length: usize,
+    /// Linear density, tex; 0 where it is not known.
+    pub tex: f32,
+    /// Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+    pub hairiness: f32,
+    /// Red, green and blue, sRGB.
+    pub srgb: [u8; 3],
+    /// Zero.
+    pub reserved: u8,
+}
+
+/// A circle.
+pub const TEXERE_SECTION_CIRCLE: u32 = 0;
+/// An ellipse: `aspect`.
+pub const TEXERE_SECTION_ELLIPSE: u32 = 1;
+/// Two arcs that meet in two edges: `aspect`, and as `form` the height of the edges above the
+/// middle, in half heights, -0.9 to 0.9.
+pub const TEXERE_SECTION_LENTICULAR: u32 = 2;
+/// An ellipse whose height is |sin|^`form`: `aspect`, and a `form` from 0.1 to 4; 1 is an ellipse.
+pub const TEXERE_SECTION_POWER_ELLIPSE: u32 = 3;
+/// Plies that are twisted together: `count` of them, 2 to 12.
+pub const TEXERE_SECTION_LOBED: u32 = 4;
+/// The outline in `corners`, 3 to 256 of them.
+pub const TEXERE_SECTION_POLYGON: u32 = 5;
+
+/// The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_section {
+    /// A number that begins with TEXERE_SECTION.
+    pub shape: u32,
+    /// How many plies or corners.
+    pub count: u32,
+    /// Width over height, 0.05 to 20.
+    pub aspect: f32,
+    /// What the shape says.
+    pub form: f32,
+    /// Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
+    /// has two numbers a corner.
+    pub corners: *const f32,
+}
+
+/// Materials and sections that yarns refer to by their number, from 0.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_looks {
+    /// Materials. Null and 0: undyed yarn.
+    pub materials: *const texere_material,
+    /// How many materials.
+    pub material_count: u64,
+    /// Sections. Null and 0: a circle.
+    pub sections: *const texere_section,
+    /// How many sections.
+    pub section_count: u64,
+}
+
+/// The values of a struct's array. A null pointer is none, where `count` is 0.
+///
+/// # Safety
+///
+/// As for `slice`.
+pub(crate) unsafe fn array<'a, T>(name: &str, pointer: *const T, count: u64) -> Result<&'a [T], Failure> {
+    let count = usize::try_from(count)
+        .map_err(|_| Failure::argument(format!("{name} has {count} values, more than memory can hold")))?;
+    // SAFETY: the caller vouches for it.
+    unsafe { slice(name, pointer, count) }
+}
+
+impl texere_looks {
+    /// The materials and the sections. `name` is the struct that they belong to.
+    ///
+    /// # Safety
+    ///
+    /// Arrays and texts are valid for reads.
+    pub(crate) unsafe fn read(&self, name: &str) -> Result<(Vec<Material>, Vec<Section>), Failure> {
+        let (materials_name, sections_name) =
+            (format!("{name}.looks.materials"), format!("{name}.looks.sections"));
+        // SAFETY: the caller vouches for all of them.
+        let (materials, sections) = unsafe {
+            (
+                array(&materials_name, self.materials, self.material_count)?,
+                array(&sections_name, self.sections, self.section_count)?,
+            )
+        };
+        let numbered = |name: &str, number: usize| format!("{name}[{number}]");
+        let materials = materials.iter().enumerate();
+        // SAFETY: as above.
+        let materials = materials.map(|(n, each)| unsafe { each.read(&numbered(&materials_name, n)) });
+        let mut materials = materials.collect::<Result<Vec<_>, _>>()?;
+        let sections = sections.iter().enumerate();
+        // SAFETY: as above.
+        let sections = sections.map(|(n, each)| unsafe { each.read(&numbered(&sections_name, n)) });
+        let mut sections = sections.collect::<Result<Vec<_>, _>>()?;
+        if materials.is_empty() {
+            materials.push(Material::default());
+        }
+        if sections.is_empty() {
+            sections.push(Section::Circle);
+        }
+        Ok((materials, sections))
+    }
+}
+
+impl texere_material {
+    unsafe fn read(&self, name: &str) -> Result<Material, Failure> {
+        let &Self { name: text_at, name_length, tex, hairiness, srgb, .. } = self;
+        if !(0.0..=f32::MAX).contains(&tex) {
+            return Err(Failure::argument(format!("{name}.tex is {tex}, expected a number from 0")));
+        }
+        if !(0.0..=HAIRINESS_LIMIT).contains(&hairiness) {
+            return Err(Failure::argument(format!(
+                "{name}.hairiness is {hairiness}, expected 0 to {HAIRINESS_LIMIT}"
+            )));
+        }
+        // SAFETY: the caller vouches for it.
+        let text = unsafe { text(&format!("{name}.name"), text_at, name_length) }?;
+        Ok(Material { name: text.into(), srgb, tex: (tex > 0.0).then_some(tex), hairiness })
+    }
+}
+
+impl texere_section {
+    unsafe fn read(&self, name: &str) -> Result<Section, Failure> {
+        let &Self { shape, count, aspect, form, corners } = self;
+        let section = match shape {
+            TEXERE_SECTION_CIRCLE => Section::Circle,
+            TEXERE_SECTION_ELLIPSE => Section::Ellipse { aspect },
+            TEXERE_SECTION_LENTICULAR => Section::Lenticular { aspect, distortion: form },
+            TEXERE_SECTION_POWER_ELLIPSE => Section::PowerEllipse { aspect, exponent: form },
+            TEXERE_SECTION_LOBED => Section::Lobed { plies: count },
+            TEXERE_SECTION_POLYGON => {
+                // SAFETY: the caller vouches for it.
+                let corners: &[[f32; 2]] =
+                    unsafe { array(&format!("{name}.corners"), corners.cast(), count.into()) }?;
+                Section::Polygon(corners.to_vec())
+            }
+            other => {
+                return Err(Failure::argument(format!("{name}.shape is {other}, expected 0 to 5")));
+            }
+        };
+        section.validate().map_err(|error| Failure::argument(format!("{name}: {error}")))?;
+        Ok(section)
+    }
+}
+
+/// Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
+/// air in the yarn: 0.909 is usual for cotton.
+///
+/// Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_diameter(tex: f64, density: f64, diameter_mm: *mut f64) -> texere_status {
+    guard(|| {
+        check("diameter_mm", diameter_mm)?;
+        for (name, value) in [("tex", tex), ("density", density)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Failure::argument(format!("{name} is {value}, expected a number above 0")));
+            }
+        }
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        unsafe { diameter_mm.write(texere::yarn::diameter_mm(tex, density)) };
+        Ok(())
+    })
+}

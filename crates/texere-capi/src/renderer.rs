@@ -1,0 +1,188 @@
+//! Renderers: pictures of yarns, in the caller's memory or in a file.
+
+use std::ffi::c_char;
+use std::sync::Mutex;
+
+use crate::argument::{check, text};
+#[cfg(feature = "render")]
+use crate::drawing::Drawing;
+use crate::error::guard;
+use crate::handle::{Handle, alone, clear, free, get, get_any, give};
+use crate::picture::{
+    Pixels, TEXERE_BACKGROUND_NOTHING, checked, texere_extent, texere_picture, texere_seen,
+};
+use crate::run::{reporter, texere_run};
+use crate::settings::{chosen, texere_settings};
+use crate::status::texere_status;
+#[cfg(not(feature = "render"))]
+use crate::undrawn::Drawing;
+use crate::view::texere_view;
+use crate::yarns::texere_yarns;
+
+/// A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
+/// call while another thread's is under way fails with TEXERE_ARGUMENT.
+#[derive(Debug)]
+pub struct texere_renderer;
+
+impl Handle for texere_renderer {
+    type Value = Mutex<Drawing>;
+    const NAME: &str = "renderer";
+}
+
+/// Bytes of a pixel in the caller's memory: red, green, blue, alpha.
+const PIXEL: usize = 4;
+
+/// Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
+/// `name_length` of 0 is "auto".
+///
+/// Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
+/// built without pictures.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_open(
+    name: *const c_char,
+    name_length: usize,
+    out: *mut *mut texere_renderer,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out` and `name`.
+        unsafe {
+            clear(out)?;
+            let name = text("name", name, name_length)?;
+            let drawing = Drawing::open(if name.is_empty() { "auto" } else { name })?;
+            give(out, Mutex::new(drawing))
+        }
+    })
+}
+
+/// Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
+/// null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
+/// null.
+///
+/// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
+/// cancelled. The renderer then shows nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_show(
+    renderer: *const texere_renderer,
+    yarns: *const texere_yarns,
+    settings: *const texere_settings,
+    run: *const texere_run,
+) -> texere_status {
+    guard(|| {
+        let (yarns, run) = (get(yarns)?, get_any(run)?);
+        let given = !settings.is_null();
+        // SAFETY: the caller vouches for `settings`.
+        let settings = given.then(|| unsafe { chosen(settings, &yarns) }).transpose()?;
+        alone(renderer, |drawing| drawing.show(&yarns, settings, reporter(run)))
+    })
+}
+
+/// Writes the box round the yarns that a renderer shows.
+///
+/// Fails with TEXERE_ARGUMENT where it shows none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_extent(
+    renderer: *const texere_renderer,
+    extent: *mut texere_extent,
+) -> texere_status {
+    guard(|| {
+        check("extent", extent)?;
+        let found = alone(renderer, |drawing| drawing.extent())?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        unsafe { extent.write(found) };
+        Ok(())
+    })
+}
+
+/// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
+/// each pixel from the left, a byte each, sRGB; rows from the top. `pixels->stride` is the bytes
+/// from one row to the next, at least four times the width. Alpha is 255 unless the background is
+/// nothing; colours are not multiplied by it. `run` may be null.
+///
+/// Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
+/// or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
+/// `run` was cancelled. The memory is then as it was.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_picture(
+    renderer: *const texere_renderer,
+    picture: *const texere_picture,
+    run: *const texere_run,
+    pixels: *const texere_view,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `picture`.
+        let picture = unsafe { checked(picture) }?;
+        let [width, height] = [picture.width, picture.height].map(|side| side as usize);
+        check("pixels", pixels)?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        let mut rows = unsafe { pixels.read().rows("pixels", height, width.saturating_mul(PIXEL)) }?;
+        let run = get_any(run)?;
+        let made = alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
+        let lines = made.rgb.chunks_exact(3 * width).zip(made.alpha.chunks_exact(width));
+        for (number, (rgb, alpha)) in lines.enumerate() {
+            let pixels = rows.row_mut(number).chunks_exact_mut(PIXEL);
+            for ((pixel, rgb), alpha) in pixels.zip(rgb.chunks_exact(3)).zip(alpha) {
+                pixel[..3].copy_from_slice(rgb);
+                pixel[3] = *alpha;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
+/// A file of that name is replaced once the new one is whole.
+///
+/// Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_write(
+    renderer: *const texere_renderer,
+    picture: *const texere_picture,
+    run: *const texere_run,
+    path: *const c_char,
+    path_length: usize,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `picture` and `path`.
+        let (picture, path) = unsafe { (checked(picture)?, text("path", path, path_length)?) };
+        let run = get_any(run)?;
+        let Pixels { size, mut rgb, alpha } =
+            alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
+        if picture.background == TEXERE_BACKGROUND_NOTHING {
+            let pixels = rgb.chunks_exact(3).zip(alpha);
+            rgb = pixels.flat_map(|(rgb, alpha)| [rgb[0], rgb[1], rgb[2], alpha]).collect();
+        }
+        texere::write::picture(size, &rgb, path)?;
+        Ok(())
+    })
+}
+
+/// Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
+/// edges. No yarn is seen outside the picture, and before the first one.
+///
+/// Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_seen(
+    renderer: *const texere_renderer,
+    x: f32,
+    y: f32,
+    seen: *mut texere_seen,
+) -> texere_status {
+    guard(|| {
+        check("seen", seen)?;
+        let found = alone(renderer, |drawing| drawing.seen([x, y]))?;
+        let found = found.map_or(texere_seen::default(), |(yarn, position)| texere_seen {
+            position,
+            yarn: yarn as u32,
+            is_yarn: 1,
+        });
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        unsafe { seen.write(found) };
+        Ok(())
+    })
+}
+
+/// Frees a renderer, or nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_free(renderer: *mut texere_renderer) {
+    free(renderer);
+}

@@ -1,0 +1,181 @@
+//! Weft knits by arrays: a chart of stitches, the gauge and the yarns.
+
+use std::ffi::c_char;
+
+use texere::weft::{Beds, Cell, Cells, Chart, ChartError, Gauge, Knitted, Machine};
+use texere::{Design, FabricError, Structure};
+
+use crate::argument::{sized, text};
+use crate::design::texere_design;
+use crate::error::guard;
+use crate::failure::Failure;
+use crate::handle::{clear, give};
+use crate::material::{array, texere_looks};
+use crate::status::texere_status;
+use crate::structure::{choice, refused, texere_knit_yarn};
+
+/// The front needle knits.
+pub const TEXERE_STITCH_KNIT: u32 = 0;
+/// The back needle knits.
+pub const TEXERE_STITCH_PURL: u32 = 1;
+/// Front and back needle both knit, on two beds.
+pub const TEXERE_STITCH_BOTH: u32 = 2;
+/// The needle takes the yarn and keeps its loops; on two beds it is the front needle.
+pub const TEXERE_STITCH_TUCK: u32 = 3;
+/// The back needle tucks, on two beds.
+pub const TEXERE_STITCH_BACK_TUCK: u32 = 4;
+/// The yarn floats past.
+pub const TEXERE_STITCH_MISS: u32 = 5;
+/// The front needle knits, and its loop moves by `moved` needles, in front of the others.
+pub const TEXERE_STITCH_MOVED: u32 = 6;
+/// The front needle knits, and its loop moves by `moved` needles, behind the others.
+pub const TEXERE_STITCH_MOVED_BEHIND: u32 = 7;
+
+/// The stitch in one wale of one course.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_stitch {
+    /// A number that begins with TEXERE_STITCH.
+    pub kind: u32,
+    /// Needles to the right, negative to the left, 256 at most, by which the loop moves.
+    pub moved: i32,
+}
+
+/// A weft knit as the caller's arrays: one repeat of stitches, and its copies.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_weft_knit {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// Beds of needles, 1 or 2.
+    pub beds: u32,
+    /// A number that begins with TEXERE_CELLS.
+    pub cells: u32,
+    /// Copies of the repeat along the courses and along the wales, each from 1.
+    pub copies: [u32; 2],
+    /// Zero.
+    pub reserved: u32,
+    /// What the design is called, UTF-8.
+    pub name: *const c_char,
+    /// Bytes of the name.
+    pub name_length: usize,
+    /// Wales of the repeat, 1 to 65536.
+    pub wales: u64,
+    /// Courses of the repeat, 1 to 65536.
+    pub courses: u64,
+    /// The stitches, course after course from the first (the bottom one), each from left to right
+    /// as seen from the technical face: `wales` times `courses` of them.
+    pub stitches: *const texere_stitch,
+    /// The yarn of each course, from 0, in turn from the first course on. Null and 0: yarn 0 for
+    /// all. Where the turn does not go evenly into the courses, the chart is repeated upwards.
+    pub turn: *const u32,
+    /// How many yarns the turn has.
+    pub turn_count: u64,
+    /// The yarns.
+    pub yarns: *const texere_knit_yarn,
+    /// How many yarns.
+    pub yarn_count: u64,
+    /// From one wale to the next, mm.
+    pub wale_mm: f64,
+    /// From one course to the next, mm.
+    pub course_mm: f64,
+    /// The mean length of yarn in a loop that settling aims for, mm; 0 leaves it to the loops.
+    pub loop_length_mm: f64,
+    /// What the yarns refer to.
+    pub looks: texere_looks,
+}
+
+impl texere_stitch {
+    fn read(self, number: usize) -> Result<Cell, Failure> {
+        let moved = |behind| Cell::Moved { by: self.moved, behind };
+        let cells = [
+            Cell::Knit,
+            Cell::Purl,
+            Cell::Both,
+            Cell::Tuck,
+            Cell::BackTuck,
+            Cell::Miss,
+            moved(false),
+            moved(true),
+        ];
+        choice(&format!("knit.stitches[{number}].kind"), self.kind, &cells)
+    }
+}
+
+impl texere_weft_knit {
+    /// # Safety
+    ///
+    /// Arrays and texts are valid for reads.
+    unsafe fn read(&self) -> Result<Design, Failure> {
+        let Self { wales, courses, .. } = *self;
+        let count = wales.saturating_mul(courses);
+        // SAFETY: the caller vouches for all of them.
+        let (stitches, turn, yarns, (materials, sections), name) = unsafe {
+            (
+                array("knit.stitches", self.stitches, count)?,
+                array("knit.turn", self.turn, self.turn_count)?,
+                array("knit.yarns", self.yarns, self.yarn_count)?,
+                self.looks.read("knit")?,
+                text("knit.name", self.name, self.name_length)?,
+            )
+        };
+        let beds = match self.beds {
+            1 => Beds::One,
+            2 => Beds::Two,
+            other => return Err(Failure::argument(format!("knit.beds is {other}, expected 1 or 2"))),
+        };
+        if let Some((number, yarn)) = (0..).zip(turn).find(|(_, yarn)| u64::from(**yarn) >= self.yarn_count) {
+            return Err(Failure::argument(format!(
+                "knit.turn[{number}] is {yarn}, but there are {}, counted from 0",
+                self.yarn_count
+            )));
+        }
+        let cells = stitches.iter().enumerate().map(|(number, stitch)| stitch.read(number));
+        let cells = cells.collect::<Result<Vec<_>, _>>()?;
+        let refuse = |error| self.refused(error);
+        let chart = Chart::new(wales as usize, beds, cells).map_err(refuse)?;
+        let program = chart.with_yarns(turn).and_then(|chart| chart.program()).map_err(refuse)?;
+        let loop_length_mm = (self.loop_length_mm != 0.0).then_some(self.loop_length_mm);
+        let gauge = Gauge { wale_mm: self.wale_mm, course_mm: self.course_mm, loop_length_mm };
+        let yarns = yarns.iter().map(texere_knit_yarn::read).collect();
+        let knit = Machine::default()
+            .knit(&program)
+            .and_then(|knit| Knitted::new(knit.stitches, gauge, yarns, materials, sections, self.copies));
+        let knit = knit.map_err(|error| refused("knit", error, &[]))?;
+        let cells = choice("knit.cells", self.cells, &[Cells::Round, Cells::Even])?;
+        Ok(Design::of(name, Structure::Weft(knit.with_cells(cells))))
+    }
+
+    /// The failure of a chart, with the number of the stitch that it is about.
+    fn refused(&self, error: ChartError) -> Failure {
+        let stitch = match error {
+            ChartError::OutOfMemory(error) => return refused("knit", FabricError::OutOfMemory(error), &[]),
+            // Rows of a chart count from the top.
+            ChartError::Beds { row, column, .. } | ChartError::Moved { row, column, .. } => {
+                let course = (self.courses as usize).saturating_sub(row);
+                format!("[{}]", course * self.wales as usize + column.saturating_sub(1))
+            }
+            _ => String::new(),
+        };
+        Failure::argument(format!("knit.stitches{stitch}: {error}"))
+    }
+}
+
+/// Makes a design of a weft knit from the caller's arrays, which are copied. Its yarns settle;
+/// `texere_design_finished` says otherwise.
+///
+/// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
+/// 0, value and limit.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_weft_knit(
+    knit: *const texere_weft_knit,
+    out: *mut *mut texere_design,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out` and `knit`.
+        unsafe {
+            clear(out)?;
+            give(out, sized("knit", knit)?.read()?)
+        }
+    })
+}

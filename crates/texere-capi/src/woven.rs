@@ -1,0 +1,168 @@
+//! Woven cloth by arrays: the bits of a drawdown, and the threads of warp and weft.
+
+use std::ffi::c_char;
+
+use texere::woven::{Crimp, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
+use texere::{Design, Structure};
+
+use crate::argument::{sized, text};
+use crate::design::texere_design;
+use crate::error::guard;
+use crate::failure::Failure;
+use crate::handle::{clear, give};
+use crate::material::{array, texere_looks};
+use crate::status::texere_status;
+use crate::structure::{choice, refused};
+use crate::view::texere_view;
+
+/// An end or a pick.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_thread {
+    /// Width of its column of the cloth, mm. Two neighbours are half of each spacing apart.
+    pub spacing_mm: f64,
+    /// Diameter of the yarn where it is round, mm; `texere_diameter` gives it for a yarn count.
+    pub diameter_mm: f64,
+    /// Width over height in the cloth, 0.1 to 10; 0 stands for 1, which is round.
+    pub flatness: f32,
+    /// Stiffness against bending, 0.01 to 100, 1 for cotton of its diameter; 0 stands for 1.
+    pub stiffness: f32,
+    /// Twist, radians a mm; positive is Z twist.
+    pub twist: f32,
+    /// The number of its material, from 0.
+    pub material: u32,
+    /// The number of its section, from 0.
+    pub section: u32,
+    /// Zero.
+    pub reserved: u32,
+}
+
+/// Threads bend round one another as round threads do, and floats lie flat.
+pub const TEXERE_SHAPE_ROUND: u32 = 0;
+/// One control point a crossing, and one before and after.
+pub const TEXERE_SHAPE_CROSSING: u32 = 1;
+
+/// Threads that lie too close are only reported.
+pub const TEXERE_RELIEF_REPORT: u32 = 0;
+/// Threads that lie too close are flattened.
+pub const TEXERE_RELIEF_FLATTEN: u32 = 1;
+/// Threads that lie too close are made thinner.
+pub const TEXERE_RELIEF_SHRINK: u32 = 2;
+
+/// The stiffer set stays the straighter.
+pub const TEXERE_CRIMP_STIFFNESS: u32 = 0;
+/// The warp has `warp_share` of the crimp.
+pub const TEXERE_CRIMP_SHARE: u32 = 1;
+
+/// Woven cloth as the caller's arrays.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_woven {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// A number that begins with TEXERE_SHAPE.
+    pub shape: u32,
+    /// A number that begins with TEXERE_RELIEF.
+    pub relief: u32,
+    /// 1 if the weft turns back round the edge ends, 0 if each pick is cut at both edges.
+    pub selvedge: u32,
+    /// A number that begins with TEXERE_CRIMP.
+    pub crimp: u32,
+    /// The warp's share of the crimp, 0 (straight ends) to 1 (straight picks), with
+    /// TEXERE_CRIMP_SHARE.
+    pub warp_share: f32,
+    /// What the design is called, UTF-8.
+    pub name: *const c_char,
+    /// Bytes of the name.
+    pub name_length: usize,
+    /// How many ends.
+    pub ends: u64,
+    /// How many picks.
+    pub picks: u64,
+    /// A row of bits for each pick, which are only read. Row 0 is the first pick, at the bottom of
+    /// the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0 of its
+    /// second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` + 7) / 8
+    /// bytes, and `stride` bytes lie between the beginnings of two rows.
+    pub drawdown: texere_view,
+    /// The ends from the left: `ends` of them.
+    pub warp: *const texere_thread,
+    /// The picks from the bottom: `picks` of them.
+    pub weft: *const texere_thread,
+    /// What the threads refer to.
+    pub looks: texere_looks,
+}
+
+impl texere_thread {
+    fn read(&self) -> Thread {
+        let Self { spacing_mm, diameter_mm, flatness, stiffness, twist, material, section, .. } = *self;
+        let or_one = |value: f32| if value == 0.0 { 1.0 } else { value };
+        Thread {
+            spacing_mm,
+            radius_mm: (diameter_mm / 2.0) as f32,
+            flatness: or_one(flatness),
+            stiffness: or_one(stiffness),
+            material,
+            section,
+            twist,
+        }
+    }
+}
+
+impl texere_woven {
+    /// # Safety
+    ///
+    /// Arrays and texts are valid for reads.
+    unsafe fn read(&self) -> Result<Design, Failure> {
+        // A count that no memory holds is refused as a size that no cloth has.
+        let [ends, picks] = [self.ends, self.picks].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+        let refuse = |error| refused("woven", error, &[]);
+        let mut drawdown = Drawdown::new(ends, picks).map_err(refuse)?;
+        // SAFETY: the caller vouches for all of them.
+        let (bits, warp, weft, (materials, sections), name) = unsafe {
+            (
+                self.drawdown.rows("woven.drawdown", picks, ends.div_ceil(8))?,
+                array("woven.warp", self.warp, self.ends)?,
+                array("woven.weft", self.weft, self.picks)?,
+                self.looks.read("woven")?,
+                text("woven.name", self.name, self.name_length)?,
+            )
+        };
+        for pick in 0..picks {
+            let row = bits.row(pick);
+            for end in (0..ends).filter(|end| row[end / 8] >> (end % 8) & 1 == 1) {
+                drawdown.set(end, pick, true).map_err(|error| refuse(error.into()))?;
+            }
+        }
+        let threads = |threads: &[texere_thread]| threads.iter().map(texere_thread::read).collect();
+        let cloth = Woven::new(drawdown, threads(warp), threads(weft), materials, sections);
+        let mut cloth = cloth.map_err(refuse)?;
+        cloth.set_shape(choice("woven.shape", self.shape, &[Shape::Round, Shape::Crossing])?);
+        cloth.set_selvedge(choice("woven.selvedge", self.selvedge, &[false, true])?);
+        let crimps = [Crimp::Stiffness, Crimp::WarpShare(self.warp_share)];
+        let crimp = choice("woven.crimp", self.crimp, &crimps)?;
+        cloth.set_crimp(crimp).map_err(|error| refuse(error.into()))?;
+        let reliefs = [Relief::Report, Relief::Flatten, Relief::Shrink];
+        let relief = choice("woven.relief", self.relief, &reliefs)?;
+        let woven = WovenDesign::new(cloth, None, relief).map_err(refuse)?;
+        Ok(Design::of(name, Structure::Woven(woven)))
+    }
+}
+
+/// Makes a design of woven cloth from the caller's arrays, which are copied. Its yarns settle;
+/// `texere_design_finished` says otherwise.
+///
+/// Fails with TEXERE_ARGUMENT for arrays that no cloth can be: the message names array, number from
+/// 0, value and limit.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_woven(
+    woven: *const texere_woven,
+    out: *mut *mut texere_design,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out` and `woven`.
+        unsafe {
+            clear(out)?;
+            give(out, sized("woven", woven)?.read()?)
+        }
+    })
+}

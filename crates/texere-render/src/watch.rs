@@ -1,0 +1,57 @@
+//! Progress of a picture, and a wish to stop.
+
+use std::ops::ControlFlow;
+
+use texere_wgpu::WgpuBackend;
+
+use crate::RenderError;
+
+/// The caller's progress callback, and the share of the work that it was told last.
+pub(crate) struct Watch<'a> {
+    progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
+    done: f64,
+    /// What was waited for when the callback asked to stop.
+    under_way: Option<wgpu::SubmissionIndex>,
+}
+
+impl<'a> Watch<'a> {
+    pub(crate) fn new(progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>) -> Self {
+        Self { progress, done: 0.0, under_way: None }
+    }
+
+    /// Tells the share of the work that is done, from 0 to 1.
+    ///
+    /// **Errors**: [`RenderError::Cancelled`].
+    pub(crate) fn tell(&mut self, done: f64) -> Result<(), RenderError> {
+        self.done = done;
+        if (self.progress)(done).is_break() { Err(RenderError::Cancelled) } else { Ok(()) }
+    }
+
+    /// Asks the callback whether the work goes on.
+    ///
+    /// **Errors**: [`RenderError::Cancelled`].
+    pub(crate) fn ask(&mut self) -> Result<(), RenderError> {
+        self.tell(self.done)
+    }
+
+    /// Waits until `submission` is done, and asks the callback in between.
+    ///
+    /// **Errors**: [`RenderError::Cancelled`], [`RenderError::Backend`].
+    pub(crate) fn wait(
+        &mut self,
+        device: &WgpuBackend,
+        submission: &wgpu::SubmissionIndex,
+    ) -> Result<(), RenderError> {
+        let Self { progress, done, under_way } = self;
+        if device.wait_while(submission, || progress(*done).is_continue())? {
+            return Ok(());
+        }
+        *under_way = Some(submission.clone());
+        Err(RenderError::Cancelled)
+    }
+
+    /// What the device still works on where a wait was ended.
+    pub(crate) const fn take_under_way(&mut self) -> Option<wgpu::SubmissionIndex> {
+        self.under_way.take()
+    }
+}

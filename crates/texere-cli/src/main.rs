@@ -5,25 +5,20 @@
 //! `TEXERE_SIMD` is wrong; 3 the design is wrong; 4 `check` found faults.
 
 mod args;
-mod at;
 mod check;
-mod clearance;
 mod convert;
 mod cores;
-mod cures;
 mod devices;
 mod draft;
 mod drivers;
 mod fail;
 mod inspect;
-mod measures;
 mod mesh;
 mod print;
 mod progress;
 mod reading;
 mod render;
 mod settling;
-mod setts;
 #[cfg(unix)]
 mod signals;
 mod terminal;

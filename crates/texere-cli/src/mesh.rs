@@ -3,13 +3,12 @@
 use std::io::IsTerminal;
 use std::ops::Deref;
 
-use texere::check::counted;
+use texere::check::{SettlingReport, counted};
 use texere::write::Output;
 use texere::{Backend, BackendError, Pipeline, Yarns};
 
 use crate::args::{MeshArgs, is_yarns, undersampled};
 use crate::fail::Fail;
-use crate::settling::SettlingReport;
 use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
 
@@ -52,7 +51,8 @@ impl Cloth {
         let output = Output::to(&args.output).sparing(design.files());
         output.check()?;
         let (cloth, settling) = settling::cloth(design, &args.settling, args.settings.tension(), open)?;
-        let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
+        let mut warnings = cloth.warnings();
+        warnings.retain(|warning| !cloth.design().remarks().contains(warning));
         Ok(Self { yarns: cloth.into_parts().1, output, warnings, settling })
     }
 

@@ -52,11 +52,6 @@ pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     Ok((design, said))
 }
 
-/// The `warnings` that have not been `said`.
-pub(crate) fn unsaid(warnings: &[String], said: &[String]) -> Vec<String> {
-    warnings.iter().filter(|warning| !said.contains(warning)).cloned().collect()
-}
-
 fn say(remarks: &[String]) {
     let mut out = std::io::stderr().lock();
     for remark in remarks {

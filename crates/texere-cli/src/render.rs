@@ -7,14 +7,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use texere::check::SettlingReport;
 use texere::picture::{Background, Camera, Cut, Extent, Quality, Renderer};
+use texere::rest::{Finished, RestReport};
 use texere::write::Output;
 use texere::yarn::Origin;
 use texere::{ControlPoint, Yarns};
 
 use crate::args::{RenderArgs, View, undersampled};
 use crate::fail::Fail;
-use crate::settling::SettlingReport;
 use crate::terminal::line;
 use crate::{drivers, print, reading, settling};
 
@@ -69,8 +70,8 @@ impl Shown {
         let open = || texere::open(&args.device);
         let (cloth, settling) = stages
             .time("yarns", || settling::cloth(design, &args.settling, args.settings.tension(), open))?;
+        let lies_close = matches!(cloth.report(), RestReport::Finished(Finished::Woven(_)));
         let (design, yarns) = cloth.into_parts();
-        let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
         let middles =
             design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default().into_array();
         Ok(Self { outputs, yarns, lies_close, middles, settling })

@@ -13,6 +13,8 @@
 )]
 
 pub mod read;
+#[cfg(feature = "serde")]
+mod report;
 mod rest;
 pub mod write;
 mod yarns_file;
@@ -21,5 +23,7 @@ pub use read::{
     Design, FilePlace, MachineFault, NamedPlace, ProgramPlace, ReadError, Refusal, SavedYarns, Structure,
     read, read_from,
 };
+#[cfg(feature = "serde")]
+pub use report::{CheckReport, InspectReport, SettlingReport};
 pub use rest::{Cloth, RestReport, Resting};
 pub use write::WriteError;

@@ -4,8 +4,8 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use texere_core::{Backend, CrossingsError, Yarns};
-use texere_fabric::{FinishError, Finished};
+use texere_core::{Backend, CrossingsError, Settings, Yarns};
+use texere_fabric::{ClothClearance, FinishError, Finished};
 
 use crate::{Design, Refusal};
 
@@ -83,6 +83,21 @@ impl Cloth {
         &self.report
     }
 
+    /// Measures how near the yarns come to one another, as they are drawn with `settings`, and how
+    /// tightly they bend; places are named by thread and crossing. `progress` gets the share that
+    /// is done, from 0 to 1. `Break` ends the work.
+    ///
+    /// **Errors**: a [`Refusal`] where the yarns can't be measured, and where `progress` asked to
+    /// stop.
+    pub fn clearance(
+        &self,
+        settings: &Settings,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<ClothClearance, Refusal> {
+        let measured = self.design.structure.clearance(self.yarns(), settings, progress);
+        measured.map_err(|error| self.design.refused(error))
+    }
+
     /// The design and its yarns, without the report.
     #[must_use]
     pub fn into_parts(self) -> (Design, Yarns) {
@@ -136,11 +151,11 @@ impl Design {
     /// // Threads so dense that they flatten.
     /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
     /// let (warp, weft) = (vec![Thread::new(0.7, 0.2); 4], vec![Thread::new(0.7, 0.2); 4]);
-    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-    /// let design = Design::of("Sheeting", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
-    /// let cloth = design.rest(&SerialBackend::new()).run()?;
-    /// assert_eq!(cloth.report().to_string(), "at rest");
-    /// assert_eq!(cloth.yarns().layout().yarns().len(), 8);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()],
+    /// vec![Section::Circle])?; let design = Design::of("Sheeting",
+    /// Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?)); let cloth =
+    /// design.rest(&SerialBackend::new()).run()?; assert_eq!(cloth.report().to_string(), "at
+    /// rest"); assert_eq!(cloth.yarns().layout().yarns().len(), 8);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn rest(self, device: &dyn Backend) -> Resting<'_> {

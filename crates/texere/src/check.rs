@@ -7,6 +7,7 @@
 //! | know whether yarns have passed through one another when they were moved | [`linking()`], which gives a [`Linking`] |
 //! | know whether a mesh's tubes are wrung (narrowed, because neighbouring rings are turned against one another), and how many subdivisions cure that | [`drawn()`], [`finer`] |
 //! | know weight, thickness, yarn consumption, cover and crimp of woven cloth, loops of a knit | [`Measures`], [`KnitMeasures`] |
+//! | have all of that in one report for people, or as JSON | `InspectReport`, `CheckReport` (feature `serde`) |
 //!
 //! ```
 //! use texere::check::clearance;
@@ -30,3 +31,5 @@ pub use texere_fabric::{
     ClothClearance, ClothFault, Cover, Crossing, Cure, Diagnosis, FabricWarning, Faults, Jams, KnitMeasures,
     Measures, Pieces, Remedy, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
+#[cfg(feature = "serde")]
+pub use texere_formats::{CheckReport, InspectReport, SettlingReport};

@@ -107,6 +107,7 @@
 //! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
 //! | `pictures` | PNG files of drafts and pictures |
 //! | `images` | point paper in design files |
+//! | `serde` | reports of a cloth, which serialize |
 //!
 //! `toml`, `glb` and `ply` are there unless `default-features = false`. A file whose format the
 //! build leaves out is refused by name: [`ReadError::Feature`], [`WriteError::Feature`].

@@ -1,37 +1,18 @@
 //! Lets yarns settle before they are measured, drawn or written, and reports how they did.
 
-mod knit;
 mod plot;
-mod woven;
 
-use std::fmt;
 use std::ops::Deref;
 
-use serde::Serialize;
-use texere::check::ClothClearance;
+use texere::check::SettlingReport;
 use texere::rest::{Finished, RestReport};
 use texere::write::Output;
 use texere::{Backend, BackendError, Cloth, Design};
 
 use crate::args::SettlingArgs;
-use crate::clearance::least;
 use crate::fail::Fail;
 use crate::{drivers, progress};
-use knit::KnitRestReport;
 use plot::plot;
-use woven::WovenRestReport;
-
-/// How yarns have settled, or why they could not.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub(crate) enum SettlingReport {
-    Knit(KnitRestReport),
-    Woven(WovenRestReport),
-    /// Woven cloth that can't come to rest at all, and is as it is woven.
-    Refused {
-        refused: String,
-    },
-}
 
 /// The cloth of a design, with splines of `tension`. If the design or the command line lets its
 /// yarns come to rest, they do so on the device that `open` gives, and there is a report.
@@ -62,53 +43,4 @@ pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     }
     let report = SettlingReport::new(&cloth, &device.info().name);
     Ok((cloth, report))
-}
-
-impl SettlingReport {
-    /// None for yarns that were only placed.
-    fn new(cloth: &Cloth, device: &str) -> Option<Self> {
-        match cloth.report() {
-            RestReport::Finished(Finished::Knit(settled)) => {
-                Some(Self::Knit(KnitRestReport::new(cloth.design(), settled, device)))
-            }
-            RestReport::Finished(Finished::Woven(rest)) => {
-                Some(Self::Woven(WovenRestReport::new(rest, device)))
-            }
-            RestReport::Refused { reason, .. } => Some(Self::Refused { refused: reason.why() }),
-            _ => None,
-        }
-    }
-
-    /// Whether yarns are no longer as the structure places them.
-    pub(crate) const fn has_moved(&self) -> bool {
-        !matches!(self, Self::Refused { .. })
-    }
-
-    /// Takes over the clearance of the whole cloth, measured afterwards, so that a report has one
-    /// figure. Settling itself measures only one repeat of woven cloth, and only yarns that touch.
-    pub(crate) const fn measured(&mut self, clearance: &ClothClearance) {
-        match self {
-            Self::Knit(report) => report.clearance = least(clearance),
-            Self::Woven(report) => report.clearance = least(clearance),
-            Self::Refused { .. } => {}
-        }
-    }
-
-    /// A warning if the press was not reached.
-    pub(crate) fn press_missed(&self) -> Option<String> {
-        match self {
-            Self::Knit(report) => report.press_missed.clone(),
-            Self::Woven(_) | Self::Refused { .. } => None,
-        }
-    }
-}
-
-impl fmt::Display for SettlingReport {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Knit(report) => report.fmt(f),
-            Self::Woven(report) => report.fmt(f),
-            Self::Refused { refused } => write!(f, "none, the cloth is as it is woven: {refused}"),
-        }
-    }
 }

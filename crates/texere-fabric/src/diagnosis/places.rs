@@ -188,6 +188,13 @@ impl ThreadPlace {
 }
 
 impl ClothClearance {
+    /// The least clearance: infinite where no yarns come near one another, NaN where all places are
+    /// crowded, since these are not measured.
+    #[must_use]
+    pub const fn least(&self) -> f64 {
+        if self.crowd.is_some() && self.min.is_infinite() { f64::NAN } else { self.min }
+    }
+
     /// Measures the clearance of `yarns`. Places are named by the yarn alone.
     pub(crate) fn of(
         yarns: &Yarns,

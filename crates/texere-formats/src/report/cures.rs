@@ -4,10 +4,9 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
-use texere::check::{ClothFault, Cure, Diagnosis, Remedy};
-use texere::woven::{BySet, JamReport, Relief, Shape};
+use texere_fabric::{BySet, ClothFault, Cure, Diagnosis, JamReport, Relief, Remedy, Shape};
 
-use crate::clearance::{as_near_as_looked, least};
+use super::clearance::as_near_as_looked;
 
 /// Spacings and diameters that a design file may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
@@ -57,7 +56,7 @@ impl CureReport {
             key: "--subdivisions",
             value: subdivisions.to_string(),
             effect: "rings closer together in meshes and pictures".into(),
-            clearance: least(&diagnosis.clearance),
+            clearance: diagnosis.clearance.least(),
             curvature: diagnosis.clearance.bend.radii,
             leaves: phrase(&leaves),
         }

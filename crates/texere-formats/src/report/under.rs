@@ -3,9 +3,10 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::read::NamedPlace;
-use texere::yarn::{YarnPlace, yarns_under};
-use texere::{Design, Yarns};
+use texere_contact::yarns_under;
+use texere_core::{YarnPlace, Yarns};
+
+use crate::{Design, NamedPlace};
 
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]

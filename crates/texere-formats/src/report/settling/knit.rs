@@ -3,12 +3,12 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::Design;
-use texere::backend::settling::Length;
-use texere::check::Passage;
-use texere::rest::{Press, Settled, Verdict};
+use texere_contact::Passage;
+use texere_core::settling::Length;
+use texere_fabric::{Press, Settled, Verdict};
 
-use crate::clearance::{as_near_as_looked, place};
+use crate::Design;
+use crate::report::clearance::{as_near_as_looked, place};
 
 /// How yarns have settled. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use texere::check::{KnitMeasures, Measures};
-use texere::woven::{BySet, JamReport, Tightness};
-use texere::yarn::Material;
+use texere_core::Material;
+use texere_fabric::{BySet, JamReport, KnitMeasures, Measures, Tightness};
 
 /// A value for the warp, and one for the weft.
 #[derive(Debug, Clone, Copy, Serialize)]

@@ -3,10 +3,9 @@
 use std::fmt;
 
 use serde::{Serialize, Serializer};
-use texere::check::{
-    CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, ClothClearance, ThreadBend, ThreadContact,
-    ThreadCrowd, ThreadDrawn, ThreadPlace, counted,
-};
+use texere_contact::{CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR};
+use texere_core::counted;
+use texere_fabric::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace};
 
 /// How near yarns come to one another.
 #[derive(Debug, Serialize)]
@@ -98,13 +97,8 @@ struct Crossing {
 
 impl Crossing {
     fn of(place: &ThreadPlace) -> Option<Self> {
-        place.crossing.map(|texere::check::Crossing { end, pick }| Self { end, pick })
+        place.crossing.map(|texere_fabric::Crossing { end, pick }| Self { end, pick })
     }
-}
-
-/// The least clearance. NaN if all places are crowded, because crowded places are not measured.
-pub(crate) const fn least(found: &ClothClearance) -> f64 {
-    if found.crowd.is_some() && found.min.is_infinite() { f64::NAN } else { found.min }
 }
 
 /// Writes a least clearance to JSON. If there is no contact, `least` is infinite, and the limit of
@@ -116,7 +110,7 @@ pub(crate) fn as_near_as_looked<S: Serializer>(least: &f64, serializer: S) -> Re
 impl From<&ClothClearance> for ClearanceReport {
     fn from(found: &ClothClearance) -> Self {
         Self {
-            min: least(found),
+            min: found.least(),
             contacts: found.contacts,
             below_one: found.below_one,
             piercing: found.piercing,
@@ -251,7 +245,7 @@ pub(crate) fn place([x, y, z]: [f64; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use serde_json::{Value, json, to_value};
-    use texere::yarn::Origin;
+    use texere_core::Origin;
 
     use super::*;
 

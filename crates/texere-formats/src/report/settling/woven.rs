@@ -3,11 +3,11 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::rest::{Verdict, WovenRest};
-use texere::woven::{BySet, Set};
+use texere_core::crossings::Set;
+use texere_fabric::{BySet, Verdict, WovenRest};
 
-use crate::clearance::as_near_as_looked;
-use crate::measures::Sets;
+use crate::report::clearance::as_near_as_looked;
+use crate::report::measures::Sets;
 
 /// How woven cloth has come to rest. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]

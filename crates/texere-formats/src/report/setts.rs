@@ -4,9 +4,9 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::woven::{Sett, Woven};
+use texere_fabric::{Sett, Woven};
 
-use crate::measures::Sets;
+use super::measures::Sets;
 
 /// The share by which a sett may exceed the greatest one without a warning, because diameters are
 /// rounded to `f32`.

@@ -1,0 +1,80 @@
+//! The report of how yarns came to rest.
+
+mod knit;
+mod woven;
+
+use std::fmt;
+
+use serde::Serialize;
+use texere_fabric::{ClothClearance, Finished};
+
+use crate::{Cloth, RestReport};
+use knit::KnitRestReport;
+use woven::WovenRestReport;
+
+/// How the yarns of a cloth came to rest, in a line that displays and as data that serializes.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+pub struct SettlingReport(Settling);
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Settling {
+    Knit(KnitRestReport),
+    Woven(WovenRestReport),
+    /// Woven cloth that can't come to rest at all, and is as it is woven.
+    Refused {
+        refused: String,
+    },
+}
+
+impl SettlingReport {
+    /// The report of a cloth that came to rest on the device of this name. None for yarns that were
+    /// only placed.
+    #[must_use]
+    pub fn new(cloth: &Cloth, device: &str) -> Option<Self> {
+        Some(Self(match cloth.report() {
+            RestReport::Finished(Finished::Knit(settled)) => {
+                Settling::Knit(KnitRestReport::new(cloth.design(), settled, device))
+            }
+            RestReport::Finished(Finished::Woven(rest)) => {
+                Settling::Woven(WovenRestReport::new(rest, device))
+            }
+            RestReport::Refused { reason, .. } => Settling::Refused { refused: reason.why() },
+            _ => return None,
+        }))
+    }
+
+    /// Whether yarns are no longer as the structure places them.
+    pub(super) const fn has_moved(&self) -> bool {
+        !matches!(self.0, Settling::Refused { .. })
+    }
+
+    /// Takes over the clearance of the whole cloth, measured afterwards, so that a report has one
+    /// figure. Settling itself measures only one repeat of woven cloth, and only yarns that touch.
+    pub(super) const fn measured(&mut self, clearance: &ClothClearance) {
+        match &mut self.0 {
+            Settling::Knit(report) => report.clearance = clearance.least(),
+            Settling::Woven(report) => report.clearance = clearance.least(),
+            Settling::Refused { .. } => {}
+        }
+    }
+
+    /// A warning if the press was not reached.
+    pub(super) fn press_missed(&self) -> Option<String> {
+        match &self.0 {
+            Settling::Knit(report) => report.press_missed.clone(),
+            Settling::Woven(_) | Settling::Refused { .. } => None,
+        }
+    }
+}
+
+impl fmt::Display for SettlingReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Settling::Knit(report) => report.fmt(f),
+            Settling::Woven(report) => report.fmt(f),
+            Settling::Refused { refused } => write!(f, "none, the cloth is as it is woven: {refused}"),
+        }
+    }
+}

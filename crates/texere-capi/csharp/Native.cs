@@ -15,6 +15,44 @@ namespace Texere
         const string __DllName = "texere_c";
 
         /// <summary>
+        ///  The share by which yarns may come short of touching and still count as touching, as a rule.
+        /// </summary>
+        internal const double TEXERE_ACCURACY = 0.015;
+        /// <summary>
+        ///  More yarn lies in a place than there is room for, or too many parts of yarns to measure them
+        ///  pair by pair. The value is the yarns' volume over the room.
+        /// </summary>
+        internal const uint TEXERE_FAULT_CROWDED = 0;
+        /// <summary>
+        ///  Two yarns pierce one another. The value is how near they come: 1 where they just touch.
+        /// </summary>
+        internal const uint TEXERE_FAULT_PIERCES = 1;
+        /// <summary>
+        ///  A bend is tighter than the tube is thick. The value is its radius in radii of the yarn.
+        /// </summary>
+        internal const uint TEXERE_FAULT_FOLDS = 2;
+        /// <summary>
+        ///  A thread lies too close to the one before for crossing threads to pass. The value is their
+        ///  distance over the one that is needed. There is no one place.
+        /// </summary>
+        internal const uint TEXERE_FAULT_JAMS = 3;
+        /// <summary>
+        ///  The cloth does not hang together. The value is the number of its pieces. There is no one place.
+        /// </summary>
+        internal const uint TEXERE_FAULT_APART = 4;
+        /// <summary>
+        ///  The mesh is wrung between two rings. The value is its width there in radii of the yarn.
+        /// </summary>
+        internal const uint TEXERE_FAULT_WRUNG = 5;
+        /// <summary>
+        ///  Triangles of the mesh face inwards. The value is how many; the place is that of the first.
+        /// </summary>
+        internal const uint TEXERE_FAULT_INSIDE_OUT = 6;
+        /// <summary>
+        ///  A knitting machine can't do a step of the program. There is neither a value nor a place.
+        /// </summary>
+        internal const uint TEXERE_FAULT_MACHINE = 7;
+        /// <summary>
         ///  The yarns are where the structure places them: the design does not ask for more.
         /// </summary>
         internal const uint TEXERE_PLACED = 0;
@@ -97,6 +135,18 @@ namespace Texere
         ///  The outline in `corners`, 3 to 256 of them.
         /// </summary>
         internal const uint TEXERE_SECTION_POLYGON = 5;
+        /// <summary>
+        ///  No cap: the hit is on the side of the yarn.
+        /// </summary>
+        internal const uint TEXERE_CAP_NONE = 0;
+        /// <summary>
+        ///  The cap that closes the start of the yarn.
+        /// </summary>
+        internal const uint TEXERE_CAP_START = 1;
+        /// <summary>
+        ///  The cap that closes the end of the yarn.
+        /// </summary>
+        internal const uint TEXERE_CAP_FINISH = 2;
         /// <summary>
         ///  The whole cloth from straight above its face.
         /// </summary>
@@ -251,6 +301,63 @@ namespace Texere
 
 
         /// <summary>
+        ///  Checks a cloth: measures how near its yarns come to one another and how tightly they bend, looks
+        ///  for faults, and for single changes of the design that cure them. A mesh with `settings` is
+        ///  looked at, too; they may be null: `texere_settings_default` says what holds then. Yarns that
+        ///  come short of touching by more than the share `accuracy` pierce: TEXERE_ACCURACY is usual. `run`
+        ///  may be null.
+        ///
+        ///  A cloth with faults is no failure of the call. It fails with TEXERE_ARGUMENT for settings out of
+        ///  range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED where `run`
+        ///  was cancelled.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_check_new(texere_cloth* cloth, texere_settings* settings, double accuracy, texere_run* run, texere_check** @out);
+
+        /// <summary>
+        ///  Writes what a check has found. The caller has set `diagnosis-&gt;struct_size`.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_diagnosis", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_check_diagnosis(texere_check* check, texere_diagnosis* diagnosis);
+
+        /// <summary>
+        ///  Writes the fault of a number, from 0. The caller has set `fault-&gt;struct_size`.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where there are fewer.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_fault", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_check_fault(texere_check* check, ulong number, texere_fault* fault);
+
+        /// <summary>
+        ///  Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
+        ///  until the check is freed. A warning is no fault.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where there are fewer.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_warning", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_check_warning(texere_check* check, ulong number, byte** words);
+
+        /// <summary>
+        ///  Lends the faults and their cures as JSON, as `texere check --json` prints them: UTF-8 that ends
+        ///  with a zero byte, valid until the check is freed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_json", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_check_json(texere_check* check, byte** json);
+
+        /// <summary>
+        ///  Lends the counts and measures of the cloth as JSON, as `texere inspect --json` prints them:
+        ///  UTF-8 that ends with a zero byte, valid until the check is freed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_measures_json", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_check_measures_json(texere_check* check, byte** json);
+
+        /// <summary>
+        ///  Frees a check, or nothing where it is null.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_check_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_check_free(texere_check* check);
+
+        /// <summary>
         ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
         ///  design asks for it. `run` may be null.
         ///
@@ -365,6 +472,116 @@ namespace Texere
         internal static extern texere_status texere_design_draft(texere_design* design, uint back, byte* path, System.UIntPtr path_length);
 
         /// <summary>
+        ///  Sets whether the warp is up where an end and a pick cross; both count from 0. Both threads then
+        ///  lie as they are woven.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where there is no such crossing, where `up` is neither 0 nor 1, and
+        ///  in cloth that is not woven or that is known by its yarns alone.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_lift", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_lift(texere_live* live, ulong end, ulong pick, uint up);
+
+        /// <summary>
+        ///  Sets many lifts at once: those of `ends` ends from `first_end` on and `picks` picks from
+        ///  `first_pick` on. `up` has a byte for each crossing, 1 where the warp is up, else 0: pick after
+        ///  pick, and in each the ends in order.
+        ///
+        ///  Fails as `texere_live_set_lift` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_drawdown", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_drawdown(texere_live* live, ulong first_end, ulong ends, ulong first_pick, ulong picks, byte* up);
+
+        /// <summary>
+        ///  Writes to `up` 1 if the warp is up where an end and a pick cross, else 0; both count from 0.
+        ///
+        ///  Fails as `texere_live_set_lift` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_lift", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_lift(texere_live* live, ulong end, ulong pick, uint* up);
+
+        /// <summary>
+        ///  Replaces a yarn, counted from 0: what it is made of and its control points, which may be more or
+        ///  fewer than before.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for a yarn, material or section that there is not, and for points
+        ///  that no yarn can have. The cloth then stays as it was.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_yarn", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_yarn(texere_live* live, ulong yarn, texere_yarn* what, texere_point* points, System.UIntPtr point_count);
+
+        /// <summary>
+        ///  Gives a yarn, counted from 0, other control points, which may be more or fewer than before.
+        ///
+        ///  Fails as `texere_live_set_yarn` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_points", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_points(texere_live* live, ulong yarn, texere_point* points, System.UIntPtr point_count);
+
+        /// <summary>
+        ///  Writes what a yarn is made of as it is now. Its control points are those of `texere_live_yarns`.
+        ///  The caller has set `what-&gt;struct_size`.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where there is no such yarn.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_yarn", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_yarn(texere_live* live, ulong yarn, texere_yarn* what);
+
+        /// <summary>
+        ///  Changes a material, counted from 0. A mesh holds no colours, so an update makes nothing again.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where there is no such material, and for one that no yarn can have.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_material", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_material(texere_live* live, ulong number, texere_material* material);
+
+        /// <summary>
+        ///  Writes a material as it is now, counted from 0. Its name ends with a zero byte and is valid
+        ///  until the next call of this function with this live cloth, or until that is freed.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where there is no such material.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_material", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_material(texere_live* live, ulong number, texere_material* material);
+
+        /// <summary>
+        ///  Sets the tension of the splines of all yarns, from 0 to below 1. The whole mesh is made again.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for another tension.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_tension", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_tension(texere_live* live, float tension);
+
+        /// <summary>
+        ///  Replaces the structure by that of a design, such as a knit with another stitch or a weave with
+        ///  other threads. Yarns lie as the structure places them. The tension of splines stays. Yarns that
+        ///  are the same in both are not made again.
+        ///
+        ///  Fails with TEXERE_DESIGN where the yarns of the structure can't be made, and as
+        ///  `texere_live_of_cloth` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_structure", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_structure(texere_live* live, texere_design* design);
+
+        /// <summary>
+        ///  Replaces all yarns. Yarns that are the same in both are not made again. The cloth is known by
+        ///  its yarns alone from then on: lifts can't be set.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for yarns of another tension, and as `texere_live_of_cloth` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_yarns(texere_live* live, texere_yarns* yarns);
+
+        /// <summary>
+        ///  Replaces all yarns by those of the same cloth at rest, and keeps the weave. Threads whose lifts
+        ///  are set later lie as they are woven, among those at rest.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for yarns of another tension, and where there are more or fewer yarns
+        ///  or sections than the cloth has.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_set_rest", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_set_rest(texere_live* live, texere_yarns* yarns);
+
+        /// <summary>
         ///  What went wrong in the last call of this thread that failed, with all its causes, in one line of
         ///  UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
         ///  call of this thread fails.
@@ -409,6 +626,86 @@ namespace Texere
         internal static extern byte* texere_version();
 
         /// <summary>
+        ///  Makes a live cloth of a cloth, with its mesh on a device. Lifts of a woven cloth can be set.
+        ///  `settings` may be null: `texere_settings_default` says what holds then.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY where the mesh has no
+        ///  room on the device, and with TEXERE_UNSUPPORTED where the device can't keep a mesh.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_of_cloth", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_of_cloth(texere_cloth* cloth, texere_device* device, texere_settings* settings, texere_live** @out);
+
+        /// <summary>
+        ///  Makes a live cloth of yarns, with its mesh on a device. It has no weave, so lifts can't be set.
+        ///  `settings` may be null: `texere_settings_default` says what holds then.
+        ///
+        ///  Fails as `texere_live_of_cloth` does.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_of_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_of_yarns(texere_yarns* yarns, texere_device* device, texere_settings* settings, texere_live** @out);
+
+        /// <summary>
+        ///  Makes the parts of the mesh again that edits have changed, and writes which they are. The first
+        ///  update makes the whole mesh. The caller has set `update-&gt;struct_size`.
+        ///
+        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
+        ///  parts again.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_update", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_update(texere_live* live, texere_update* update);
+
+        /// <summary>
+        ///  Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
+        ///  room between yarns, too, in which yarns can become longer. The caller has set
+        ///  `counts-&gt;struct_size`.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_counts", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_counts(texere_live* live, texere_counts* counts);
+
+        /// <summary>
+        ///  Lends the draws of a live cloth's mesh as of its last update: `texere_live_counts` says how many
+        ///  there are. What lies between them is room, and is not drawn. They are valid until the next
+        ///  update, or until the live cloth is freed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_draws", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_draws(texere_live* live, texere_draw** draws);
+
+        /// <summary>
+        ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
+        ///  between yarns holds is not said.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
+        ///  `texere_live_counts` says, and where an edit has not been brought to the mesh by
+        ///  `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_mesh(texere_live* live, texere_run* run, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+
+        /// <summary>
+        ///  Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
+        ///  last update. Indices count from the base vertex of their draw, as in the whole mesh.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
+        ///  `index_count` is not what it says, and where an edit has not been brought to the mesh by
+        ///  `texere_live_update`.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_read(texere_live* live, texere_change* change, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+
+        /// <summary>
+        ///  Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+        ///  when the live cloth is edited or freed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_yarns(texere_live* live, texere_yarns** @out);
+
+        /// <summary>
+        ///  Frees a live cloth, or nothing where it is null.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_live_free(texere_live* live);
+
+        /// <summary>
         ///  Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
         ///  air in the yarn: 0.909 is usual for cotton.
         ///
@@ -416,6 +713,23 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_diameter", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_diameter(double tex, double density, double* diameter_mm);
+
+        /// <summary>
+        ///  Writes the measures of a cloth. The caller has set `measures-&gt;struct_size`.
+        ///
+        ///  Fails with TEXERE_DESIGN where they can't be taken.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_cloth_measures", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_cloth_measures(texere_cloth* cloth, texere_measures* measures);
+
+        /// <summary>
+        ///  Writes the length of yarn of each material of a cloth, mm: as many as `materials` of
+        ///  `texere_cloth_measures` says.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where `count` is another number.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_cloth_lengths", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_cloth_lengths(texere_cloth* cloth, double* lengths, ulong count);
 
         /// <summary>
         ///  Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
@@ -472,6 +786,61 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_trajectory", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_trajectory(texere_plan* plan, texere_run* run, texere_view* rings);
+
+        /// <summary>
+        ///  Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
+        ///  not suffice.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_picker_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_picker_new(texere_yarns* yarns, texere_settings* settings, texere_picker** @out);
+
+        /// <summary>
+        ///  Writes what a ray hits first, from either side; of several at one distance the first along the
+        ///  yarns. A ray that goes nowhere, or whose numbers are not finite, hits nothing.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_picker_pick", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_picker_pick(texere_picker* picker, texere_ray* ray, texere_hit* hit);
+
+        /// <summary>
+        ///  Writes what a weaver or a knitter calls the place of a hit in a cloth, such as
+        ///  `end 3 at pick 4, cotton`. In a weft knit the place in its program follows. The hit is that of a
+        ///  picker of the cloth's yarns.
+        ///
+        ///  `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
+        ///  has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
+        ///  null.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
+        ///  above the length.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_cloth_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_cloth_place(texere_cloth* cloth, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
+
+        /// <summary>
+        ///  Writes what a ray hits first in a live cloth as it is now; edits count before an update.
+        ///
+        ///  Fails with TEXERE_MEMORY where memory does not suffice.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_pick", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_pick(texere_live* live, texere_ray* ray, texere_hit* hit);
+
+        /// <summary>
+        ///  Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as
+        ///  `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
+        ///  is the yarn alone.
+        ///
+        ///  Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_place(texere_live* live, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
+
+        /// <summary>
+        ///  Frees a picker, or nothing where it is null.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_picker_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_picker_free(texere_picker* picker);
 
         /// <summary>
         ///  Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
@@ -800,6 +1169,101 @@ namespace Texere
     }
 
     /// <summary>
+    ///  The check of a cloth: how near its yarns come to one another, its faults, and their cures.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_check
+    {
+    }
+
+    /// <summary>
+    ///  A fault of a cloth.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_fault
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  A number that begins with TEXERE_FAULT; it says what `value` is.
+        /// </summary>
+        public uint kind;
+        /// <summary>
+        ///  How bad it is. NaN where the kind has no value.
+        /// </summary>
+        public double value;
+        /// <summary>
+        ///  Where it is, mm. NaN where it has no one place.
+        /// </summary>
+        public fixed double position[3];
+        /// <summary>
+        ///  The fault in words, with the threads that it is of: UTF-8 that ends with a zero byte, valid
+        ///  until the check is freed.
+        /// </summary>
+        public byte* words;
+    }
+
+    /// <summary>
+    ///  What a check has found.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_diagnosis
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  1 if there is no fault, else 0.
+        /// </summary>
+        public uint clean;
+        /// <summary>
+        ///  "clean", or the faults in one phrase, such as "pierces itself, folds": UTF-8 that ends with
+        ///  a zero byte, valid until the check is freed.
+        /// </summary>
+        public byte* words;
+        /// <summary>
+        ///  Contacts that are nearer than this pierce.
+        /// </summary>
+        public double touching;
+        /// <summary>
+        ///  How near yarns come to one another at the least: 1 where they just touch. Infinite where
+        ///  none come near; NaN where all places are crowded.
+        /// </summary>
+        public double clearance;
+        /// <summary>
+        ///  How many places there are where two yarns come near one another.
+        /// </summary>
+        public ulong contacts;
+        /// <summary>
+        ///  How many of the contacts are nearer than 1 by more than 0.001.
+        /// </summary>
+        public ulong below_one;
+        /// <summary>
+        ///  The radius of the tightest bend in radii of the yarn. Infinite where all yarns are straight.
+        /// </summary>
+        public double bend;
+        /// <summary>
+        ///  The least width of a tube of the mesh half way between two rings, in radii of the yarn.
+        /// </summary>
+        public double width;
+        /// <summary>
+        ///  How many triangles of the mesh face inwards.
+        /// </summary>
+        public ulong inwards;
+        /// <summary>
+        ///  How many faults `texere_check_fault` gives: 100 of each kind at most.
+        /// </summary>
+        public ulong faults;
+        /// <summary>
+        ///  How many warnings `texere_check_warning` gives.
+        /// </summary>
+        public ulong warnings;
+    }
+
+    /// <summary>
     ///  The cloth of a design: its yarns, and how they came to rest.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -878,6 +1342,34 @@ namespace Texere
         ///  Bytes of memory that it has; 0 where it does not say so.
         /// </summary>
         public ulong memory_bytes;
+    }
+
+    /// <summary>
+    ///  What a yarn is made of, apart from its control points.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_yarn
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Its material, from 0.
+        /// </summary>
+        public uint material;
+        /// <summary>
+        ///  Its section, from 0.
+        /// </summary>
+        public uint section;
+        /// <summary>
+        ///  1 if its last control point joins up with its first, else 0.
+        /// </summary>
+        public uint closed;
+        /// <summary>
+        ///  Its twist, radians a mm; positive is Z twist.
+        /// </summary>
+        public float twist;
     }
 
     /// <summary>
@@ -1051,6 +1543,69 @@ namespace Texere
     }
 
     /// <summary>
+    ///  A cloth that is being edited, and its whole mesh on a device. One thread at a time may use it: a
+    ///  call fails with TEXERE_ARGUMENT while a call of another thread is using it.
+    ///
+    ///  An edit counts at once for `texere_live_yarns` and `texere_live_pick`. `texere_live_update`
+    ///  brings it to the mesh. To undo an edit, set the old value again.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_live
+    {
+    }
+
+    /// <summary>
+    ///  A stretch of vertices and indices that an update has made again. Both count from the start of
+    ///  the whole mesh.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_change
+    {
+        /// <summary>
+        ///  The first vertex.
+        /// </summary>
+        public ulong first_vertex;
+        /// <summary>
+        ///  How many vertices there are.
+        /// </summary>
+        public ulong vertex_count;
+        /// <summary>
+        ///  The first index.
+        /// </summary>
+        public ulong first_index;
+        /// <summary>
+        ///  How many indices there are: none unless the topology is TEXERE_TOPOLOGY_INDEXED.
+        /// </summary>
+        public ulong index_count;
+    }
+
+    /// <summary>
+    ///  What an update has made again.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_update
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
+        ///  and places of everything may be others. Else 0.
+        /// </summary>
+        public uint anew;
+        /// <summary>
+        ///  The stretches that were made again, valid until the next update of this live cloth, or until
+        ///  it is freed.
+        /// </summary>
+        public texere_change* changes;
+        /// <summary>
+        ///  How many there are.
+        /// </summary>
+        public ulong change_count;
+    }
+
+    /// <summary>
     ///  What yarns are made of.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -1133,6 +1688,100 @@ namespace Texere
         ///  How many sections.
         /// </summary>
         public ulong section_count;
+    }
+
+    /// <summary>
+    ///  Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_measures
+    {
+        /// <summary>
+        ///  Bytes of this struct, which the caller sets.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  Wales of a knit; 0 of woven cloth.
+        /// </summary>
+        public uint wales;
+        /// <summary>
+        ///  Courses of a knit; 0 of woven cloth.
+        /// </summary>
+        public uint courses;
+        /// <summary>
+        ///  How many materials there are: `texere_cloth_lengths` gives the length of each.
+        /// </summary>
+        public uint materials;
+        /// <summary>
+        ///  Loops of a knit; 0 of woven cloth.
+        /// </summary>
+        public ulong loops;
+        /// <summary>
+        ///  Width of the cloth, mm.
+        /// </summary>
+        public double width;
+        /// <summary>
+        ///  Height of the cloth, mm.
+        /// </summary>
+        public double height;
+        /// <summary>
+        ///  Thickness without load, mm.
+        /// </summary>
+        public double thickness;
+        /// <summary>
+        ///  Length of all yarn, mm.
+        /// </summary>
+        public double length;
+        /// <summary>
+        ///  Weight, g/m². NaN unless every material that is used has a tex.
+        /// </summary>
+        public double areal_weight;
+        /// <summary>
+        ///  Crimp of the warp: length of yarn over length of cloth, less 1. NaN of a knit.
+        /// </summary>
+        public double warp_crimp;
+        /// <summary>
+        ///  Crimp of the weft.
+        /// </summary>
+        public double weft_crimp;
+        /// <summary>
+        ///  The share of the cloth's width that ends cover, from 0 to 1. NaN of a knit.
+        /// </summary>
+        public double warp_cover;
+        /// <summary>
+        ///  The share of the cloth's length that picks cover.
+        /// </summary>
+        public double weft_cover;
+        /// <summary>
+        ///  The share of the cloth that is covered.
+        /// </summary>
+        public double cover;
+        /// <summary>
+        ///  Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
+        ///  of a knit, and unless every material that is used has a tex.
+        /// </summary>
+        public double warp_cover_factor;
+        /// <summary>
+        ///  Peirce's cover factor of the weft.
+        /// </summary>
+        public double weft_cover_factor;
+        /// <summary>
+        ///  Peirce's cover factor of the cloth.
+        /// </summary>
+        public double cover_factor;
+        /// <summary>
+        ///  Length of yarn in a loop, mm. NaN of woven cloth.
+        /// </summary>
+        public double loop_length;
+        /// <summary>
+        ///  Loops to the square centimetre. NaN of woven cloth.
+        /// </summary>
+        public double loops_per_cm2;
+        /// <summary>
+        ///  The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
+        ///  are used have one and the same tex.
+        /// </summary>
+        public double tightness;
     }
 
     /// <summary>
@@ -1259,6 +1908,74 @@ namespace Texere
         ///  Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
         /// </summary>
         public uint lean;
+    }
+
+    /// <summary>
+    ///  Says what a ray hits first of the mesh of yarns, without the mesh.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_picker
+    {
+    }
+
+    /// <summary>
+    ///  A ray.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_ray
+    {
+        /// <summary>
+        ///  Where it starts, mm.
+        /// </summary>
+        public fixed double origin[3];
+        /// <summary>
+        ///  Where it goes: a direction of any length but 0.
+        /// </summary>
+        public fixed double direction[3];
+    }
+
+    /// <summary>
+    ///  What a ray hits first.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_hit
+    {
+        /// <summary>
+        ///  1 if the ray hits anything; else 0, and everything else is 0 as well.
+        /// </summary>
+        public uint found;
+        /// <summary>
+        ///  The yarn, from 0.
+        /// </summary>
+        public uint yarn;
+        /// <summary>
+        ///  The ring before the triangle, from the start of the yarn.
+        /// </summary>
+        public uint ring;
+        /// <summary>
+        ///  The corner of the section before the triangle, from 0; 0 on a cap.
+        /// </summary>
+        public uint side;
+        /// <summary>
+        ///  A number that begins with TEXERE_CAP.
+        /// </summary>
+        public uint cap;
+        /// <summary>
+        ///  The control interval of the yarn, from 0: that between this control point and the next.
+        /// </summary>
+        public uint interval;
+        /// <summary>
+        ///  How far along the interval, from 0 to 1.
+        /// </summary>
+        public double t;
+        /// <summary>
+        ///  Distance from the start of the ray, in lengths of its direction: mm where that has length 1.
+        /// </summary>
+        public double distance;
+        /// <summary>
+        ///  The point that is hit, mm.
+        /// </summary>
+        public fixed double position[3];
     }
 
     /// <summary>

@@ -4,8 +4,9 @@
 // wrong, and texere_error_place where in a design's file. What a `_free` function takes may be null,
 // or freed already. A handle is looked up and never followed, so a handle that was freed is refused.
 //
-// Handles may be used by several threads at once. A handle that is freed while another thread's call
-// uses it lives until that call ends.
+// Handles may be used by several threads at once, unless their description says that one thread at a
+// time may use them. A handle that is freed while another thread's call uses it lives until that call
+// ends.
 //
 // Strings are UTF-8 with a length in bytes. Lengths are in mm, angles in radians; x runs along the
 // weft or the courses, y along the warp or the wales, z out of the technical face.
@@ -22,6 +23,35 @@
 // The number of the binary interface. A program compares it with `texere_abi` of the library
 // that it has loaded: they are equal, or the program can't use that library.
 #define TEXERE_ABI 1
+
+// The share by which yarns may come short of touching and still count as touching, as a rule.
+#define TEXERE_ACCURACY 0.015
+
+// More yarn lies in a place than there is room for, or too many parts of yarns to measure them
+// pair by pair. The value is the yarns' volume over the room.
+#define TEXERE_FAULT_CROWDED 0
+
+// Two yarns pierce one another. The value is how near they come: 1 where they just touch.
+#define TEXERE_FAULT_PIERCES 1
+
+// A bend is tighter than the tube is thick. The value is its radius in radii of the yarn.
+#define TEXERE_FAULT_FOLDS 2
+
+// A thread lies too close to the one before for crossing threads to pass. The value is their
+// distance over the one that is needed. There is no one place.
+#define TEXERE_FAULT_JAMS 3
+
+// The cloth does not hang together. The value is the number of its pieces. There is no one place.
+#define TEXERE_FAULT_APART 4
+
+// The mesh is wrung between two rings. The value is its width there in radii of the yarn.
+#define TEXERE_FAULT_WRUNG 5
+
+// Triangles of the mesh face inwards. The value is how many; the place is that of the first.
+#define TEXERE_FAULT_INSIDE_OUT 6
+
+// A knitting machine can't do a step of the program. There is neither a value nor a place.
+#define TEXERE_FAULT_MACHINE 7
 
 // The yarns are where the structure places them: the design does not ask for more.
 #define TEXERE_PLACED 0
@@ -81,6 +111,15 @@
 
 // The outline in `corners`, 3 to 256 of them.
 #define TEXERE_SECTION_POLYGON 5
+
+// No cap: the hit is on the side of the yarn.
+#define TEXERE_CAP_NONE 0
+
+// The cap that closes the start of the yarn.
+#define TEXERE_CAP_START 1
+
+// The cap that closes the end of the yarn.
+#define TEXERE_CAP_FINISH 2
 
 // The whole cloth from straight above its face.
 #define TEXERE_VIEW_FACE 0
@@ -210,6 +249,9 @@ typedef enum texere_status {
   TEXERE_PANIC = 8,
 } texere_status;
 
+// The check of a cloth: how near its yarns come to one another, its faults, and their cures.
+typedef struct texere_check texere_check;
+
 // The cloth of a design: its yarns, and how they came to rest.
 typedef struct texere_cloth texere_cloth;
 
@@ -219,6 +261,16 @@ typedef struct texere_design texere_design;
 
 // An open device: a GPU, or the CPU.
 typedef struct texere_device texere_device;
+
+// A cloth that is being edited, and its whole mesh on a device. One thread at a time may use it: a
+// call fails with TEXERE_ARGUMENT while a call of another thread is using it.
+//
+// An edit counts at once for `texere_live_yarns` and `texere_live_pick`. `texere_live_update`
+// brings it to the mesh. To undo an edit, set the old value again.
+typedef struct texere_live texere_live;
+
+// Says what a ray hits first of the mesh of yarns, without the mesh.
+typedef struct texere_picker texere_picker;
 
 // The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
 //
@@ -243,6 +295,69 @@ typedef struct texere_session texere_session;
 
 // Yarns: their control points, sections and materials.
 typedef struct texere_yarns texere_yarns;
+
+// What can be chosen about a mesh. `texere_settings_default` fills it in.
+typedef struct texere_settings {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Points that are inserted between two control points, from 0.
+  uint32_t subdivisions;
+  // Sides of the tubes, from 3.
+  uint32_t sides;
+  // A number that begins with TEXERE_FRAME.
+  uint32_t frame;
+  // A number that begins with TEXERE_TOPOLOGY.
+  uint32_t topology;
+  // 1 if the ends of yarns are closed, else 0.
+  uint32_t caps;
+  // The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
+  float quantum_mm;
+} texere_settings;
+
+// What a check has found.
+typedef struct texere_diagnosis {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // 1 if there is no fault, else 0.
+  uint32_t clean;
+  // "clean", or the faults in one phrase, such as "pierces itself, folds": UTF-8 that ends with
+  // a zero byte, valid until the check is freed.
+  const char *words;
+  // Contacts that are nearer than this pierce.
+  double touching;
+  // How near yarns come to one another at the least: 1 where they just touch. Infinite where
+  // none come near; NaN where all places are crowded.
+  double clearance;
+  // How many places there are where two yarns come near one another.
+  uint64_t contacts;
+  // How many of the contacts are nearer than 1 by more than 0.001.
+  uint64_t below_one;
+  // The radius of the tightest bend in radii of the yarn. Infinite where all yarns are straight.
+  double bend;
+  // The least width of a tube of the mesh half way between two rings, in radii of the yarn.
+  double width;
+  // How many triangles of the mesh face inwards.
+  uint64_t inwards;
+  // How many faults `texere_check_fault` gives: 100 of each kind at most.
+  uint64_t faults;
+  // How many warnings `texere_check_warning` gives.
+  uint64_t warnings;
+} texere_diagnosis;
+
+// A fault of a cloth.
+typedef struct texere_fault {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // A number that begins with TEXERE_FAULT; it says what `value` is.
+  uint32_t kind;
+  // How bad it is. NaN where the kind has no value.
+  double value;
+  // Where it is, mm. NaN where it has no one place.
+  double position[3];
+  // The fault in words, with the threads that it is of: UTF-8 that ends with a zero byte, valid
+  // until the check is freed.
+  const char *words;
+} texere_fault;
 
 // How the yarns of a cloth came to rest.
 typedef struct texere_report {
@@ -281,6 +396,50 @@ typedef struct texere_device_info {
   uint64_t memory_bytes;
 } texere_device_info;
 
+// What a yarn is made of, apart from its control points.
+typedef struct texere_yarn {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Its material, from 0.
+  uint32_t material;
+  // Its section, from 0.
+  uint32_t section;
+  // 1 if its last control point joins up with its first, else 0.
+  uint32_t closed;
+  // Its twist, radians a mm; positive is Z twist.
+  float twist;
+} texere_yarn;
+
+// A place on the centreline of a yarn, mm.
+typedef struct texere_point {
+  // Along the weft or the courses.
+  float x;
+  // Along the warp or the wales.
+  float y;
+  // Out of the technical face.
+  float z;
+  // Half the width of the yarn, across the cloth.
+  float half_width;
+  // Half the height of the yarn, out of the cloth. A round yarn has its half width.
+  float half_height;
+} texere_point;
+
+// What yarns are made of.
+typedef struct texere_material {
+  // Its name, UTF-8.
+  const char *name;
+  // Bytes of the name.
+  size_t name_length;
+  // Linear density, tex; 0 where it is not known.
+  float tex;
+  // Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+  float hairiness;
+  // Red, green and blue, sRGB.
+  uint8_t srgb[3];
+  // Zero.
+  uint8_t reserved;
+} texere_material;
+
 // A place in a design's file.
 typedef struct texere_place {
   // The file's name, UTF-8 that ends with a zero byte; null where the error has no place. It is
@@ -318,6 +477,70 @@ typedef struct texere_finish {
   double stretch_by;
 } texere_finish;
 
+// A stretch of vertices and indices that an update has made again. Both count from the start of
+// the whole mesh.
+typedef struct texere_change {
+  // The first vertex.
+  uint64_t first_vertex;
+  // How many vertices there are.
+  uint64_t vertex_count;
+  // The first index.
+  uint64_t first_index;
+  // How many indices there are: none unless the topology is TEXERE_TOPOLOGY_INDEXED.
+  uint64_t index_count;
+} texere_change;
+
+// What an update has made again.
+typedef struct texere_update {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // 1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
+  // and places of everything may be others. Else 0.
+  uint32_t anew;
+  // The stretches that were made again, valid until the next update of this live cloth, or until
+  // it is freed.
+  const struct texere_change *changes;
+  // How many there are.
+  uint64_t change_count;
+} texere_update;
+
+// Sizes of a mesh.
+typedef struct texere_counts {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Rings of all yarns.
+  uint64_t rings;
+  // Vertices. A ring at which two chunks meet counts twice.
+  uint64_t vertices;
+  // Indices.
+  uint64_t indices;
+  // Triangles that the draws draw.
+  uint64_t triangles;
+  // Draws.
+  uint64_t draws;
+  // Chunks that the mesh is made in.
+  uint64_t chunks;
+} texere_counts;
+
+// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
+// from outside.
+typedef struct texere_draw {
+  // The first of its indices.
+  uint64_t first_index;
+  // How many indices it has, three a triangle.
+  uint64_t index_count;
+  // What to add to an index to get the number of a vertex.
+  uint64_t base_vertex;
+  // How many vertices from `base_vertex` on its indices may refer to.
+  uint64_t vertex_count;
+  // The yarn, from 0.
+  uint32_t yarn;
+  // Zero.
+  uint32_t reserved;
+} texere_draw;
+
 // A vertex of a tube.
 typedef struct texere_vertex {
   // Position, mm.
@@ -325,6 +548,54 @@ typedef struct texere_vertex {
   // Unit normal, out of the yarn.
   float normal[3];
 } texere_vertex;
+
+// Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN.
+typedef struct texere_measures {
+  // Bytes of this struct, which the caller sets.
+  uint32_t struct_size;
+  // Wales of a knit; 0 of woven cloth.
+  uint32_t wales;
+  // Courses of a knit; 0 of woven cloth.
+  uint32_t courses;
+  // How many materials there are: `texere_cloth_lengths` gives the length of each.
+  uint32_t materials;
+  // Loops of a knit; 0 of woven cloth.
+  uint64_t loops;
+  // Width of the cloth, mm.
+  double width;
+  // Height of the cloth, mm.
+  double height;
+  // Thickness without load, mm.
+  double thickness;
+  // Length of all yarn, mm.
+  double length;
+  // Weight, g/m². NaN unless every material that is used has a tex.
+  double areal_weight;
+  // Crimp of the warp: length of yarn over length of cloth, less 1. NaN of a knit.
+  double warp_crimp;
+  // Crimp of the weft.
+  double weft_crimp;
+  // The share of the cloth's width that ends cover, from 0 to 1. NaN of a knit.
+  double warp_cover;
+  // The share of the cloth's length that picks cover.
+  double weft_cover;
+  // The share of the cloth that is covered.
+  double cover;
+  // Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
+  // of a knit, and unless every material that is used has a tex.
+  double warp_cover_factor;
+  // Peirce's cover factor of the weft.
+  double weft_cover_factor;
+  // Peirce's cover factor of the cloth.
+  double cover_factor;
+  // Length of yarn in a loop, mm. NaN of woven cloth.
+  double loop_length;
+  // Loops to the square centimetre. NaN of woven cloth.
+  double loops_per_cm2;
+  // The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
+  // are used have one and the same tex.
+  double tightness;
+} texere_measures;
 
 // Values that lie in the caller's memory: in an array of their own, or as one member of the
 // structs of an array. `data` and `stride` are multiples of what the values are aligned to.
@@ -351,6 +622,36 @@ typedef struct texere_mesh_arrays {
   // Indices, a `uint32_t` each. Null `data`: left out.
   struct texere_view indices;
 } texere_mesh_arrays;
+
+// A ray.
+typedef struct texere_ray {
+  // Where it starts, mm.
+  double origin[3];
+  // Where it goes: a direction of any length but 0.
+  double direction[3];
+} texere_ray;
+
+// What a ray hits first.
+typedef struct texere_hit {
+  // 1 if the ray hits anything; else 0, and everything else is 0 as well.
+  uint32_t found;
+  // The yarn, from 0.
+  uint32_t yarn;
+  // The ring before the triangle, from the start of the yarn.
+  uint32_t ring;
+  // The corner of the section before the triangle, from 0; 0 on a cap.
+  uint32_t side;
+  // A number that begins with TEXERE_CAP.
+  uint32_t cap;
+  // The control interval of the yarn, from 0: that between this control point and the next.
+  uint32_t interval;
+  // How far along the interval, from 0 to 1.
+  double t;
+  // Distance from the start of the ray, in lengths of its direction: mm where that has length 1.
+  double distance;
+  // The point that is hit, mm.
+  double position[3];
+} texere_hit;
 
 // What a picture shows, and how. `texere_picture_default` fills it in.
 typedef struct texere_picture {
@@ -392,61 +693,6 @@ typedef struct texere_picture {
   // What the picture's height shows, mm.
   float height_mm;
 } texere_picture;
-
-// What can be chosen about a mesh. `texere_settings_default` fills it in.
-typedef struct texere_settings {
-  // Bytes of this struct, which the caller sets.
-  uint32_t struct_size;
-  // Points that are inserted between two control points, from 0.
-  uint32_t subdivisions;
-  // Sides of the tubes, from 3.
-  uint32_t sides;
-  // A number that begins with TEXERE_FRAME.
-  uint32_t frame;
-  // A number that begins with TEXERE_TOPOLOGY.
-  uint32_t topology;
-  // 1 if the ends of yarns are closed, else 0.
-  uint32_t caps;
-  // The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
-  float quantum_mm;
-} texere_settings;
-
-// Sizes of a mesh.
-typedef struct texere_counts {
-  // Bytes of this struct, which the caller sets.
-  uint32_t struct_size;
-  // Zero.
-  uint32_t reserved;
-  // Rings of all yarns.
-  uint64_t rings;
-  // Vertices. A ring at which two chunks meet counts twice.
-  uint64_t vertices;
-  // Indices.
-  uint64_t indices;
-  // Triangles that the draws draw.
-  uint64_t triangles;
-  // Draws.
-  uint64_t draws;
-  // Chunks that the mesh is made in.
-  uint64_t chunks;
-} texere_counts;
-
-// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
-// from outside.
-typedef struct texere_draw {
-  // The first of its indices.
-  uint64_t first_index;
-  // How many indices it has, three a triangle.
-  uint64_t index_count;
-  // What to add to an index to get the number of a vertex.
-  uint64_t base_vertex;
-  // How many vertices from `base_vertex` on its indices may refer to.
-  uint64_t vertex_count;
-  // The yarn, from 0.
-  uint32_t yarn;
-  // Zero.
-  uint32_t reserved;
-} texere_draw;
 
 // A chunk of a plan, and where it lies in the mesh.
 typedef struct texere_chunk {
@@ -612,22 +858,6 @@ typedef struct texere_knit_yarn {
   // Zero.
   uint32_t reserved;
 } texere_knit_yarn;
-
-// What yarns are made of.
-typedef struct texere_material {
-  // Its name, UTF-8.
-  const char *name;
-  // Bytes of the name.
-  size_t name_length;
-  // Linear density, tex; 0 where it is not known.
-  float tex;
-  // Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
-  float hairiness;
-  // Red, green and blue, sRGB.
-  uint8_t srgb[3];
-  // Zero.
-  uint8_t reserved;
-} texere_material;
 
 // The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
 typedef struct texere_section {
@@ -802,20 +1032,6 @@ typedef int32_t (*texere_write_callback)(void *user,
                                          const uint8_t *data,
                                          size_t size);
 
-// A place on the centreline of a yarn, mm.
-typedef struct texere_point {
-  // Along the weft or the courses.
-  float x;
-  // Along the warp or the wales.
-  float y;
-  // Out of the technical face.
-  float z;
-  // Half the width of the yarn, across the cloth.
-  float half_width;
-  // Half the height of the yarn, out of the cloth. A round yarn has its half width.
-  float half_height;
-} texere_point;
-
 // Yarns as the caller's arrays.
 typedef struct texere_yarn_arrays {
   // Bytes of this struct, which the caller sets.
@@ -898,6 +1114,51 @@ uint32_t texere_abi(void);
 // The version of this library, such as "0.1.0". The string ends with a zero byte and is valid as
 // long as the library is loaded.
 const char *texere_version(void);
+
+// Checks a cloth: measures how near its yarns come to one another and how tightly they bend, looks
+// for faults, and for single changes of the design that cure them. A mesh with `settings` is
+// looked at, too; they may be null: `texere_settings_default` says what holds then. Yarns that
+// come short of touching by more than the share `accuracy` pierce: TEXERE_ACCURACY is usual. `run`
+// may be null.
+//
+// A cloth with faults is no failure of the call. It fails with TEXERE_ARGUMENT for settings out of
+// range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED where `run`
+// was cancelled.
+enum texere_status texere_check_new(const struct texere_cloth *cloth,
+                                    const struct texere_settings *settings,
+                                    double accuracy,
+                                    const struct texere_run *run,
+                                    struct texere_check **out);
+
+// Writes what a check has found. The caller has set `diagnosis->struct_size`.
+enum texere_status texere_check_diagnosis(const struct texere_check *check,
+                                          struct texere_diagnosis *diagnosis);
+
+// Writes the fault of a number, from 0. The caller has set `fault->struct_size`.
+//
+// Fails with TEXERE_ARGUMENT where there are fewer.
+enum texere_status texere_check_fault(const struct texere_check *check,
+                                      uint64_t number,
+                                      struct texere_fault *fault);
+
+// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
+// until the check is freed. A warning is no fault.
+//
+// Fails with TEXERE_ARGUMENT where there are fewer.
+enum texere_status texere_check_warning(const struct texere_check *check,
+                                        uint64_t number,
+                                        const char **words);
+
+// Lends the faults and their cures as JSON, as `texere check --json` prints them: UTF-8 that ends
+// with a zero byte, valid until the check is freed.
+enum texere_status texere_check_json(const struct texere_check *check, const char **json);
+
+// Lends the counts and measures of the cloth as JSON, as `texere inspect --json` prints them:
+// UTF-8 that ends with a zero byte, valid until the check is freed.
+enum texere_status texere_check_measures_json(const struct texere_check *check, const char **json);
+
+// Frees a check, or nothing where it is null.
+void texere_check_free(struct texere_check *check);
 
 // Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
 // design asks for it. `run` may be null.
@@ -994,6 +1255,107 @@ enum texere_status texere_design_draft(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);
 
+// Sets whether the warp is up where an end and a pick cross; both count from 0. Both threads then
+// lie as they are woven.
+//
+// Fails with TEXERE_ARGUMENT where there is no such crossing, where `up` is neither 0 nor 1, and
+// in cloth that is not woven or that is known by its yarns alone.
+enum texere_status texere_live_set_lift(const struct texere_live *live,
+                                        uint64_t end,
+                                        uint64_t pick,
+                                        uint32_t up);
+
+// Sets many lifts at once: those of `ends` ends from `first_end` on and `picks` picks from
+// `first_pick` on. `up` has a byte for each crossing, 1 where the warp is up, else 0: pick after
+// pick, and in each the ends in order.
+//
+// Fails as `texere_live_set_lift` does.
+enum texere_status texere_live_set_drawdown(const struct texere_live *live,
+                                            uint64_t first_end,
+                                            uint64_t ends,
+                                            uint64_t first_pick,
+                                            uint64_t picks,
+                                            const uint8_t *up);
+
+// Writes to `up` 1 if the warp is up where an end and a pick cross, else 0; both count from 0.
+//
+// Fails as `texere_live_set_lift` does.
+enum texere_status texere_live_lift(const struct texere_live *live,
+                                    uint64_t end,
+                                    uint64_t pick,
+                                    uint32_t *up);
+
+// Replaces a yarn, counted from 0: what it is made of and its control points, which may be more or
+// fewer than before.
+//
+// Fails with TEXERE_ARGUMENT for a yarn, material or section that there is not, and for points
+// that no yarn can have. The cloth then stays as it was.
+enum texere_status texere_live_set_yarn(const struct texere_live *live,
+                                        uint64_t yarn,
+                                        const struct texere_yarn *what,
+                                        const struct texere_point *points,
+                                        size_t point_count);
+
+// Gives a yarn, counted from 0, other control points, which may be more or fewer than before.
+//
+// Fails as `texere_live_set_yarn` does.
+enum texere_status texere_live_set_points(const struct texere_live *live,
+                                          uint64_t yarn,
+                                          const struct texere_point *points,
+                                          size_t point_count);
+
+// Writes what a yarn is made of as it is now. Its control points are those of `texere_live_yarns`.
+// The caller has set `what->struct_size`.
+//
+// Fails with TEXERE_ARGUMENT where there is no such yarn.
+enum texere_status texere_live_yarn(const struct texere_live *live,
+                                    uint64_t yarn,
+                                    struct texere_yarn *what);
+
+// Changes a material, counted from 0. A mesh holds no colours, so an update makes nothing again.
+//
+// Fails with TEXERE_ARGUMENT where there is no such material, and for one that no yarn can have.
+enum texere_status texere_live_set_material(const struct texere_live *live,
+                                            uint64_t number,
+                                            const struct texere_material *material);
+
+// Writes a material as it is now, counted from 0. Its name ends with a zero byte and is valid
+// until the next call of this function with this live cloth, or until that is freed.
+//
+// Fails with TEXERE_ARGUMENT where there is no such material.
+enum texere_status texere_live_material(const struct texere_live *live,
+                                        uint64_t number,
+                                        struct texere_material *material);
+
+// Sets the tension of the splines of all yarns, from 0 to below 1. The whole mesh is made again.
+//
+// Fails with TEXERE_ARGUMENT for another tension.
+enum texere_status texere_live_set_tension(const struct texere_live *live, float tension);
+
+// Replaces the structure by that of a design, such as a knit with another stitch or a weave with
+// other threads. Yarns lie as the structure places them. The tension of splines stays. Yarns that
+// are the same in both are not made again.
+//
+// Fails with TEXERE_DESIGN where the yarns of the structure can't be made, and as
+// `texere_live_of_cloth` does.
+enum texere_status texere_live_set_structure(const struct texere_live *live,
+                                             const struct texere_design *design);
+
+// Replaces all yarns. Yarns that are the same in both are not made again. The cloth is known by
+// its yarns alone from then on: lifts can't be set.
+//
+// Fails with TEXERE_ARGUMENT for yarns of another tension, and as `texere_live_of_cloth` does.
+enum texere_status texere_live_set_yarns(const struct texere_live *live,
+                                         const struct texere_yarns *yarns);
+
+// Replaces all yarns by those of the same cloth at rest, and keeps the weave. Threads whose lifts
+// are set later lie as they are woven, among those at rest.
+//
+// Fails with TEXERE_ARGUMENT for yarns of another tension, and where there are more or fewer yarns
+// or sections than the cloth has.
+enum texere_status texere_live_set_rest(const struct texere_live *live,
+                                        const struct texere_yarns *yarns);
+
 // What went wrong in the last call of this thread that failed, with all its causes, in one line of
 // UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
 // call of this thread fails.
@@ -1016,11 +1378,95 @@ enum texere_status texere_design_finished(const struct texere_design *design,
                                           const struct texere_finish *finish,
                                           struct texere_design **out);
 
+// Makes a live cloth of a cloth, with its mesh on a device. Lifts of a woven cloth can be set.
+// `settings` may be null: `texere_settings_default` says what holds then.
+//
+// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY where the mesh has no
+// room on the device, and with TEXERE_UNSUPPORTED where the device can't keep a mesh.
+enum texere_status texere_live_of_cloth(const struct texere_cloth *cloth,
+                                        const struct texere_device *device,
+                                        const struct texere_settings *settings,
+                                        struct texere_live **out);
+
+// Makes a live cloth of yarns, with its mesh on a device. It has no weave, so lifts can't be set.
+// `settings` may be null: `texere_settings_default` says what holds then.
+//
+// Fails as `texere_live_of_cloth` does.
+enum texere_status texere_live_of_yarns(const struct texere_yarns *yarns,
+                                        const struct texere_device *device,
+                                        const struct texere_settings *settings,
+                                        struct texere_live **out);
+
+// Makes the parts of the mesh again that edits have changed, and writes which they are. The first
+// update makes the whole mesh. The caller has set `update->struct_size`.
+//
+// Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
+// parts again.
+enum texere_status texere_live_update(const struct texere_live *live, struct texere_update *update);
+
+// Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
+// room between yarns, too, in which yarns can become longer. The caller has set
+// `counts->struct_size`.
+enum texere_status texere_live_counts(const struct texere_live *live, struct texere_counts *counts);
+
+// Lends the draws of a live cloth's mesh as of its last update: `texere_live_counts` says how many
+// there are. What lies between them is room, and is not drawn. They are valid until the next
+// update, or until the live cloth is freed.
+enum texere_status texere_live_draws(const struct texere_live *live,
+                                     const struct texere_draw **draws);
+
+// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
+// between yarns holds is not said.
+//
+// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
+// `texere_live_counts` says, and where an edit has not been brought to the mesh by
+// `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
+enum texere_status texere_live_mesh(const struct texere_live *live,
+                                    const struct texere_run *run,
+                                    struct texere_vertex *vertices,
+                                    uint64_t vertex_count,
+                                    uint32_t *indices,
+                                    uint64_t index_count);
+
+// Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
+// last update. Indices count from the base vertex of their draw, as in the whole mesh.
+//
+// Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
+// `index_count` is not what it says, and where an edit has not been brought to the mesh by
+// `texere_live_update`.
+enum texere_status texere_live_read(const struct texere_live *live,
+                                    const struct texere_change *change,
+                                    struct texere_vertex *vertices,
+                                    uint64_t vertex_count,
+                                    uint32_t *indices,
+                                    uint64_t index_count);
+
+// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+// when the live cloth is edited or freed.
+enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
+
+// Frees a live cloth, or nothing where it is null.
+void texere_live_free(struct texere_live *live);
+
 // Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
 // air in the yarn: 0.909 is usual for cotton.
 //
 // Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
 enum texere_status texere_diameter(double tex, double density, double *diameter_mm);
+
+// Writes the measures of a cloth. The caller has set `measures->struct_size`.
+//
+// Fails with TEXERE_DESIGN where they can't be taken.
+enum texere_status texere_cloth_measures(const struct texere_cloth *cloth,
+                                         struct texere_measures *measures);
+
+// Writes the length of yarn of each material of a cloth, mm: as many as `materials` of
+// `texere_cloth_measures` says.
+//
+// Fails with TEXERE_ARGUMENT where `count` is another number.
+enum texere_status texere_cloth_lengths(const struct texere_cloth *cloth,
+                                        double *lengths,
+                                        uint64_t count);
 
 // Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
 // indices. `run` may be null.
@@ -1075,6 +1521,57 @@ enum texere_status texere_plan_attributes(const struct texere_plan *plan,
 enum texere_status texere_plan_trajectory(const struct texere_plan *plan,
                                           const struct texere_run *run,
                                           const struct texere_view *rings);
+
+// Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
+//
+// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
+// not suffice.
+enum texere_status texere_picker_new(const struct texere_yarns *yarns,
+                                     const struct texere_settings *settings,
+                                     struct texere_picker **out);
+
+// Writes what a ray hits first, from either side; of several at one distance the first along the
+// yarns. A ray that goes nowhere, or whose numbers are not finite, hits nothing.
+enum texere_status texere_picker_pick(const struct texere_picker *picker,
+                                      const struct texere_ray *ray,
+                                      struct texere_hit *hit);
+
+// Writes what a weaver or a knitter calls the place of a hit in a cloth, such as
+// `end 3 at pick 4, cotton`. In a weft knit the place in its program follows. The hit is that of a
+// picker of the cloth's yarns.
+//
+// `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
+// has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
+// null.
+//
+// Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
+// above the length.
+enum texere_status texere_cloth_place(const struct texere_cloth *cloth,
+                                      const struct texere_hit *hit,
+                                      char *words,
+                                      size_t size,
+                                      size_t *length);
+
+// Writes what a ray hits first in a live cloth as it is now; edits count before an update.
+//
+// Fails with TEXERE_MEMORY where memory does not suffice.
+enum texere_status texere_live_pick(const struct texere_live *live,
+                                    const struct texere_ray *ray,
+                                    struct texere_hit *hit);
+
+// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as
+// `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
+// is the yarn alone.
+//
+// Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+enum texere_status texere_live_place(const struct texere_live *live,
+                                     const struct texere_hit *hit,
+                                     char *words,
+                                     size_t size,
+                                     size_t *length);
+
+// Frees a picker, or nothing where it is null.
+void texere_picker_free(struct texere_picker *picker);
 
 // Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
 // samples each, with fibres, on the ground. The caller has set `picture->struct_size`.

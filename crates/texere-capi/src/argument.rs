@@ -1,6 +1,6 @@
 //! What C passes: pointers, texts, structs that say their size.
 
-use std::ffi::c_char;
+use std::ffi::{CStr, c_char};
 
 use crate::failure::Failure;
 
@@ -59,6 +59,15 @@ fn fits<T>(name: &str, count: usize) -> Result<(), Failure> {
     }
 }
 
+/// A number that says yes or no.
+pub(crate) fn flag(name: &str, value: u32) -> Result<bool, Failure> {
+    match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(Failure::argument(format!("{name} is {other}, expected 0 or 1"))),
+    }
+}
+
 /// A text of the caller's.
 ///
 /// # Safety
@@ -103,4 +112,51 @@ pub(crate) unsafe fn sized<T: Copy>(name: &str, pointer: *const T) -> Result<T, 
 /// Makes sure that there is a callback.
 pub(crate) fn given<F>(callback: Option<F>) -> Result<F, Failure> {
     callback.ok_or_else(|| Failure::argument("callback is null"))
+}
+
+/// Lends a text: writes where it is to `to`, which has this name.
+///
+/// # Safety
+///
+/// `to` is valid for a write.
+pub(crate) unsafe fn lend(name: &str, text: &CStr, to: *mut *const c_char) -> Result<(), Failure> {
+    check(name, to)?;
+    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    unsafe { to.write(text.as_ptr()) };
+    Ok(())
+}
+
+/// The one of this number, from 0. `name` is what an error calls it.
+pub(crate) fn numbered<'a, T>(name: &str, all: &'a [T], number: u64) -> Result<&'a T, Failure> {
+    let found = usize::try_from(number).ok().and_then(|number| all.get(number));
+    found.ok_or_else(|| Failure::argument(format!("{name} {number}, but there are {}, from 0", all.len())))
+}
+
+/// Writes the length of `text` to `length`, and the text with a zero byte to `words`, which has
+/// room for `size` bytes. Where `size` is 0 only the length is written.
+///
+/// # Safety
+///
+/// `length` is valid for a write, and `words` for writes of `size` bytes.
+pub(crate) unsafe fn write_text(
+    text: &str,
+    words: *mut c_char,
+    size: usize,
+    length: *mut usize,
+) -> Result<(), Failure> {
+    check("length", length)?;
+    // SAFETY: the caller vouches for it.
+    let room = unsafe { slice_mut("words", words.cast::<u8>(), size) }?;
+    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    unsafe { length.write(text.len()) };
+    if size == 0 {
+        return Ok(());
+    }
+    let needed = text.len() + 1;
+    let Some((zero, letters)) = room.get_mut(..needed).and_then(<[u8]>::split_last_mut) else {
+        return Err(Failure::argument(format!("size is {size}, and the text needs {needed} bytes")));
+    };
+    letters.copy_from_slice(text.as_bytes());
+    *zero = 0;
+    Ok(())
 }

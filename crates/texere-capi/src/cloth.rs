@@ -1,16 +1,17 @@
 //! Cloth: what becomes of a design.
 
 use std::ffi::{CString, c_char};
+use std::sync::OnceLock;
 
-use texere::Yarns;
+use texere::check::Measures;
 use texere::rest::RestReport;
 
-use crate::argument::check_sized;
+use crate::argument::{check_sized, lend, numbered};
 use crate::design::texere_design;
 use crate::device::texere_device;
 use crate::error::guard;
-use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, get_any, give};
+use crate::lendable::lendable;
 use crate::run::{reporter, texere_run};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
@@ -21,7 +22,11 @@ pub struct texere_cloth;
 
 #[derive(Debug)]
 pub(crate) struct Cloth {
-    yarns: Yarns,
+    pub(crate) cloth: texere::Cloth,
+    /// The name of the device on which it came to rest.
+    pub(crate) device: String,
+    /// Taken when they are first asked for.
+    pub(crate) measures: OnceLock<Measures>,
     outcome: u32,
     words: CString,
     warnings: Vec<CString>,
@@ -56,17 +61,17 @@ pub struct texere_report {
 }
 
 impl Cloth {
-    fn new(cloth: texere::Cloth) -> Self {
-        let c = |text: String| CString::new(text.replace('\0', "\u{fffd}")).unwrap_or_default();
+    fn new(cloth: texere::Cloth, device: &str) -> Self {
         let outcome = match cloth.report() {
             RestReport::Placed(_) => TEXERE_PLACED,
             RestReport::Finished(finished) if finished.is_at_rest() => TEXERE_AT_REST,
             RestReport::Finished(_) => TEXERE_NOT_AT_REST,
             _ => TEXERE_REFUSED,
         };
-        let words = c(cloth.report().to_string());
-        let warnings = cloth.warnings().into_iter().map(c).collect();
-        Self { yarns: cloth.into_parts().1, outcome, words, warnings }
+        let words = lendable(cloth.report().to_string());
+        let warnings = cloth.warnings().into_iter().map(lendable).collect();
+        let (device, measures) = (device.to_owned(), OnceLock::new());
+        Self { cloth, device, measures, outcome, words, warnings }
     }
 }
 
@@ -89,7 +94,7 @@ pub unsafe extern "C" fn texere_cloth_rest(
         let (design, device, run) = (get(design)?, get(device)?, get_any(run)?);
         let cloth = (*design).clone().rest(&*device.backend).progress(reporter(run)).run()?;
         // SAFETY: as above.
-        unsafe { give(out, Cloth::new(cloth)) }
+        unsafe { give(out, Cloth::new(cloth, &device.backend.info().name)) }
     })
 }
 
@@ -106,7 +111,7 @@ pub unsafe extern "C" fn texere_cloth_placed(
         unsafe { clear(out) }?;
         let cloth = (*get(design)?).clone().placed(0.0)?;
         // SAFETY: as above.
-        unsafe { give(out, Cloth::new(cloth)) }
+        unsafe { give(out, Cloth::new(cloth, "")) }
     })
 }
 
@@ -143,15 +148,9 @@ pub unsafe extern "C" fn texere_cloth_warning(
     words: *mut *const c_char,
 ) -> texere_status {
     guard(|| {
-        crate::argument::check("words", words)?;
         let cloth = get(cloth)?;
-        let warning = usize::try_from(number).ok().and_then(|number| cloth.warnings.get(number));
-        let warning = warning.ok_or_else(|| {
-            Failure::argument(format!("warning {number}, but there are {}, from 0", cloth.warnings.len()))
-        })?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
-        unsafe { words.write(warning.as_ptr()) };
-        Ok(())
+        // SAFETY: the caller vouches for `words`.
+        unsafe { lend("words", numbered("warning", &cloth.warnings, number)?, words) }
     })
 }
 
@@ -165,7 +164,7 @@ pub unsafe extern "C" fn texere_cloth_yarns(
         // SAFETY: the caller vouches for `out`.
         unsafe {
             clear(out)?;
-            give(out, get(cloth)?.yarns.clone())
+            give(out, get(cloth)?.cloth.yarns().clone())
         }
     })
 }

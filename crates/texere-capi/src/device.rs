@@ -1,12 +1,14 @@
 //! Devices.
 
 use std::ffi::{CString, c_char};
+use std::sync::Arc;
 
 use texere::Backend;
 
 use crate::argument::{check_sized, text};
 use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, give};
+use crate::lendable::lendable;
 use crate::status::texere_status;
 
 /// An open device: a GPU, or the CPU.
@@ -15,7 +17,7 @@ pub struct texere_device;
 
 #[derive(Debug)]
 pub(crate) struct Device {
-    pub(crate) backend: Box<dyn Backend>,
+    pub(crate) backend: Arc<dyn Backend>,
     /// Its name, its maker's name of it and its driver, as C reads them.
     names: [CString; 3],
 }
@@ -60,10 +62,9 @@ pub unsafe extern "C" fn texere_device_open(
             clear(out)?;
             text("name", name, name_length)?
         };
-        let backend = texere::open(if name.is_empty() { "auto" } else { name })?;
+        let backend: Arc<dyn Backend> = texere::open(if name.is_empty() { "auto" } else { name })?.into();
         let info = backend.info();
-        let names = [&info.name, &info.device, &info.driver]
-            .map(|name| CString::new(name.replace('\0', "\u{fffd}")).unwrap_or_default());
+        let names = [&info.name, &info.device, &info.driver].map(lendable);
         // SAFETY: as above.
         unsafe { give(out, Device { backend, names }) }
     })

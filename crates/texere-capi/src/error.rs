@@ -7,6 +7,7 @@ use std::ptr::null;
 
 use crate::argument::check;
 use crate::failure::{Failure, Place};
+use crate::lendable::lendable;
 use crate::status::texere_status;
 use crate::status::texere_status::TEXERE_OK;
 
@@ -28,7 +29,7 @@ pub(crate) fn guard(call: impl FnOnce() -> Result<(), Failure>) -> texere_status
         return TEXERE_OK;
     };
     let Failure { status, message, place } = failure;
-    let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
+    let message = lendable(message);
     LAST.with_borrow_mut(|last| *last = Last { message, place });
     status
 }

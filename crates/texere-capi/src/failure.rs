@@ -9,13 +9,16 @@ use std::path::Path;
 
 use texere::backend::{OutOfMemory, SessionError};
 use texere::check::ContactError;
+use texere::mesh::{LiveError, PickError};
 #[cfg(feature = "render")]
 use texere::picture::RenderError;
 use texere::read::{FilePlace, Refusal};
 use texere::rest::{CrossingsError, FinishError, SettlingError};
+use texere::woven::WovenError;
 use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
 
 use crate::callback::Answer;
+use crate::lendable::lendable;
 use crate::status::texere_status;
 use crate::status::texere_status::*;
 
@@ -73,6 +76,11 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(held) = error.downcast_ref().and_then(io::Error::get_ref) {
         return status_of(held);
     }
+    of_cloth(error).or_else(|| of_mesh(error))
+}
+
+/// The status of an error of a design or of its cloth.
+fn of_cloth(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
         return status_of(&**error);
     }
@@ -103,6 +111,11 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(Refusal::Other(error)) = error.downcast_ref() {
         return status_of(error);
     }
+    None
+}
+
+/// The status of an error of a device, or of a mesh and what becomes of it.
+fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(error) = error.downcast_ref() {
         return Some(match error {
             BackendError::OutOfMemory(_) => TEXERE_MEMORY,
@@ -111,12 +124,25 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
             | BackendError::NoCrossings { .. }
             | BackendError::NoAttributes
             | BackendError::NoPacking
+            | BackendError::NoEditing
             | BackendError::Unsupported { .. } => TEXERE_UNSUPPORTED,
             _ => TEXERE_DEVICE,
         });
     }
     if let Some(SessionError::Backend(error)) = error.downcast_ref() {
         return status_of(error);
+    }
+    if let Some(PickError::OutOfMemory(_)) = error.downcast_ref() {
+        return Some(TEXERE_MEMORY);
+    }
+    if let Some(error) = error.downcast_ref::<LiveError>() {
+        return match error {
+            LiveError::Fabric(FabricError::Woven(WovenError::NoCrossing { .. })) => None,
+            LiveError::Fabric(error) => status_of(error),
+            LiveError::Pick(error) => status_of(error),
+            LiveError::Session(error) => status_of(error),
+            _ => None,
+        };
     }
     if let Some(error) = error.downcast_ref::<PipelineError>() {
         return match error {
@@ -148,7 +174,7 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
 /// Where in a design's file an error lies, where it says so.
 fn place_of(error: &(dyn Error + 'static)) -> Option<Place> {
     let at = |file: &Path, line: usize, column: usize| {
-        let file = CString::new(file.to_string_lossy().replace('\0', "\u{fffd}")).unwrap_or_default();
+        let file = lendable(file.to_string_lossy());
         Some(Place { file, line: line as u64, column: column as u64 })
     };
     if let Some(error) = error.downcast_ref::<Box<ReadError>>() {

@@ -1,8 +1,8 @@
 //! texere for C, and for every language that calls C.
 //!
 //! ```text
-//! texere_device_open ─┐
-//! texere_design_read ─┴> texere_cloth_rest ─> texere_plan_new ─> texere_plan_mesh
+//! texere_device_open ─┐                       ┌> texere_plan_new ─> texere_plan_mesh
+//! texere_design_read ─┴> texere_cloth_rest ───┴> texere_live_of_cloth ─> texere_live_update
 //! ```
 //!
 //! `include/texere.h` is made from this crate by cbindgen; a test holds the two equal. docs/C.md
@@ -15,8 +15,9 @@
 //! - Handles are numbers in the shape of pointers. The library looks each of them up, so a handle
 //!   that was freed, or that is of another kind, is refused and never followed.
 //! - A `_free` function takes a null handle, and one that was freed already.
-//! - Handles may be used by several threads at once. A handle that is freed while another thread's
-//!   call uses it lives until that call ends.
+//! - Handles may be used by several threads at once, unless their description says that one thread
+//!   at a time may use them. A handle that is freed while another thread's call uses it lives until
+//!   that call ends.
 //! - Strings are UTF-8 with a length in bytes. Strings that the library lends end with a zero byte.
 //! - Lengths are in mm, angles in radians.
 //!
@@ -29,20 +30,26 @@
 
 mod argument;
 mod callback;
+mod check;
 mod cloth;
 mod design;
 mod device;
 mod draft;
 #[cfg(feature = "render")]
 mod drawing;
+mod edits;
 mod error;
 mod failure;
 mod finish;
 mod handle;
+mod lendable;
 mod lent;
+mod live;
 mod material;
+mod measures;
 mod mesh;
 mod outputs;
+mod picker;
 mod picture;
 mod plan;
 mod renderer;
@@ -61,16 +68,21 @@ mod woven;
 mod write;
 mod yarns;
 
+pub use check::*;
 pub use cloth::*;
 pub use design::*;
 pub use device::*;
 pub use draft::*;
+pub use edits::*;
 pub use error::*;
 pub use finish::*;
 pub use lent::*;
+pub use live::*;
 pub use material::*;
+pub use measures::*;
 pub use mesh::*;
 pub use outputs::*;
+pub use picker::*;
 pub use picture::*;
 pub use plan::*;
 pub use renderer::*;

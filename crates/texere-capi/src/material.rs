@@ -120,7 +120,12 @@ impl texere_looks {
 }
 
 impl texere_material {
-    unsafe fn read(&self, name: &str) -> Result<Material, Failure> {
+    /// The material. `name` is the argument's.
+    ///
+    /// # Safety
+    ///
+    /// The text is valid for reads.
+    pub(crate) unsafe fn read(&self, name: &str) -> Result<Material, Failure> {
         let &Self { name: text_at, name_length, tex, hairiness, srgb, .. } = self;
         if !(0.0..=f32::MAX).contains(&tex) {
             return Err(Failure::argument(format!("{name}.tex is {tex}, expected a number from 0")));

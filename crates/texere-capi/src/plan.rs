@@ -86,33 +86,40 @@ pub struct texere_draw {
     pub reserved: u32,
 }
 
+/// The sizes and the draws of a mesh in these chunks of a plan, and where the draws of each chunk
+/// begin and end.
+pub(crate) fn shape(plan: &Plan, chunks: &[Chunk]) -> (texere_counts, Vec<texere_draw>, Vec<usize>) {
+    let (mut draws, mut draw_offsets) = (Vec::new(), vec![0]);
+    for chunk in chunks {
+        draws.extend(plan.draws(chunk).map(|draw| texere_draw {
+            first_index: draw.indices.start,
+            index_count: draw.indices.end - draw.indices.start,
+            base_vertex: draw.base_vertex,
+            vertex_count: draw.vertices,
+            yarn: draw.yarn,
+            reserved: 0,
+        }));
+        draw_offsets.push(draws.len());
+    }
+    let [vertices, indices] = plan.mesh_lengths(chunks);
+    let counts = texere_counts {
+        struct_size: size_of::<texere_counts>() as u32,
+        reserved: 0,
+        rings: plan.counts().rings,
+        vertices,
+        indices,
+        triangles: plan.counts().triangles,
+        draws: draws.len() as u64,
+        chunks: chunks.len() as u64,
+    };
+    (counts, draws, draw_offsets)
+}
+
 impl Planned {
     fn new(yarns: Arc<Yarns>, device: Arc<Device>, settings: Settings) -> Result<Self, Failure> {
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let chunks: Vec<Chunk> = plan.chunks(&LIMITS.min(&device.backend.info().limits))?.collect();
-        let (mut draws, mut draw_offsets) = (Vec::new(), vec![0]);
-        for chunk in &chunks {
-            draws.extend(plan.draws(chunk).map(|draw| texere_draw {
-                first_index: draw.indices.start,
-                index_count: draw.indices.end - draw.indices.start,
-                base_vertex: draw.base_vertex,
-                vertex_count: draw.vertices,
-                yarn: draw.yarn,
-                reserved: 0,
-            }));
-            draw_offsets.push(draws.len());
-        }
-        let [vertices, indices] = plan.mesh_lengths(&chunks);
-        let counts = texere_counts {
-            struct_size: size_of::<texere_counts>() as u32,
-            reserved: 0,
-            rings: plan.counts().rings,
-            vertices,
-            indices,
-            triangles: plan.counts().triangles,
-            draws: draws.len() as u64,
-            chunks: chunks.len() as u64,
-        };
+        let (counts, draws, draw_offsets) = shape(&plan, &chunks);
         Ok(Self { yarns, device, settings, plan, chunks, draws, draw_offsets, counts })
     }
 

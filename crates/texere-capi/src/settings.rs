@@ -3,7 +3,7 @@
 use texere::Settings;
 use texere::mesh::{Frame, Quantum, Topology};
 
-use crate::argument::{check_sized, sized};
+use crate::argument::{check_sized, flag, sized};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::get;
@@ -67,11 +67,7 @@ pub(crate) unsafe fn chosen(
         TEXERE_TOPOLOGY_NONE => Topology::None,
         other => return Err(Failure::argument(format!("settings.topology is {other}, expected 0 to 2"))),
     };
-    let caps = match given.caps {
-        0 => false,
-        1 => true,
-        other => return Err(Failure::argument(format!("settings.caps is {other}, expected 0 or 1"))),
-    };
+    let caps = flag("settings.caps", given.caps)?;
     let mm = given.quantum_mm;
     let quantum = Quantum::of(mm).ok_or_else(|| {
         Failure::argument(format!("settings.quantum_mm is {mm}, expected a power of two from 2^-24 to 2^11"))

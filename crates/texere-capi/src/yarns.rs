@@ -22,7 +22,7 @@ impl Handle for texere_yarns {
 
 /// A place on the centreline of a yarn, mm.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct texere_point {
     /// Along the weft or the courses.
     pub x: f32,
@@ -34,6 +34,12 @@ pub struct texere_point {
     pub half_width: f32,
     /// Half the height of the yarn, out of the cloth. A round yarn has its half width.
     pub half_height: f32,
+}
+
+impl From<texere_point> for ControlPoint {
+    fn from(texere_point { x, y, z, half_width, half_height }: texere_point) -> Self {
+        Self { halves: Halves::new(half_width, half_height), ..Self::new(x, y, z, half_width) }
+    }
 }
 
 /// Yarns as the caller's arrays.
@@ -106,13 +112,7 @@ pub unsafe extern "C" fn texere_yarns_new(
                 if given.twist.is_null() { None } else { Some(slice("arrays.twist", given.twist, count)?) },
             )
         };
-        let points: Vec<ControlPoint> = points
-            .iter()
-            .map(|&texere_point { x, y, z, half_width, half_height }| ControlPoint {
-                halves: Halves::new(half_width, half_height),
-                ..ControlPoint::new(x, y, z, half_width)
-            })
-            .collect();
+        let points: Vec<ControlPoint> = points.iter().map(|&point| point.into()).collect();
         let mut yarns = Yarns::builder();
         yarns.tension(given.tension);
         for (number, bounds) in offsets.windows(2).enumerate() {

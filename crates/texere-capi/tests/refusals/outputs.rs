@@ -6,8 +6,9 @@ use std::ptr::{null, null_mut};
 use texere_c::*;
 
 use crate::common::sized;
+use crate::handles::Handles;
+use crate::mesh::settings;
 use crate::tools::{Case, case, handles, sizes, strange};
-use crate::{Handles, settings};
 
 unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
     0

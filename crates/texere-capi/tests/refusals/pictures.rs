@@ -5,11 +5,12 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::TEXERE_OK;
 use texere_c::*;
 
-use super::{Handles, settings};
 use crate::common::sized;
+use crate::handles::Handles;
+use crate::mesh::settings;
 use crate::tools::{Case, case, strange};
 
-pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
+pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     static mut PIXELS: [u8; 256] = [0; 256];
     let pixels = texere_view { data: (&raw mut PIXELS).cast(), size: 256, stride: 32 };

@@ -5,11 +5,11 @@ use std::ptr::{null, null_mut};
 use texere_c::texere_status::TEXERE_OK;
 use texere_c::*;
 
-use super::Handles;
 use crate::common::sized;
+use crate::handles::Handles;
 use crate::tools::{Case, case, strange};
 
-pub(super) fn cases(own: &'static Handles) -> Vec<Case> {
+pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let (toml, length) = (c"none.toml".as_ptr(), 9);
     let (png, png_length) = (c"none.png".as_ptr(), 8);

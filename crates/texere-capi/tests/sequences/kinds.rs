@@ -70,4 +70,13 @@ kinds! {
     7 texere_renderer, freed by texere_renderer_free, made by |_: &mut Caller<'_>, out| {
         texere_renderer_open(null(), 0, out)
     };
+    8 texere_live, freed by texere_live_free, made by |caller: &mut Caller<'_>, out| {
+        texere_live_of_cloth(caller.live(), caller.live(), null(), out)
+    };
+    9 texere_picker, freed by texere_picker_free, made by |caller: &mut Caller<'_>, out| {
+        texere_picker_new(caller.live(), null(), out)
+    };
+    10 texere_check, freed by texere_check_free, made by |caller: &mut Caller<'_>, out| {
+        texere_check_new(caller.live(), null(), TEXERE_ACCURACY, null(), out)
+    };
 }

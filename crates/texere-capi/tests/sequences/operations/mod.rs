@@ -18,6 +18,8 @@ macro_rules! table {
     };
 }
 
+mod checks;
+mod live;
 mod outputs;
 mod structures;
 
@@ -77,9 +79,18 @@ pub(crate) unsafe fn read(text: &str, out: *mut *mut texere_design) -> texere_st
 
 /// All operations.
 pub(crate) fn operations() -> Vec<Operation> {
-    let mut all =
-        [designs(), structures::operations(), cloths(), yarns(), plans(), outputs::operations(), plain()]
-            .concat();
+    let mut all = [
+        designs(),
+        structures::operations(),
+        cloths(),
+        yarns(),
+        plans(),
+        outputs::operations(),
+        live::operations(),
+        checks::operations(),
+        plain(),
+    ]
+    .concat();
     let on_gpu = [pictures(), outputs::sessions()].concat();
     let on_gpu = on_gpu.into_iter().map(|operation| Operation { on_gpu: true, ..operation });
     all.extend(on_gpu);
@@ -138,6 +149,9 @@ fn frees() -> Vec<Operation> {
         texere_cloth_free, 3, |caller| caller.free::<texere_cloth>();
         texere_yarns_free, 3, |caller| caller.free::<texere_yarns>();
         texere_plan_free, 3, |caller| caller.free::<texere_plan>();
+        texere_live_free, 2, |caller| caller.free::<texere_live>();
+        texere_picker_free, 2, |caller| caller.free::<texere_picker>();
+        texere_check_free, 2, |caller| caller.free::<texere_check>();
     };
     let on_gpu = table! {
         texere_renderer_free, 1, |caller| caller.free::<texere_renderer>();

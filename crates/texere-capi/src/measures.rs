@@ -1,0 +1,141 @@
+//! Measures of a cloth: yarn, weight, thickness, crimp, cover, loops.
+
+use texere::check::{Cover, KnitMeasures, Measures};
+
+use crate::argument::{check_sized, slice_mut};
+use crate::cloth::{Cloth, texere_cloth};
+use crate::error::guard;
+use crate::failure::Failure;
+use crate::handle::get;
+use crate::status::texere_status;
+use crate::yarns::exactly;
+
+/// Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_measures {
+    /// Bytes of this struct, which the caller sets.
+    pub struct_size: u32,
+    /// Wales of a knit; 0 of woven cloth.
+    pub wales: u32,
+    /// Courses of a knit; 0 of woven cloth.
+    pub courses: u32,
+    /// How many materials there are: `texere_cloth_lengths` gives the length of each.
+    pub materials: u32,
+    /// Loops of a knit; 0 of woven cloth.
+    pub loops: u64,
+    /// Width of the cloth, mm.
+    pub width: f64,
+    /// Height of the cloth, mm.
+    pub height: f64,
+    /// Thickness without load, mm.
+    pub thickness: f64,
+    /// Length of all yarn, mm.
+    pub length: f64,
+    /// Weight, g/m². NaN unless every material that is used has a tex.
+    pub areal_weight: f64,
+    /// Crimp of the warp: length of yarn over length of cloth, less 1. NaN of a knit.
+    pub warp_crimp: f64,
+    /// Crimp of the weft.
+    pub weft_crimp: f64,
+    /// The share of the cloth's width that ends cover, from 0 to 1. NaN of a knit.
+    pub warp_cover: f64,
+    /// The share of the cloth's length that picks cover.
+    pub weft_cover: f64,
+    /// The share of the cloth that is covered.
+    pub cover: f64,
+    /// Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
+    /// of a knit, and unless every material that is used has a tex.
+    pub warp_cover_factor: f64,
+    /// Peirce's cover factor of the weft.
+    pub weft_cover_factor: f64,
+    /// Peirce's cover factor of the cloth.
+    pub cover_factor: f64,
+    /// Length of yarn in a loop, mm. NaN of woven cloth.
+    pub loop_length: f64,
+    /// Loops to the square centimetre. NaN of woven cloth.
+    pub loops_per_cm2: f64,
+    /// The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
+    /// are used have one and the same tex.
+    pub tightness: f64,
+}
+
+impl Cloth {
+    /// The measures, taken once.
+    fn measures(&self) -> Result<&Measures, Failure> {
+        if let Some(measures) = self.measures.get() {
+            return Ok(measures);
+        }
+        let (design, yarns) = (self.cloth.design(), self.cloth.yarns());
+        let measures = design.structure.measures(yarns).map_err(|error| design.refused(error))?;
+        Ok(self.measures.get_or_init(|| measures))
+    }
+}
+
+/// Writes the measures of a cloth. The caller has set `measures->struct_size`.
+///
+/// Fails with TEXERE_DESIGN where they can't be taken.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_measures(
+    cloth: *const texere_cloth,
+    measures: *mut texere_measures,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `measures`.
+        unsafe { check_sized("measures", measures) }?;
+        let cloth = get(cloth)?;
+        let found = of(cloth.measures()?, cloth.cloth.design().structure.size_mm());
+        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        unsafe { measures.write(found) };
+        Ok(())
+    })
+}
+
+fn of(measures: &Measures, [width, height]: [f64; 2]) -> texere_measures {
+    let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let (crimp, cover, knit) = (measures.crimp, measures.cover, measures.knit);
+    let factor = cover.and_then(|cover| cover.factor);
+    texere_measures {
+        struct_size: size_of::<texere_measures>() as u32,
+        wales: knit.map_or(0, |knit| knit.size[0]),
+        courses: knit.map_or(0, |knit| knit.size[1]),
+        materials: measures.length_mm.len() as u32,
+        loops: knit.map_or(0, |knit| knit.loops),
+        width,
+        height,
+        thickness: measures.thickness_mm,
+        length: measures.length_mm.iter().sum(),
+        areal_weight: known(measures.areal_weight),
+        warp_crimp: known(crimp.map(|crimp| crimp.warp)),
+        weft_crimp: known(crimp.map(|crimp| crimp.weft)),
+        warp_cover: known(cover.map(|Cover { fraction, .. }| fraction.warp)),
+        weft_cover: known(cover.map(|Cover { fraction, .. }| fraction.weft)),
+        cover: known(cover.map(|Cover { cloth, .. }| cloth)),
+        warp_cover_factor: known(factor.map(|factor| factor.warp)),
+        weft_cover_factor: known(factor.map(|factor| factor.weft)),
+        cover_factor: known(cover.and_then(|cover| cover.cloth_factor)),
+        loop_length: known(knit.map(|KnitMeasures { loop_length_mm, .. }| loop_length_mm)),
+        loops_per_cm2: known(knit.map(|KnitMeasures { stitch_density, .. }| stitch_density)),
+        tightness: known(knit.and_then(|knit| knit.tightness)),
+    }
+}
+
+/// Writes the length of yarn of each material of a cloth, mm: as many as `materials` of
+/// `texere_cloth_measures` says.
+///
+/// Fails with TEXERE_ARGUMENT where `count` is another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_lengths(
+    cloth: *const texere_cloth,
+    lengths: *mut f64,
+    count: u64,
+) -> texere_status {
+    guard(|| {
+        let cloth = get(cloth)?;
+        let own = &cloth.measures()?.length_mm;
+        exactly("count", count, own.len())?;
+        // SAFETY: the caller vouches for `lengths`.
+        unsafe { slice_mut("lengths", lengths, own.len()) }?.copy_from_slice(own);
+        Ok(())
+    })
+}

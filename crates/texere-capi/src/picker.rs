@@ -1,0 +1,244 @@
+//! Picking: what a ray hits first, and what a weaver calls the place.
+
+use std::ffi::c_char;
+use std::sync::Arc;
+
+use texere::backend::Plan;
+use texere::mesh::{End, Ray};
+use texere::yarn::YarnPlace;
+use texere::{Hit, Picker};
+
+use crate::argument::{check, write_text};
+use crate::cloth::texere_cloth;
+use crate::error::guard;
+use crate::failure::Failure;
+use crate::handle::{Handle, alone, clear, free, get, give};
+use crate::live::texere_live;
+use crate::settings::{chosen, texere_settings};
+use crate::status::texere_status;
+use crate::yarns::texere_yarns;
+
+/// Says what a ray hits first of the mesh of yarns, without the mesh.
+#[derive(Debug)]
+pub struct texere_picker;
+
+impl Handle for texere_picker {
+    type Value = Picker;
+    const NAME: &str = "picker";
+}
+
+/// A ray.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct texere_ray {
+    /// Where it starts, mm.
+    pub origin: [f64; 3],
+    /// Where it goes: a direction of any length but 0.
+    pub direction: [f64; 3],
+}
+
+/// No cap: the hit is on the side of the yarn.
+pub const TEXERE_CAP_NONE: u32 = 0;
+/// The cap that closes the start of the yarn.
+pub const TEXERE_CAP_START: u32 = 1;
+/// The cap that closes the end of the yarn.
+pub const TEXERE_CAP_FINISH: u32 = 2;
+
+/// What a ray hits first.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct texere_hit {
+    /// 1 if the ray hits anything; else 0, and everything else is 0 as well.
+    pub found: u32,
+    /// The yarn, from 0.
+    pub yarn: u32,
+    /// The ring before the triangle, from the start of the yarn.
+    pub ring: u32,
+    /// The corner of the section before the triangle, from 0; 0 on a cap.
+    pub side: u32,
+    /// A number that begins with TEXERE_CAP.
+    pub cap: u32,
+    /// The control interval of the yarn, from 0: that between this control point and the next.
+    pub interval: u32,
+    /// How far along the interval, from 0 to 1.
+    pub t: f64,
+    /// Distance from the start of the ray, in lengths of its direction: mm where that has length 1.
+    pub distance: f64,
+    /// The point that is hit, mm.
+    pub position: [f64; 3],
+}
+
+impl From<texere_ray> for Ray {
+    fn from(texere_ray { origin, direction }: texere_ray) -> Self {
+        Self { origin, direction }
+    }
+}
+
+impl From<Option<Hit>> for texere_hit {
+    fn from(hit: Option<Hit>) -> Self {
+        let Some(Hit { distance, place, position, interval, t, .. }) = hit else { return Self::default() };
+        let cap = match place.cap {
+            None => TEXERE_CAP_NONE,
+            Some(End::Start) => TEXERE_CAP_START,
+            Some(End::Finish) => TEXERE_CAP_FINISH,
+        };
+        let (yarn, ring, side) = (place.yarn, place.ring, place.side);
+        Self { found: 1, yarn, ring, side, cap, interval, t, distance, position }
+    }
+}
+
+/// The place of a hit along its yarn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) yarn: usize,
+    pub(crate) interval: usize,
+    pub(crate) t: f64,
+}
+
+impl Place {
+    /// # Safety
+    ///
+    /// `hit` is valid for a read.
+    pub(crate) unsafe fn of(hit: *const texere_hit) -> Result<Self, Failure> {
+        check("hit", hit)?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        let texere_hit { found, yarn, interval, t, .. } = unsafe { hit.read() };
+        if found != 1 {
+            return Err(Failure::argument(format!("hit.found is {found}, so there is no place to name")));
+        }
+        Ok(Self { yarn: yarn as usize, interval: interval as usize, t })
+    }
+
+    /// That yarns do not have this place.
+    pub(crate) fn missing(&self) -> Failure {
+        let Self { yarn, interval, t } = self;
+        Failure::argument(format!("there is no place {t} in interval {interval} of yarn {yarn}"))
+    }
+}
+
+/// Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
+///
+/// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
+/// not suffice.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_picker_new(
+    yarns: *const texere_yarns,
+    settings: *const texere_settings,
+    out: *mut *mut texere_picker,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `out`.
+        unsafe { clear(out) }?;
+        let yarns = get(yarns)?;
+        // SAFETY: the caller vouches for `settings`.
+        let settings = unsafe { chosen(settings, &yarns) }?;
+        let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        // SAFETY: as above.
+        unsafe { give(out, Picker::new(plan, yarns.points())?) }
+    })
+}
+
+/// Writes what a ray hits first, from either side; of several at one distance the first along the
+/// yarns. A ray that goes nowhere, or whose numbers are not finite, hits nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_picker_pick(
+    picker: *const texere_picker,
+    ray: *const texere_ray,
+    hit: *mut texere_hit,
+) -> texere_status {
+    guard(|| {
+        check("ray", ray)?;
+        check("hit", hit)?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        let ray = unsafe { ray.read() };
+        let found = get(picker)?.pick(&ray.into());
+        // SAFETY: as above.
+        unsafe { hit.write(found.into()) };
+        Ok(())
+    })
+}
+
+/// Writes what a weaver or a knitter calls the place of a hit in a cloth, such as
+/// `end 3 at pick 4, cotton`. In a weft knit the place in its program follows. The hit is that of a
+/// picker of the cloth's yarns.
+///
+/// `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
+/// has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
+/// null.
+///
+/// Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
+/// above the length.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_cloth_place(
+    cloth: *const texere_cloth,
+    hit: *const texere_hit,
+    words: *mut c_char,
+    size: usize,
+    length: *mut usize,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `hit`.
+        let place = unsafe { Place::of(hit) }?;
+        let cloth = get(cloth)?;
+        let yarns = cloth.cloth.yarns();
+        let at = YarnPlace::at(yarns, place.yarn, place.interval, place.t).ok_or_else(|| place.missing())?;
+        let said = cloth.cloth.design().named(yarns, &at).to_string();
+        // SAFETY: the caller vouches for `words` and `length`.
+        unsafe { write_text(&said, words, size, length) }
+    })
+}
+
+/// Writes what a ray hits first in a live cloth as it is now; edits count before an update.
+///
+/// Fails with TEXERE_MEMORY where memory does not suffice.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_live_pick(
+    live: *const texere_live,
+    ray: *const texere_ray,
+    hit: *mut texere_hit,
+) -> texere_status {
+    guard(|| {
+        check("ray", ray)?;
+        check("hit", hit)?;
+        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        let ray = unsafe { ray.read() };
+        let found = alone(live, |editing| Ok(editing.live.pick(&ray.into())?))?;
+        // SAFETY: as above.
+        unsafe { hit.write(found.into()) };
+        Ok(())
+    })
+}
+
+/// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as
+/// `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
+/// is the yarn alone.
+///
+/// Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_live_place(
+    live: *const texere_live,
+    hit: *const texere_hit,
+    words: *mut c_char,
+    size: usize,
+    length: *mut usize,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `hit`.
+        let place = unsafe { Place::of(hit) }?;
+        let said = alone(live, |editing| {
+            // That yarn alone, as number 0, is enough to name a place on it.
+            let yarn = editing.live.only(place.yarn)?;
+            let at = YarnPlace::at(&yarn, 0, place.interval, place.t).ok_or_else(|| place.missing())?;
+            let named = editing.known.design().map(|design| design.named(&yarn, &at).to_string());
+            Ok(named.unwrap_or_else(|| yarn.layout().yarns()[0].origin.to_string()))
+        })?;
+        // SAFETY: the caller vouches for `words` and `length`.
+        unsafe { write_text(&said, words, size, length) }
+    })
+}
+
+/// Frees a picker, or nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_picker_free(picker: *mut texere_picker) {
+    free(picker);
+}

@@ -1,0 +1,201 @@
+//! Live cloth and pickers with what they can't take.
+
+use std::ptr::{null, null_mut};
+
+use texere_c::*;
+
+use crate::common::sized;
+use crate::handles::Handles;
+use crate::mesh::wrong_settings;
+use crate::tools::{Case, case, handles, sizes, strange};
+
+const HIT: texere_hit = texere_hit {
+    found: 1,
+    yarn: 0,
+    ring: 0,
+    side: 0,
+    cap: 0,
+    interval: 0,
+    t: 0.5,
+    distance: 0.0,
+    position: [0.0; 3],
+};
+
+const MATERIAL: texere_material =
+    texere_material { name: null(), name_length: 0, tex: 0.0, hairiness: 0.0, srgb: [0; 3], reserved: 0 };
+
+pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
+    [making(own), reading(own), edits(own), edits_of_yarns(own), picking(own)].into_iter().flatten().collect()
+}
+
+fn making(own: &'static Handles) -> Vec<Case> {
+    let mut cases: Vec<Case> = Vec::new();
+    case!(cases, texere_live_of_cloth(own.cloth, own.device, null(), null_mut()));
+    case!(cases, texere_live_of_yarns(own.yarns, own.device, null(), null_mut()));
+    case!(cases, texere_picker_new(own.yarns, null(), null_mut()));
+    handles!(cases, own, texere_cloth, |it| texere_live_of_cloth(it, own.device, null(), &mut null_mut()));
+    handles!(cases, own, texere_device, |it| texere_live_of_cloth(own.cloth, it, null(), &mut null_mut()));
+    handles!(cases, own, texere_yarns, |it| texere_live_of_yarns(it, own.device, null(), &mut null_mut()));
+    handles!(cases, own, texere_device, |it| texere_live_of_yarns(own.yarns, it, null(), &mut null_mut()));
+    handles!(cases, own, texere_yarns, |it| texere_picker_new(it, null(), &mut null_mut()));
+    sizes!(cases, texere_settings, |it| texere_live_of_cloth(own.cloth, own.device, &it, &mut null_mut()));
+    sizes!(cases, texere_settings, |it| texere_live_of_yarns(own.yarns, own.device, &it, &mut null_mut()));
+    sizes!(cases, texere_settings, |it| texere_picker_new(own.yarns, &it, &mut null_mut()));
+    for settings in wrong_settings() {
+        case!(cases, texere_live_of_cloth(own.cloth, own.device, &settings, &mut null_mut()));
+        case!(cases, texere_live_of_yarns(own.yarns, own.device, &settings, &mut null_mut()));
+        case!(cases, texere_picker_new(own.yarns, &settings, &mut null_mut()));
+    }
+    cases
+}
+
+fn reading(own: &'static Handles) -> Vec<Case> {
+    let mut cases: Vec<Case> = Vec::new();
+    let none = texere_change { first_vertex: 0, vertex_count: 0, first_index: 0, index_count: 0 };
+    case!(cases, texere_live_update(own.live, null_mut()));
+    case!(cases, texere_live_counts(own.live, null_mut()));
+    case!(cases, texere_live_draws(own.live, null_mut()));
+    case!(cases, texere_live_yarns(own.live, null_mut()));
+    case!(cases, texere_live_read(own.live, null(), null_mut(), 0, null_mut(), 0));
+    handles!(cases, own, texere_live, |live| texere_live_update(live, &mut sized()));
+    handles!(cases, own, texere_live, |live| texere_live_counts(live, &mut sized()));
+    handles!(cases, own, texere_live, |live| texere_live_draws(live, &mut null()));
+    handles!(cases, own, texere_live, |live| texere_live_yarns(live, &mut null_mut()));
+    handles!(cases, own, texere_live, |live| texere_live_mesh(live, null(), null_mut(), 0, null_mut(), 0));
+    handles!(cases, own, texere_live, |live| texere_live_read(live, &none, null_mut(), 0, null_mut(), 0));
+    sizes!(cases, texere_update, |update| texere_live_update(own.live, &mut update));
+    sizes!(cases, texere_counts, |counts| texere_live_counts(own.live, &mut counts));
+    for run in strange() {
+        case!(cases, texere_live_mesh(own.live, run, null_mut(), 0, null_mut(), 0));
+    }
+    // Numbers of values that are not those of the mesh, stretches that are no part of it, and null
+    // arrays.
+    case!(cases, texere_live_mesh(own.live, null(), null_mut(), 1, null_mut(), 1));
+    case!(cases, texere_live_read(own.live, &none, null_mut(), 1, null_mut(), 0));
+    for (first_vertex, vertex_count, first_index, index_count) in [
+        (u64::MAX, 1, 0, 0),
+        (0, 0, u64::MAX - 1, 1),
+        (0, 1 << 40, 0, 0),
+        (1 << 40, 0, 0, 0),
+        (0, 6, 0, 0),
+        (0, 0, 0, 6),
+    ] {
+        let change = texere_change { first_vertex, vertex_count, first_index, index_count };
+        case!(cases, texere_live_read(own.live, &change, null_mut(), vertex_count, null_mut(), index_count));
+    }
+    cases
+}
+
+fn edits(own: &'static Handles) -> Vec<Case> {
+    static UP: [u8; 4] = [0, 1, 2, 1];
+    let mut cases: Vec<Case> = Vec::new();
+    handles!(cases, own, texere_live, |live| texere_live_set_lift(live, 0, 0, 1));
+    handles!(cases, own, texere_live, |live| texere_live_lift(live, 0, 0, &mut 0));
+    handles!(cases, own, texere_live, |live| texere_live_set_drawdown(live, 0, 2, 0, 1, UP.as_ptr()));
+    handles!(cases, own, texere_live, |live| texere_live_set_tension(live, 0.5));
+    handles!(cases, own, texere_live, |live| texere_live_set_structure(live, own.design));
+    handles!(cases, own, texere_design, |design| texere_live_set_structure(own.live, design));
+    case!(cases, texere_live_lift(own.live, 0, 0, null_mut()));
+    case!(cases, texere_live_set_lift(own.live, 0, 0, 2));
+    for [end, pick] in [[4, 0], [0, 4], [u64::MAX, 0], [0, u64::MAX]] {
+        case!(cases, texere_live_set_lift(own.live, end, pick, 1));
+        case!(cases, texere_live_lift(own.live, end, pick, &mut 0));
+        case!(cases, texere_live_set_drawdown(own.live, end, 1, pick, 1, UP.as_ptr()));
+    }
+    case!(cases, texere_live_set_drawdown(own.live, 0, 2, 0, 2, UP.as_ptr())); // a 2 among them
+    case!(cases, texere_live_set_drawdown(own.live, 0, 2, 0, 2, null()));
+    case!(cases, texere_live_set_drawdown(own.live, 0, u64::MAX, 0, 2, UP.as_ptr()));
+    for tension in [-0.1, 1.0, f32::NAN, f32::INFINITY] {
+        case!(cases, texere_live_set_tension(own.live, tension));
+    }
+    cases
+}
+
+fn edits_of_yarns(own: &'static Handles) -> Vec<Case> {
+    const POINT: texere_point = texere_point { x: 0.0, y: 0.0, z: 0.0, half_width: 0.1, half_height: 0.1 };
+    static POINTS: [texere_point; 3] =
+        [POINT, texere_point { x: 1.0, ..POINT }, texere_point { y: f32::NAN, ..POINT }];
+    let mut cases: Vec<Case> = Vec::new();
+    let what: texere_yarn = sized();
+    case!(cases, texere_live_set_yarn(own.live, 0, null(), POINTS.as_ptr(), 2));
+    case!(cases, texere_live_yarn(own.live, 0, null_mut()));
+    case!(cases, texere_live_set_material(own.live, 0, null()));
+    case!(cases, texere_live_material(own.live, 0, null_mut()));
+    handles!(cases, own, texere_live, |it| texere_live_set_yarn(it, 0, &what, POINTS.as_ptr(), 2));
+    handles!(cases, own, texere_live, |it| texere_live_set_points(it, 0, POINTS.as_ptr(), 2));
+    handles!(cases, own, texere_live, |it| texere_live_yarn(it, 0, &mut sized()));
+    handles!(cases, own, texere_live, |it| texere_live_set_material(it, 0, &MATERIAL));
+    handles!(cases, own, texere_live, |it| texere_live_material(it, 0, &mut { MATERIAL }));
+    handles!(cases, own, texere_live, |it| texere_live_set_yarns(it, own.yarns));
+    handles!(cases, own, texere_live, |it| texere_live_set_rest(it, own.yarns));
+    handles!(cases, own, texere_yarns, |it| texere_live_set_yarns(own.live, it));
+    handles!(cases, own, texere_yarns, |it| texere_live_set_rest(own.live, it));
+    sizes!(cases, texere_yarn, |what| texere_live_set_yarn(own.live, 0, &what, POINTS.as_ptr(), 2));
+    sizes!(cases, texere_yarn, |what| texere_live_yarn(own.live, 0, &mut what));
+    // Yarns and materials that there are not, values that they can't have, too few points.
+    for yarn in [8, u64::MAX] {
+        case!(cases, texere_live_set_yarn(own.live, yarn, &what, POINTS.as_ptr(), 2));
+        case!(cases, texere_live_set_points(own.live, yarn, POINTS.as_ptr(), 2));
+        case!(cases, texere_live_yarn(own.live, yarn, &mut sized()));
+        case!(cases, texere_live_set_material(own.live, yarn, &MATERIAL));
+        case!(cases, texere_live_material(own.live, yarn, &mut { MATERIAL }));
+    }
+    for what in [
+        texere_yarn { material: 9, ..what },
+        texere_yarn { section: 9, ..what },
+        texere_yarn { closed: 2, ..what },
+        texere_yarn { closed: 1, ..what },
+        texere_yarn { twist: f32::NAN, ..what },
+    ] {
+        case!(cases, texere_live_set_yarn(own.live, 0, &what, POINTS.as_ptr(), 2));
+    }
+    for count in [0, 1, 3] {
+        case!(cases, texere_live_set_points(own.live, 0, POINTS.as_ptr(), count));
+    }
+    case!(cases, texere_live_set_points(own.live, 0, null(), 2));
+    case!(cases, texere_live_set_points(own.live, 0, POINTS.as_ptr(), usize::MAX));
+    for material in [
+        texere_material { tex: -1.0, ..MATERIAL },
+        texere_material { tex: f32::NAN, ..MATERIAL },
+        texere_material { hairiness: 31.0, ..MATERIAL },
+        texere_material { name_length: 3, ..MATERIAL },
+        texere_material { name: b"\xff".as_ptr().cast(), name_length: 1, ..MATERIAL },
+    ] {
+        case!(cases, texere_live_set_material(own.live, 0, &material));
+    }
+    cases
+}
+
+fn picking(own: &'static Handles) -> Vec<Case> {
+    let mut cases: Vec<Case> = Vec::new();
+    let ray = texere_ray { origin: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    case!(cases, texere_live_pick(own.live, null(), &mut texere_hit::default()));
+    case!(cases, texere_live_pick(own.live, &ray, null_mut()));
+    case!(cases, texere_picker_pick(own.picker, null(), &mut texere_hit::default()));
+    case!(cases, texere_picker_pick(own.picker, &ray, null_mut()));
+    handles!(cases, own, texere_live, |it| texere_live_pick(it, &ray, &mut texere_hit::default()));
+    handles!(cases, own, texere_picker, |it| texere_picker_pick(it, &ray, &mut texere_hit::default()));
+    handles!(cases, own, texere_live, |it| texere_live_place(it, &HIT, null_mut(), 0, &mut 0));
+    handles!(cases, own, texere_cloth, |it| texere_cloth_place(it, &HIT, null_mut(), 0, &mut 0));
+    for hit in [
+        texere_hit { found: 0, ..HIT },
+        texere_hit { yarn: 8, ..HIT },
+        texere_hit { interval: u32::MAX, ..HIT },
+        texere_hit { t: f64::NAN, ..HIT },
+    ] {
+        case!(cases, texere_live_place(own.live, &hit, null_mut(), 0, &mut 0));
+        case!(cases, texere_cloth_place(own.cloth, &hit, null_mut(), 0, &mut 0));
+    }
+    // No hit, no place for the text or its length, one that is too small.
+    case!(cases, texere_live_place(own.live, null(), null_mut(), 0, &mut 0));
+    case!(cases, texere_cloth_place(own.cloth, null(), null_mut(), 0, &mut 0));
+    for size in [1, 4] {
+        case!(cases, texere_live_place(own.live, &HIT, [0; 4].as_mut_ptr(), size, &mut 0));
+        case!(cases, texere_cloth_place(own.cloth, &HIT, [0; 4].as_mut_ptr(), size, &mut 0));
+    }
+    case!(cases, texere_live_place(own.live, &HIT, null_mut(), 100, &mut 0));
+    case!(cases, texere_cloth_place(own.cloth, &HIT, null_mut(), 100, &mut 0));
+    case!(cases, texere_live_place(own.live, &HIT, null_mut(), 0, null_mut()));
+    case!(cases, texere_cloth_place(own.cloth, &HIT, null_mut(), 0, null_mut()));
+    cases
+}

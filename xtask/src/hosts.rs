@@ -32,7 +32,7 @@ pub(crate) fn check(steps: &mut Steps) {
     let _ = fs::remove_dir_all(folder);
 }
 
-/// Compares what is no PLY file: the OBJ file of C++, and the arrays of C#.
+/// Compares what is no PLY file: the OBJ file of C++, and the arrays of C and C#.
 fn compare(folder: &Path) -> Result<(), String> {
     let read = |name: &str| fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let ply = |name: &str| Mesh::of_ply(&read(name)?).ok_or_else(|| format!("{name} is no mesh"));
@@ -42,9 +42,11 @@ fn compare(folder: &Path) -> Result<(), String> {
     };
     let obj = Mesh::of_obj(&String::from_utf8_lossy(&read("tricot.obj")?));
     same(&ply("tricot.ply")?, &obj, "tricot.obj")?;
-    let known = ply("herringbone.ply")?;
-    let arrays = Mesh::of_arrays(&read("herringbone.bin")?, known.triangles.len());
-    same(&known, &arrays, "herringbone.bin")
+    for (known, arrays) in [("herringbone.ply", "herringbone.bin"), ("placed.ply", "undone.bin")] {
+        let known = ply(known)?;
+        same(&known, &Mesh::of_arrays(&read(arrays)?, known.triangles.len()), arrays)?;
+    }
+    Ok(())
 }
 
 /// Vertices, each a position and a normal, as bits, and triangles.

@@ -65,12 +65,14 @@ fn assembly(steps: &mut Steps) -> &'static [&'static str] {
 }
 
 /// Programs, and designs for them: the folder from the repository's root, and the file there.
-const EXAMPLES: [(&str, &str); 7] = [
+const EXAMPLES: [(&str, &str); 9] = [
     ("crates/texere-capi/examples", "mesh.c"),
     ("crates/texere-capi/examples", "yarns.c"),
+    ("crates/texere-capi/examples", "edit.c"),
     ("crates/texere-capi/examples", "obj/CMakeLists.txt"),
     ("crates/texere-capi/examples", "obj/obj.cpp"),
     ("crates/texere-capi/examples", "weave.cs"),
+    ("crates/texere-capi/examples", "picture.cs"),
     ("designs", "poplin.toml"),
     ("designs", "herringbone.wif"),
 ];

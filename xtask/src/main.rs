@@ -152,8 +152,9 @@ fn features(steps: &mut Steps) {
     }
 }
 
-/// Builds and runs programs in other languages that link the library.
+/// Builds and runs programs in other languages that link the library. One of them makes a picture.
 fn programs(steps: &mut Steps) {
+    vulkan::install(steps);
     install(steps, "compilers", &hosts::PACKAGES);
     hosts::check(steps);
 }

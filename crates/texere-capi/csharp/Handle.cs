@@ -94,6 +94,22 @@ namespace Texere
         /// <summary>A text of the library's; null where it is.</summary>
         internal static string Text(byte* text) => Marshal.PtrToStringUTF8((IntPtr)text);
 
+        /// <summary>Writes a text to memory of <paramref name="size"/> bytes, and says how long it is.</summary>
+        internal delegate texere_status Writes(byte* words, UIntPtr size, UIntPtr* length);
+
+        /// <summary>The text that a call writes where there is room for it.</summary>
+        internal static string Written(Writes call, Handle used)
+        {
+            UIntPtr length;
+            Check(call(null, UIntPtr.Zero, &length), used);
+            var words = new byte[(int)length + 1];
+            fixed (byte* first = words)
+            {
+                Check(call(first, (UIntPtr)words.Length, &length), used);
+            }
+            return Encoding.UTF8.GetString(words, 0, (int)length);
+        }
+
         /// <summary>A text for the library.</summary>
         internal static byte[] Bytes(string text) =>
             Encoding.UTF8.GetBytes(text ?? throw new ArgumentNullException(nameof(text)));

@@ -170,7 +170,7 @@ namespace Texere
             return new Cloth(made);
         }
 
-        texere_cloth* Own => (texere_cloth*)Pointer;
+        internal texere_cloth* Own => (texere_cloth*)Pointer;
 
         texere_report Told
         {
@@ -214,6 +214,14 @@ namespace Texere
                 return new Yarns(made);
             }
         }
+
+        /// <summary>What a weaver or a knitter calls the place of a hit, such as "end 3 at pick 4, cotton".</summary>
+        public string Place(Hit hit) => Call.Written(
+            (words, size, length) =>
+            {
+                var place = hit;
+                return Native.texere_cloth_place(Own, (texere_hit*)&place, words, size, length);
+            }, this);
 
         /// <inheritdoc/>
         protected override bool ReleaseHandle()

@@ -1,4 +1,4 @@
-// A draft to a mesh: weave DESIGN DEVICE MESH. The arrays go to the file MESH as they lie in memory.
+// A draft to a mesh, and a lift: weave DESIGN DEVICE MESH. The arrays go to the file MESH as they lie in memory.
 using System;
 using System.IO;
 using System.Runtime.InteropServices;
@@ -6,6 +6,24 @@ using Texere;
 
 static class Weave
 {
+    static void Write(string path, Plan plan)
+    {
+        var vertices = new Vertex[plan.Vertices];
+        var indices = new uint[plan.Indices];
+        plan.Mesh(vertices, indices);
+        // Indices count from the first vertex of their draw.
+        foreach (var draw in plan.Draws)
+        {
+            var own = indices.AsSpan((int)draw.FirstIndex, (int)draw.IndexCount);
+            for (var number = 0; number < own.Length; number++) own[number] += (uint)draw.BaseVertex;
+        }
+        using (var file = File.Create(path))
+        {
+            file.Write(MemoryMarshal.AsBytes<Vertex>(vertices));
+            file.Write(MemoryMarshal.AsBytes<uint>(indices));
+        }
+    }
+
     static int Main(string[] arguments)
     {
         if (arguments.Length != 3) return 1;
@@ -16,20 +34,13 @@ static class Weave
             using (var cloth = Cloth.Rest(design, device))
             using (var yarns = cloth.Yarns)
             using (var plan = new Plan(yarns, device))
-            using (var file = File.Create(arguments[2]))
+            using (var live = new Live(cloth, device))
             {
-                var vertices = new Vertex[plan.Vertices];
-                var indices = new uint[plan.Indices];
-                plan.Mesh(vertices, indices);
+                Write(arguments[2], plan);
                 Console.WriteLine($"{cloth.Report}: {plan.Vertices} vertices, {plan.Triangles} triangles");
-                // Indices count from the first vertex of their draw.
-                foreach (var draw in plan.Draws)
-                {
-                    var own = indices.AsSpan((int)draw.FirstIndex, (int)draw.IndexCount);
-                    for (var number = 0; number < own.Length; number++) own[number] += (uint)draw.BaseVertex;
-                }
-                file.Write(MemoryMarshal.AsBytes<Vertex>(vertices));
-                file.Write(MemoryMarshal.AsBytes<uint>(indices));
+                live.Update(out _);
+                live[2, 3] = !live[2, 3];
+                Console.WriteLine($"the lift of end 3 at pick 4 changes {live.Update(out _).Length} stretches");
             }
             return 0;
         }

@@ -5,8 +5,9 @@
 // texere.h says what that is: units, threads, how long lent memory is valid.
 //
 // Nothing is allocated behind the caller's back: meshes and points go to memory of the caller's, or
-// to vectors where the name of the function says so. What has no function here is a call of texere.h
-// with `get()` of the handle, in `texere::check`.
+// to vectors where the name of the function says so. What is rarely used has no function here, such
+// as designs by arrays, finishes, sessions on a device and most edits of live cloth: it is a call of
+// texere.h with `get()` of a handle, in `texere::check`.
 
 #ifndef TEXERE_HPP
 #define TEXERE_HPP
@@ -39,11 +40,9 @@ public:
     // The last failure of this thread.
     explicit Error(texere_status status) : std::runtime_error(texere_error_message()), status_(status) {
         texere_place place{};
-        if (texere_error_place(&place) == TEXERE_OK && place.file) {
-            file_ = place.file;
-            line_ = place.line;
-            column_ = place.column;
-        }
+        texere_error_place(&place);
+        if (place.file) file_ = place.file;
+        line_ = place.line, column_ = place.column;
     }
 
     texere_status status() const noexcept { return status_; }
@@ -69,25 +68,20 @@ inline void check(texere_status status) {
 template <class T>
 class view {
 public:
-    using value_type = std::remove_cv_t<T>;
-    using iterator = T *;
-
     constexpr view() noexcept = default;
     constexpr view(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
     template <std::size_t Size>
     constexpr view(T (&array)[Size]) noexcept : data_(array), size_(Size) {}
     // Of a vector, an array, a span: whatever has `data` and `size`.
-    template <class Container, class = std::enable_if_t<std::is_convertible_v<
-                                   std::remove_pointer_t<decltype(std::declval<Container &>().data())> (*)[],
-                                   T (*)[]>>>
+    template <class Container, class Value = std::remove_pointer_t<decltype(std::declval<Container &>().data())>,
+              class = std::enable_if_t<std::is_convertible_v<Value (*)[], T (*)[]>>>
     constexpr view(Container &container) : data_(container.data()), size_(container.size()) {}
 
     constexpr T *data() const noexcept { return data_; }
     constexpr std::size_t size() const noexcept { return size_; }
-    constexpr bool empty() const noexcept { return size_ == 0; }
     constexpr T &operator[](std::size_t number) const { return data_[number]; }
-    constexpr iterator begin() const noexcept { return data_; }
-    constexpr iterator end() const noexcept { return data_ + size_; }
+    constexpr T *begin() const noexcept { return data_; }
+    constexpr T *end() const noexcept { return data_ + size_; }
 #if defined(__cpp_lib_span)
     constexpr operator std::span<T>() const noexcept { return {data_, size_}; }
 #endif
@@ -97,18 +91,25 @@ private:
     std::size_t size_ = 0;
 };
 
-// All of a view's values, as a view of texere.h.
-template <class T>
-texere_view strided(view<T> values) {
-    return {const_cast<std::remove_const_t<T> *>(values.data()), values.size() * sizeof(T), sizeof(T)};
+// What a call writes to its last argument.
+template <class Value, class Call, class... Arguments>
+Value written(Call call, Arguments... arguments) {
+    Value value{};
+    check(call(arguments..., &value));
+    return value;
 }
 
-// A handle that is freed when its owner goes.
+// A handle that is freed when its owner goes. It has handles without a class of their own, too:
+// texere::Owner<texere_session, texere_session_free> session(texere_session_new, plan.get(), nullptr);
 template <class Handle, void (*Free)(Handle *)>
 class Owner {
 public:
     // Takes a handle over.
     explicit Owner(Handle *handle) noexcept : handle_(handle) {}
+    // The handle that a call makes, with the call's other arguments.
+    template <class... Parameters, class... Arguments>
+    explicit Owner(texere_status (*call)(Parameters...), Arguments... arguments)
+        : handle_(written<Handle *>(call, arguments...)) {}
     Owner(Owner &&other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
     Owner &operator=(Owner &&other) noexcept {
         if (this != &other) Free(std::exchange(handle_, std::exchange(other.handle_, nullptr)));
@@ -123,12 +124,12 @@ private:
     Handle *handle_;
 };
 
-// The handle that a call makes, which it writes to its last argument.
-template <class Handle, class Call, class... Arguments>
-Handle *made(Call call, Arguments... arguments) {
-    Handle *handle = nullptr;
-    check(call(arguments..., &handle));
-    return handle;
+// The text that a call writes to memory whose size it says beforehand.
+template <class Call, class... Arguments>
+std::string text(Call call, Arguments... arguments) {
+    std::string words(written<std::size_t>(call, arguments..., nullptr, 0) + 1, '\0');
+    words.resize(written<std::size_t>(call, arguments..., words.data(), words.size()));
+    return words;
 }
 
 // A struct of texere.h with its size set.
@@ -179,15 +180,11 @@ private:
 // Progress of calls, and their end before they are done. Any thread may ask and cancel.
 class Run : public Owner<texere_run, texere_run_free> {
 public:
-    Run() : Owner(made<texere_run>(texere_run_new)) {}
+    Run() : Owner(texere_run_new) {}
 
     void cancel() const { check(texere_run_cancel(get())); }
     // How much of the call is done, from 0 to 1.
-    double progress() const {
-        double share = 0;
-        check(texere_run_progress(get(), &share));
-        return share;
-    }
+    double progress() const { return written<double>(texere_run_progress, get()); }
     // The handle of a run that may be left out.
     static const texere_run *of(const Run *run) { return run ? run->get() : nullptr; }
 };
@@ -196,8 +193,7 @@ public:
 class Device : public Owner<texere_device, texere_device_free> {
 public:
     // "auto", "cpu", "opencl:0", "wgpu" and so on.
-    explicit Device(std::string_view name = "auto")
-        : Owner(made<texere_device>(texere_device_open, name.data(), name.size())) {}
+    explicit Device(std::string_view name = "auto") : Owner(texere_device_open, name.data(), name.size()) {}
 
     // What it is. The strings are valid as long as the device.
     texere_device_info describe() const { return told(texere_device_describe, get()); }
@@ -207,16 +203,13 @@ public:
 class Design : public Owner<texere_design, texere_design_free> {
 public:
     // Of a file: `.wif`, `.toml`, `.k`.
-    explicit Design(std::string_view path)
-        : Owner(made<texere_design>(texere_design_read, path.data(), path.size())) {}
+    explicit Design(std::string_view path) : Owner(texere_design_read, path.data(), path.size()) {}
 
-    // Of memory. The ending of `name` says what kind of design it is.
+    // Of memory, with files that the design names where there are any: `files(path)` gives
+    // `std::optional<view<const std::uint8_t>>`, whose bytes stay valid until this returns. What it
+    // throws is thrown on. The ending of `name` says what kind of design it is.
     Design(std::string_view name, view<const std::uint8_t> data)
         : Design(name, data, [](std::string_view) { return std::nullopt; }) {}
-
-    // Of memory, with files that the design names: `files(path)` gives
-    // `std::optional<view<const std::uint8_t>>`, whose bytes stay valid until this returns. What it
-    // throws is thrown on.
     template <class Files>
     Design(std::string_view name, view<const std::uint8_t> data, Files files)
         : Owner(of_memory(name, data, files)) {}
@@ -245,11 +238,9 @@ class Yarns : public Owner<texere_yarns, texere_yarns_free> {
 public:
     using Owner::Owner;
     // Of a `.yarns` file.
-    explicit Yarns(std::string_view path)
-        : Owner(made<texere_yarns>(texere_yarns_read, path.data(), path.size())) {}
+    explicit Yarns(std::string_view path) : Owner(texere_yarns_read, path.data(), path.size()) {}
     // Of arrays, which are copied.
-    explicit Yarns(const texere_yarn_arrays &arrays)
-        : Owner(made<texere_yarns>(texere_yarns_new, &arrays)) {}
+    explicit Yarns(const texere_yarn_arrays &arrays) : Owner(texere_yarns_new, &arrays) {}
 
     void write(std::string_view path) const { check(texere_yarns_write(get(), path.data(), path.size())); }
     texere_yarn_counts counts() const { return told(texere_yarns_counts, get()); }
@@ -266,19 +257,21 @@ class Cloth : public Owner<texere_cloth, texere_cloth_free> {
 public:
     // With its yarns at rest, where the design asks for it.
     Cloth(const Design &design, const Device &device, const Run *run = nullptr)
-        : Owner(made<texere_cloth>(texere_cloth_rest, design.get(), device.get(), Run::of(run))) {}
+        : Owner(texere_cloth_rest, design.get(), device.get(), Run::of(run)) {}
     // With its yarns as the structure places them.
-    explicit Cloth(const Design &design) : Owner(made<texere_cloth>(texere_cloth_placed, design.get())) {}
+    explicit Cloth(const Design &design) : Owner(texere_cloth_placed, design.get()) {}
 
     // How the yarns came to rest. `words` is valid as long as the cloth.
     texere_report report() const { return told(texere_cloth_report, get()); }
     // The warning of a number, from 0, valid as long as the cloth; `report` says how many there are.
     const char *warning(std::uint64_t number) const {
-        const char *words = nullptr;
-        check(texere_cloth_warning(get(), number, &words));
-        return words;
+        return written<const char *>(texere_cloth_warning, get(), number);
     }
-    Yarns yarns() const { return Yarns(made<texere_yarns>(texere_cloth_yarns, get())); }
+    // Yarn, weight, thickness, crimp, cover, loops.
+    texere_measures measures() const { return told(texere_cloth_measures, get()); }
+    // What a weaver or a knitter calls the place of a hit.
+    std::string place(const texere_hit &hit) const { return text(texere_cloth_place, get(), &hit); }
+    Yarns yarns() const { return Yarns(texere_cloth_yarns, get()); }
 };
 
 // The plan of a mesh.
@@ -286,14 +279,12 @@ class Plan : public Owner<texere_plan, texere_plan_free> {
 public:
     // With the settings that suit the yarns, unless others are given.
     Plan(const Yarns &yarns, const Device &device, const texere_settings *settings = nullptr)
-        : Owner(made<texere_plan>(texere_plan_new, yarns.get(), device.get(), settings)) {}
+        : Owner(texere_plan_new, yarns.get(), device.get(), settings) {}
 
     texere_counts counts() const { return told(texere_plan_counts, get()); }
     // Which indices draw which yarn, valid as long as the plan.
     view<const texere_draw> draws() const {
-        const texere_draw *draws = nullptr;
-        check(texere_plan_draws(get(), &draws));
-        return {draws, static_cast<std::size_t>(counts().draws)};
+        return {written<const texere_draw *>(texere_plan_draws, get()), static_cast<std::size_t>(counts().draws)};
     }
     // Makes the mesh: as many vertices and indices as `counts` says.
     void mesh(view<texere_vertex> vertices, view<std::uint32_t> indices, const Run *run = nullptr) const {
@@ -312,18 +303,13 @@ public:
         check(texere_plan_mesh_arrays(get(), Run::of(run), &arrays));
     }
     // Makes packed vertices or attributes, as many as vertices, or a ring for each ring.
-    void packed(view<texere_packed_vertex> packed, const Run *run = nullptr) const {
-        auto to = strided(packed);
-        check(texere_plan_packed(get(), Run::of(run), &to));
+    void packed(view<texere_packed_vertex> to, const Run *run = nullptr) const {
+        fill(texere_plan_packed, to, run);
     }
-    void attributes(view<texere_attribute> attributes, const Run *run = nullptr) const {
-        auto to = strided(attributes);
-        check(texere_plan_attributes(get(), Run::of(run), &to));
+    void attributes(view<texere_attribute> to, const Run *run = nullptr) const {
+        fill(texere_plan_attributes, to, run);
     }
-    void trajectory(view<texere_ring> rings, const Run *run = nullptr) const {
-        auto to = strided(rings);
-        check(texere_plan_trajectory(get(), Run::of(run), &to));
-    }
+    void trajectory(view<texere_ring> to, const Run *run = nullptr) const { fill(texere_plan_trajectory, to, run); }
     // Makes the mesh piece by piece, in bounded memory: `take(const texere_piece &)` gets each. What
     // it throws ends the call, and is thrown on.
     template <class Take>
@@ -342,6 +328,89 @@ public:
     // Writes the mesh to a file, `.glb` or `.ply`.
     void write(std::string_view path, const Run *run = nullptr) const {
         check(texere_plan_write(get(), Run::of(run), path.data(), path.size()));
+    }
+
+private:
+    template <class Call, class Value>
+    void fill(Call call, view<Value> to, const Run *run) const {
+        const texere_view values{to.data(), to.size() * sizeof(Value), sizeof(Value)};
+        check(call(get(), Run::of(run), &values));
+    }
+};
+
+// The check of a cloth: its faults and their cures. All strings are valid as long as the check.
+class Check : public Owner<texere_check, texere_check_free> {
+public:
+    explicit Check(const Cloth &cloth, const texere_settings *settings = nullptr, const Run *run = nullptr)
+        : Owner(texere_check_new, cloth.get(), settings, TEXERE_ACCURACY, Run::of(run)) {}
+
+    texere_diagnosis diagnosis() const { return told(texere_check_diagnosis, get()); }
+    // The faults and their cures, and the measures of the cloth.
+    const char *json() const { return written<const char *>(texere_check_json, get()); }
+    const char *measures_json() const { return written<const char *>(texere_check_measures_json, get()); }
+};
+
+// Says what a ray hits first of yarns. `found` of the hit is 0 where it hits nothing.
+class Picker : public Owner<texere_picker, texere_picker_free> {
+public:
+    explicit Picker(const Yarns &yarns, const texere_settings *settings = nullptr)
+        : Owner(texere_picker_new, yarns.get(), settings) {}
+    texere_hit pick(const texere_ray &ray) const { return written<texere_hit>(texere_picker_pick, get(), &ray); }
+};
+
+// A cloth that is being edited, with its mesh on a device. One thread at a time may use it.
+class Live : public Owner<texere_live, texere_live_free> {
+public:
+    Live(const Cloth &cloth, const Device &device, const texere_settings *settings = nullptr)
+        : Owner(texere_live_of_cloth, cloth.get(), device.get(), settings) {}
+
+    // Whether the warp is up where an end and a pick cross; both count from 0.
+    bool lift(std::uint64_t end, std::uint64_t pick) const {
+        return written<std::uint32_t>(texere_live_lift, get(), end, pick) != 0;
+    }
+    void set_lift(std::uint64_t end, std::uint64_t pick, bool up) {
+        check(texere_live_set_lift(get(), end, pick, up));
+    }
+    // Brings the edits to the mesh. The changes are valid until the next update.
+    texere_update update() { return told(texere_live_update, get()); }
+    texere_counts counts() const { return told(texere_live_counts, get()); }
+    // Which indices draw which yarn, valid until the next update.
+    view<const texere_draw> draws() const {
+        return {written<const texere_draw *>(texere_live_draws, get()), static_cast<std::size_t>(counts().draws)};
+    }
+    // Reads the mesh, or a change of it: as many vertices and indices as it has.
+    void mesh(view<texere_vertex> vertices, view<std::uint32_t> indices, const Run *run = nullptr) const {
+        check(texere_live_mesh(get(), Run::of(run), vertices.data(), vertices.size(), indices.data(),
+                               indices.size()));
+    }
+    void read(const texere_change &change, view<texere_vertex> vertices, view<std::uint32_t> indices) const {
+        check(texere_live_read(get(), &change, vertices.data(), vertices.size(), indices.data(), indices.size()));
+    }
+    // The yarns, and what a ray hits, as they are now; edits count before an update.
+    Yarns yarns() const { return Yarns(texere_live_yarns, get()); }
+    texere_hit pick(const texere_ray &ray) const { return written<texere_hit>(texere_live_pick, get(), &ray); }
+    std::string place(const texere_hit &hit) const { return text(texere_live_place, get(), &hit); }
+};
+
+// A device that makes pictures, and the yarns that it shows. One thread at a time may use it.
+class Renderer : public Owner<texere_renderer, texere_renderer_free> {
+public:
+    // "auto", "wgpu", "wgpu:1" and so on.
+    explicit Renderer(std::string_view name = "auto") : Owner(texere_renderer_open, name.data(), name.size()) {}
+
+    // What a picture is unless it is said otherwise.
+    static texere_picture usual() {
+        auto picture = sized<texere_picture>();
+        return check(texere_picture_default(&picture)), picture;
+    }
+    // Shows yarns from now on in place of others.
+    void show(const Yarns &yarns, const texere_settings *settings = nullptr, const Run *run = nullptr) {
+        check(texere_renderer_show(get(), yarns.get(), settings, Run::of(run)));
+    }
+    // Makes a picture: four bytes a pixel, rows from the top without a gap.
+    void picture(const texere_picture &picture, view<std::uint8_t> pixels, const Run *run = nullptr) const {
+        const texere_view rows{pixels.data(), pixels.size(), std::uint64_t{4} * picture.width};
+        check(texere_renderer_picture(get(), &picture, Run::of(run), &rows));
     }
 };
 

@@ -18,14 +18,16 @@ test "$(readlink "$PREFIX/lib/libtexere_c.so")" = "libtexere_c.so.$abi"
 readelf --dynamic "$PREFIX/lib/libtexere_c.so" | grep "SONAME.*\[libtexere_c.so.$abi\]"
 grep "libtexere_c.so.$abi\"" "$PREFIX/lib/cmake/texere/texere-config.cmake"
 
-for example in mesh yarns; do
+for example in mesh yarns edit; do
     cc -std=c99 -Wall -Wextra -Werror -pedantic "$examples/$example.c" -o $example \
         $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
 done
 cmake -S "$examples/obj" -B obj "-DCMAKE_PREFIX_PATH=$PREFIX" "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -pedantic"
 cmake --build obj
 assembly=$PREFIX/share/texere/nuget/lib/netstandard2.1
-mcs -langversion:latest -warnaserror "-r:$assembly/Texere.dll" "$examples/weave.cs" -out:weave.exe
+for example in weave picture; do
+    mcs -langversion:latest -warnaserror "-r:$assembly/Texere.dll" "$examples/$example.cs" -out:$example.exe
+done
 # What the classes for C++ and C# promise.
 for standard in 17 20; do
     c++ -std=c++$standard -Wall -Wextra -Wshadow -Werror -pedantic "$capi/tests/hosts/wrappers.cpp" -o wrappers \
@@ -47,4 +49,11 @@ watched obj/obj "$designs/tricot.toml" cpu tricot.obj
 obj/obj_static "$designs/tricot.toml" cpu static.obj
 cmp tricot.obj static.obj
 "$texere" mesh "$designs/herringbone.wif" --device cpu -o herringbone.ply
-LD_LIBRARY_PATH="$PREFIX/lib" MONO_PATH="$assembly" mono weave.exe "$designs/herringbone.wif" cpu herringbone.bin
+"$texere" mesh "$designs/poplin.toml" --no-settle --device cpu -o placed.ply
+watched ./edit "$designs/poplin.toml" cpu undone.bin
+export LD_LIBRARY_PATH="$PREFIX/lib" MONO_PATH="$assembly"
+mono weave.exe "$designs/herringbone.wif" cpu herringbone.bin
+mono picture.exe "$designs/herringbone.wif" cpu herringbone.bmp
+# A header of 54 bytes and four a pixel, which have more than a few colours.
+test "$(wc -c < herringbone.bmp)" = $((54 + 4 * 640 * 480))
+test "$(tail -c +55 herringbone.bmp | od -An -v -tx4 -w4 | sort -u | wc -l)" -gt 100

@@ -25,6 +25,44 @@ using Bytes = std::vector<std::uint8_t>;
 
 static Bytes bytes(std::string_view text) { return Bytes(text.begin(), text.end()); }
 
+// Woven cloth: an edit, what it changes, what a ray hits, and the measures.
+static void live_cloth(const texere::Device &device) {
+    const Bytes plain = bytes("weave = { notation = \"plain\", ends = 6, picks = 6 }\nfinish.settle = false\n"
+                              "yarns.a.diameter_mm = 0.2\nwarp = { yarns = [\"a\"], spacing_mm = 0.5 }\n"
+                              "weft = { yarns = [\"a\"], spacing_mm = 0.5 }\n");
+    texere::Cloth cloth(texere::Design("plain.toml", plain));
+    CHECK(cloth.measures().width == 3 && cloth.measures().loops == 0);
+    texere::Check tried(cloth);
+    CHECK(tried.diagnosis().clean == (std::string_view(tried.diagnosis().words) == "clean"));
+    CHECK(tried.json()[0] == '{' && tried.measures_json()[0] == '{');
+
+    texere::Live live(cloth, device);
+    CHECK(live.update().anew == 1);
+    std::vector<texere_vertex> vertices(live.counts().vertices), again(vertices.size());
+    std::vector<std::uint32_t> indices(live.counts().indices);
+    live.mesh(vertices, indices);
+    const bool up = live.lift(2, 3);
+    live.set_lift(2, 3, !up);
+    CHECK(live.lift(2, 3) != up && live.draws().size() == live.counts().draws);
+    const texere_update update = live.update();
+    CHECK(update.anew == 0 && update.change_count > 0);
+    for (const texere_change &change : texere::view(update.changes, update.change_count)) {
+        texere::view<texere_vertex> own(vertices.data() + change.first_vertex, change.vertex_count);
+        live.read(change, own, {indices.data() + change.first_index, change.index_count});
+    }
+    live.mesh(again, indices);
+    CHECK(std::equal(again.begin(), again.end(), vertices.begin(), [](const auto &one, const auto &other) {
+        return std::equal(one.position, one.position + 3, other.position);
+    }));
+    // From above the middle of end 3 at pick 4.
+    const texere_ray down{{1.25, 1.75, 10}, {0, 0, -1}};
+    const texere_hit hit = texere::Picker(live.yarns()).pick(down);
+    CHECK(hit.found && live.pick(down).yarn == hit.yarn && live.pick(down).distance == hit.distance);
+    const std::string place = live.place(hit);
+    CHECK(place.find("end 3") != place.npos && place.find("pick 4") != place.npos && place == cloth.place(hit));
+    CHECK(!live.pick({{1.25, 1.75, 10}, {0, 0, 1}}).found);
+}
+
 int main() {
     const Bytes wrong = bytes("weave = { notation = \"plain\", ends = 4, picks = 4 }\nyarns.a.tex = -3\n");
     auto refused = thrown([&] { texere::Design("wrong.toml", wrong); });
@@ -106,4 +144,11 @@ int main() {
     run.cancel();
     CHECK(thrown([&] { plan.mesh_vectors(vertices, indices, &run); }).status() == TEXERE_CANCELLED);
     CHECK(run.progress() < 1 && plan.draws().size() == plan.counts().draws);
+    // What has no class is owned all the same; `cpu` has no buffers to lend.
+    using Session = texere::Owner<texere_session, texere_session_free>;
+    auto lent = thrown([&] { Session(texere_session_new, plan.get(), nullptr); });
+    CHECK(lent.status() == TEXERE_UNSUPPORTED);
+    live_cloth(other);
+    CHECK(texere::Renderer::usual().width == 1600);
+    CHECK(thrown([] { texere::Renderer("none"); }).status() != TEXERE_OK);
 }

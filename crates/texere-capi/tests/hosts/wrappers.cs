@@ -1,5 +1,6 @@
 // What the classes for C# promise beyond the calls: exceptions, disposal, structs that lie as the library's do.
 using System;
+using System.Runtime.InteropServices;
 using System.Text;
 using Texere;
 
@@ -28,6 +29,10 @@ static unsafe class Wrappers
         Check(sizeof(Point) == sizeof(texere_point), "Point");
         Check(sizeof(Vertex) == sizeof(texere_vertex), "Vertex");
         Check(sizeof(Draw) == sizeof(texere_draw), "Draw");
+        Check(sizeof(Change) == sizeof(texere_change), "Change");
+        Check(sizeof(Ray) == sizeof(texere_ray), "Ray");
+        Check(sizeof(Hit) == sizeof(texere_hit), "Hit");
+        Check((uint)Cap.Finish == Native.TEXERE_CAP_FINISH, "Cap");
         foreach (texere_status status in Enum.GetValues(typeof(texere_status)))
         {
             var known = status == texere_status.TEXERE_OK || Enum.IsDefined(typeof(Status), (int)status);
@@ -79,6 +84,69 @@ static unsafe class Wrappers
             Check(vertices[0].X == 0 && plan.Draws.Length == 1, "mesh");
         }
         Check(Thrown(() => device.ToString()).Status == Status.Argument, "disposed");
+        LiveCloth();
+        Pictured();
+    }
+
+    static void LiveCloth()
+    {
+        var plain = "weave = { notation = \"plain\", ends = 6, picks = 6 }\nfinish.settle = false\n"
+            + "yarns.a.diameter_mm = 0.2\nwarp = { yarns = [\"a\"], spacing_mm = 0.5 }\n"
+            + "weft = { yarns = [\"a\"], spacing_mm = 0.5 }\n";
+        using (var device = new Device("cpu"))
+        using (var design = Design.Read("plain.toml", Encoding.UTF8.GetBytes(plain)))
+        using (var cloth = Cloth.Placed(design))
+        using (var check = new Check(cloth))
+        using (var live = new Live(cloth, device))
+        {
+            Check(check.IsClean == (check.ToString() == "clean"), check.ToString());
+            Check(check.Json[0] == '{' && check.MeasuresJson[0] == '{', "JSON");
+            live.Update(out var anew);
+            Check(anew, "the first update makes the whole mesh");
+            var (vertices, indices) = (new Vertex[live.Vertices], new uint[live.Indices]);
+            live.Mesh(vertices, indices);
+            var up = live[2, 3];
+            live[2, 3] = !up;
+            Check(live[2, 3] != up, "lift");
+            var changes = live.Update(out anew);
+            Check(!anew && changes.Length > 0 && live.Draws.Length > 0, "changes");
+            foreach (var change in changes)
+            {
+                live.Read(
+                    change, vertices.AsSpan((int)change.FirstVertex, (int)change.VertexCount),
+                    indices.AsSpan((int)change.FirstIndex, (int)change.IndexCount));
+            }
+            var again = new Vertex[live.Vertices];
+            live.Mesh(again, indices);
+            var same = MemoryMarshal.AsBytes<Vertex>(again).SequenceEqual(MemoryMarshal.AsBytes<Vertex>(vertices));
+            Check(same, "what was read is the mesh");
+
+            // From above the middle of end 3 at pick 4.
+            var ray = new Ray { X = 1.25, Y = 1.75, Z = 10, DirectionZ = -1 };
+            using (var yarns = live.Yarns)
+            using (var picker = new Picker(yarns))
+            {
+                var (hit, own) = (picker.Pick(ray).Value, live.Pick(ray).Value);
+                Check(hit.Yarn == own.Yarn && hit.Distance == own.Distance && hit.X == 1.25, "hit");
+                Check(live.Place(hit).Contains("end 3") && live.Place(hit) == cloth.Place(hit), live.Place(hit));
+                ray.DirectionZ = 1;
+                Check(picker.Pick(ray) == null, "nothing is hit");
+            }
+        }
+    }
+
+    static void Pictured()
+    {
+        using (var yarns = Yarns.Of(new ulong[] { 0, 3 }, new[] { At(0), At(1), At(2) }))
+        using (var renderer = new Renderer())
+        {
+            Check(Thrown(() => renderer.Picture(8, 8)).Status == Status.Argument, "no yarns");
+            renderer.Show(yarns);
+            var pixels = renderer.Picture(40, 30);
+            Check(pixels.Length == 40 * 30 * 4 && pixels[3] == 255, "picture");
+            var middle = pixels.AsSpan((15 * 40 + 20) * 4, 4);
+            Check(!middle.SequenceEqual(pixels.AsSpan(0, 4)), "the yarn is seen");
+        }
     }
 
     static Point At(float x) => new Point { X = x, HalfWidth = .1f, HalfHeight = .1f };

@@ -37,7 +37,7 @@ static void live_cloth(const texere::Device &device) {
     CHECK(tried.json()[0] == '{' && tried.measures_json()[0] == '{');
 
     texere::Live live(cloth, device);
-    CHECK(live.update().anew == 1);
+    CHECK(live.update().change_count > 0);
     std::vector<texere_vertex> vertices(live.counts().vertices), again(vertices.size());
     std::vector<std::uint32_t> indices(live.counts().indices);
     live.mesh(vertices, indices);
@@ -58,8 +58,9 @@ static void live_cloth(const texere::Device &device) {
     const texere_ray down{{1.25, 1.75, 10}, {0, 0, -1}};
     const texere_hit hit = texere::Picker(live.yarns()).pick(down);
     CHECK(hit.found && live.pick(down).yarn == hit.yarn && live.pick(down).distance == hit.distance);
-    const std::string place = live.place(hit);
-    CHECK(place.find("end 3") != place.npos && place.find("pick 4") != place.npos && place == cloth.place(hit));
+    CHECK(live.place(hit) == "end 3 at pick 4, a");
+    const texere_hit other = texere::Picker(cloth.yarns()).pick(down);
+    CHECK(other.yarn != hit.yarn && cloth.place(other) == "pick 4 at end 3, a");
     CHECK(!live.pick({{1.25, 1.75, 10}, {0, 0, 1}}).found);
 }
 

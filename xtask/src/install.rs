@@ -32,7 +32,7 @@ pub(crate) fn install(steps: &mut Steps, prefix: &Path) {
     // The program comes along, for its crates have other features than the library's: built apart,
     // either would build wgpu anew after the other.
     let packages = ["--package", "texere-capi", "--package", "texere-cli"];
-    let features = ["--no-default-features", "--features", "texere-capi/opencl,texere-capi/wgpu"];
+    let features = ["--no-default-features", "--features", "texere-capi/default"];
     let build = [&["build", "--release", "--locked"][..], &packages, &features].concat();
     steps.cargo("the C library", &build, &[]);
     let assembly = assembly(steps);

@@ -1,6 +1,7 @@
 //! Live cloth: a mesh that stays on its device while yarns are edited.
 
 use std::ffi::CString;
+use std::iter;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
 
@@ -131,7 +132,7 @@ impl Editing {
         let caps = chunk.caps()[caps.clone()]
             .first()
             .map(|cap| stretch(cap.first_vertex, count * settings.sides, cap.first_index, count * each));
-        [Some(tubes), caps].into_iter().flatten()
+        iter::once(tubes).chain(caps)
     }
 
     /// Reads a stretch of the mesh. The slices have the lengths that it says.

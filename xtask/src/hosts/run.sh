@@ -33,6 +33,7 @@ for standard in 17 20; do
     c++ -std=c++$standard -Wall -Wextra -Wshadow -Werror -pedantic "$capi/tests/hosts/wrappers.cpp" -o wrappers \
         $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
     watched ./wrappers
+    ./wrappers picture
 done
 mcs -langversion:latest -unsafe "-recurse:$capi/csharp/*.cs" "$capi/tests/hosts/wrappers.cs" -out:wrappers.exe
 LD_LIBRARY_PATH="$PREFIX/lib" mono wrappers.exe

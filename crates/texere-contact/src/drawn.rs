@@ -83,9 +83,10 @@ impl Drawn {
     }
 }
 
-/// The smallest number of points between control points, above that of `settings`, with which a
-/// mesh of `yarns` is [sound](Drawn::is_sound), and the mesh's measures. Each number that is tried
-/// halves the distance of the rings. None if no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
+/// The number of points between control points with which a mesh of `yarns` is
+/// [sound](Drawn::is_sound), and the mesh's measures. The numbers that are tried are larger than
+/// that of `settings`, and each halves the distance of the rings, up to [`TWIST_SUBDIVISIONS_MAX`]
+/// points. The first that helps is returned, and none if no number does.
 ///
 /// **Errors**: the errors of [`drawn`].
 pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, ContactError> {

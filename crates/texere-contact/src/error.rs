@@ -18,7 +18,7 @@ pub enum ContactError {
     ClearancePoints {
         /// Number of control points of all yarns.
         points: u64,
-        /// Most taken.
+        /// The largest number that is accepted.
         limit: u64,
     },
     /// More control intervals than linking is compared for. In a repeat, an interval counts once
@@ -27,7 +27,7 @@ pub enum ContactError {
     LinkingSize {
         /// Number of intervals of all yarns, with their copies.
         intervals: u64,
-        /// Most taken.
+        /// The largest number that is accepted.
         limit: u64,
     },
     /// Two shapes that are not shapes of the same yarns, so that their linking can't be compared.

@@ -16,7 +16,7 @@ pub(crate) const ENTRIES: u64 = 6;
 /// cells, and few boxes of a cell are far from one another.
 const CELL: f64 = 1.75;
 
-/// If there are fewer cells than this along an axis, one cell replaces them.
+/// If there are no more cells than this along an axis, one cell replaces them.
 const LAYERS: f32 = 4.0;
 
 /// A box with sides along the axes.

@@ -64,7 +64,7 @@ pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -
 }
 
 /// Length of a part of an open yarn, mm: the intervals between the control points of the range
-/// `part`. Control points outside the range bend its ends.
+/// `part`. The control points beside the range count, too, for the curve at its ends.
 pub fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
     let s = tangent_factor(tension);
     let last = part.end.min(points.len()).saturating_sub(1);

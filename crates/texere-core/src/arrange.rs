@@ -67,7 +67,8 @@ impl Yarns {
             let [x, y] = [up.x, up.y].map(f64::from);
             [(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, up.z]
         };
-        // For a flattened yarn that goes straight up, only its ups give a direction.
+        // Ups that were worked out are turned, too: for a flattened yarn that goes straight up,
+        // nothing else says where its height points.
         if self.layout().leans() {
             placed.with_ups(self.standing_ups().iter().map(turned).collect())
         } else {

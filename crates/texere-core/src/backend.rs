@@ -1,7 +1,7 @@
 //! The types that a backend is written with.
 //!
-//! A [`Backend`](crate::Backend) opens a [`Session`] for a [`Plan`], and the session drives the
-//! backend's [`Engine`] chunk by chunk.
+//! A [`Backend`](crate::Backend) opens an [`Engine`] for a [`Plan`], and a [`Session`] drives the
+//! engine chunk by chunk.
 //!
 //! | part | types |
 //! |---|---|

@@ -39,8 +39,8 @@ impl Ends {
 /// The boundary of a piece of cloth: the repeat's size, and the ends of each yarn.
 ///
 /// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis
-/// that has a period. Control points may lie anywhere, even beyond the repeat's edge. The only
-/// condition is that each round of a yarn begins where the round before ends.
+/// that has a period. Control points may lie anywhere, even beyond the repeat's edge, as long as
+/// each round of a repeating yarn begins where the round before ends.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};

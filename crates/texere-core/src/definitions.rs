@@ -5,9 +5,9 @@
 //! |---|---|
 //! | the centreline | [`Segment`], at a [`Sample`], with [`tangent_factor`]; [`Sampling`] places the rings on it |
 //! | a ring's axes | [`Basis`], [`up_between`] |
-//! | its roll | [`Turn`] |
-//! | the ring | [`Ring`], with a [`Stance`] for the slope of its vertices |
-//! | its corners | [`Section`](crate::Section), [`corner_angle`] |
+//! | a ring's roll | [`Turn`] |
+//! | a ring | [`Ring`], with a [`Stance`] for the slope of its vertices |
+//! | a ring's corners | [`Section`](crate::Section), [`corner_angle`] |
 //! | triangles | [`index_pattern`] |
 //!
 //! The constants belong to these definitions. Kernels and shaders use the same values.

@@ -117,7 +117,8 @@ pub struct DeviceInfo {
     pub kind: DeviceKind,
     /// The device's memory in bytes, if it is known.
     pub memory_bytes: Option<u64>,
-    /// The limits that chunks are cut to. `binding_bytes` is the length of the longest buffer.
+    /// The limits that chunks are cut to. `binding_bytes` is the largest length that a buffer may
+    /// have.
     pub limits: Limits,
     /// The capabilities of the device beyond making meshes.
     pub can: Capabilities,

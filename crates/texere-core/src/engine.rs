@@ -71,8 +71,8 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 /// A [`Session`](crate::backend::Session) calls the engine and keeps these rules, so that no engine
 /// has to check them:
 ///
-/// - Control points come within the plan's range. Results of earlier control points are not read
-///   afterwards.
+/// - Control points come within the plan's range. Results of control points that were replaced are
+///   not read afterwards.
 /// - If the plan needs a scan, it comes after any number of uploads and before the next stage. A
 ///   session scans all yarns at once. A live mesh scans each run of neighbouring yarns that have
 ///   changed.
@@ -100,8 +100,8 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Returns the bytes sent, virtual ends included.
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
 
-    /// Takes all control points from a settler, whose yarns have as many as the plan's. Returns the
-    /// bytes that went through the host.
+    /// Takes all control points from a settler. The settler's yarns have the same numbers of
+    /// control points as the plan's. Returns the bytes that went through the host.
     ///
     /// The provided method calls [`take_over_host`]. An engine on the settler's own device
     /// overrides it, so that the points stay there.
@@ -225,8 +225,8 @@ pub trait Engine: Any + fmt::Debug + Send {
 
     /// Stage 2, with the results in the caller's slices.
     ///
-    /// The provided method calls `mesh`, then reads and copies. An engine that can write there
-    /// directly overrides it.
+    /// The provided method calls `mesh`, then reads and copies. An engine that can write into the
+    /// slices directly overrides it.
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, mut out: MeshMut<'_>) -> Result<(), BackendError> {
         self.mesh(slot, chunk)?;
         let mut copy = |piece: MeshPiece<'_>| {
@@ -271,8 +271,8 @@ pub struct ScanChunk {
 }
 
 /// The chunks of a scan, in order, each with its slot. An engine that uses a chunk has to load the
-/// chunk's tables unless they are in the slot already.
-/// The chunks end early if the caller wants no more of the scan.
+/// chunk's tables unless they are in the slot already. The chunks end early if the caller wants no
+/// more of the scan.
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
     yarns: Range<usize>,

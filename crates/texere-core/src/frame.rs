@@ -94,7 +94,7 @@ impl Frame {
     }
 
     /// The frame of a yarn that is [steep](crate::Layout::is_steep) or not. A steep yarn has the
-    /// rotation minimising frame, because its tube would be wrung in an upright one.
+    /// rotation minimising frame, because an upright one would twist its tube sharply.
     #[must_use]
     #[inline]
     pub const fn of(self, steep: bool) -> Self {

@@ -99,10 +99,10 @@ impl Layout {
     /// control points, and the number of all control points last. The [tension](Layout::tension) of
     /// the splines is 0.
     ///
-    /// **Errors**: [`YarnError`] for no yarns, another number of offsets than yarns and one,
-    /// offsets that do not start at 0 or that fall, a yarn of fewer than two control points (three
-    /// when closed), an unknown section, a twist that is not finite or beyond [`TWIST_LIMIT`], and
-    /// a section with invalid parameters.
+    /// **Errors**: [`YarnError`] for no yarns, a number of offsets that is not one more than that
+    /// of yarns, offsets that do not start at 0 or that fall, a yarn of fewer than two control
+    /// points (three when closed), an unknown section, a twist that is not finite or beyond
+    /// [`TWIST_LIMIT`], and a section with invalid parameters.
     pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
         if yarns.is_empty() {
             return Err(YarnError::NoYarns);
@@ -253,11 +253,11 @@ impl Layout {
     }
 
     /// The up directions of the control points of `yarn`, unit vectors. They are
-    /// [given](crate::Yarns::with_ups), or worked out for a flattened yarn whose upright frame
-    /// would turn about the yarn by more than 15 degrees within a control interval. Ups that are
-    /// worked out follow the upright frame where it turns slowly. Near the vertical they are
-    /// carried along the yarn. `None` for a yarn that stands upright, for a round yarn without
-    /// given ups, and past the last yarn.
+    /// [given](crate::Yarns::with_ups), or worked out for a flattened yarn that is vertical at a
+    /// control point, or whose upright frame would turn about the yarn by more than 15 degrees
+    /// within a control interval. Ups that are worked out follow the upright frame where it turns
+    /// slowly. Near the vertical they are carried along the yarn. `None` for a yarn that stands
+    /// upright, for a round yarn without given ups, and past the last yarn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};

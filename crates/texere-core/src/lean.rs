@@ -1,5 +1,5 @@
-//! The lean of outlines. Yarns that leave the plane of their cloth, and flat yarns that run up or
-//! down, have an up direction at each control point.
+//! The lean of outlines. Yarns of bent or turned cloth, and flat yarns that run up or down, have an
+//! up direction at each control point.
 
 use glam::{DVec3, Vec3};
 
@@ -27,7 +27,8 @@ const RIGHT_ANGLE: f64 = 1e-9;
 ///
 /// Each up is carried to the tangent by the smallest rotation, and the two are mixed linearly. An
 /// outline turned over is the same outline, so the second up may be replaced by its opposite. The
-/// one nearer to the first up counts. At a right angle, up to rounding, the up itself counts.
+/// one nearer to the first up counts. If both are at right angles to it, up to rounding, the second
+/// up itself counts.
 ///
 /// ```
 /// use glam::DVec3;

@@ -14,7 +14,7 @@
 //! | module | holds |
 //! |---|---|
 //! | the root | types for programs: yarns, settings, pipelines, meshes, devices, errors |
-//! | [`definitions`] | the geometry that every backend must agree on to the bit: the spline, rolls, rings |
+//! | [`definitions`] | the geometry that all backends share: the spline, rolls, rings |
 //! | [`mod@backend`] | types to write a backend with: plans, chunks, engines, sessions |
 //! | [`settling`], [`crossings`] | how yarns come to rest, and the part of a device in it |
 //!

@@ -114,14 +114,14 @@ fn carry(
             DMat3::from_cols_array_2d(&[DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
                 ((map(place + axis * near) - map(place - axis * near)) / (2.0 * near)).to_array()
             }));
-        // The section is taken at right angles to the carried yarn. What the map moves along the
-        // yarn only slides along its surface.
+        // The section is taken at right angles to the carried yarn. The part of a displacement that
+        // goes along the yarn is left out, because it only moves the surface along itself.
         let tangent = (stretch * along).normalize_or_zero();
         let across = |v: DVec3| v - tangent * v.dot(tangent);
         let (side, up) = (across(stretch * up.cross(along) * wide), across(stretch * up * high));
         let half_height = up.length();
-        // The width gives the section the area of the carried ellipse. The section's axes are those
-        // of the ellipse, apart from the map's shear over the yarn's width.
+        // The half width is chosen so that the section has the area of the carried ellipse. Unless
+        // the map shears the section, its axes are those of the carried ellipse, too.
         let half_width = side.cross(up).length() / half_height;
         let [x, y, z] = map(place).as_vec3().to_array();
         let carried_point = ControlPoint { x, y, z, ..*point };

@@ -121,8 +121,8 @@ impl Plan {
     /// [`Topology::None`].
     ///
     /// Draw nothing but these ranges of a [`LiveMesh`](crate::backend::LiveMesh), because unused
-    /// room between yarns holds triangles from before an edit. The draws change with an edit that
-    /// makes a yarn longer or shorter.
+    /// room between yarns holds triangles from before an edit. An edit may change the draws, for
+    /// example if it makes a yarn longer or shorter.
     pub fn chunk_draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = ChunkDraw> + 'a {
         self.draws_from(chunk, 0, 0).map(|draw| ChunkDraw {
             yarn: draw.yarn,
@@ -280,7 +280,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The draws of the mesh, yarn by yarn.
+    /// The draws of the mesh, chunk by chunk: first those of the yarns in order, then those of the
+    /// caps. There are none with [`Topology::None`].
     pub fn draws(&self) -> impl Iterator<Item = Draw> {
         self.chunks.iter().flat_map(|chunk| self.plan.draws(chunk))
     }

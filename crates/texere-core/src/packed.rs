@@ -22,8 +22,8 @@ pub struct Quantum {
     exponent: i8,
 }
 
-/// The exponents of the finest and the coarsest quantum. With the finest, a fibre of the least
-/// radius is a thousand quanta thick. The coarsest reaches over all coordinates that are allowed.
+/// The exponents of the finest and the coarsest quantum. With the finest, the least radius of a
+/// yarn is over 1,600 quanta. The coarsest reaches over all coordinates that are allowed.
 const EXPONENTS: std::ops::RangeInclusive<i8> = -24..=11;
 
 /// The mask of a packed coordinate's bits.

@@ -105,21 +105,21 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Whether yarn ends are closed.
+    /// Sets whether the ends of open yarns are closed with caps.
     #[must_use]
     pub fn caps(mut self, caps: bool) -> Self {
         self.settings.caps = caps;
         self
     }
 
-    /// The grid that [packed](Pipeline::packed) positions lie on.
+    /// Sets the step of the grid that [packed](Pipeline::packed) positions lie on.
     #[must_use]
     pub fn quantum(mut self, quantum: Quantum) -> Self {
         self.settings.quantum = quantum;
         self
     }
 
-    /// Cuts chunks to `limits` where they are stricter than the device's own. The default is
+    /// Cuts chunks to `limits` if they are stricter than the device's own. The default is
     /// [`Limits::default`]. Limits bound the memory of a [`Pipeline::stream`] and the size of one
     /// step of progress.
     #[must_use]
@@ -238,9 +238,9 @@ impl<'a> Pipeline<'a> {
 
     /// The mesh piece by piece, each with its chunk, in bounded memory: the control points and two
     /// chunks at a time. Each chunk comes as all vertices in order, then all indices in order. A
-    /// piece of indices may end anywhere, even within a triangle. No triangle comes twice; only
-    /// vertices are repeated where a chunk ends inside a yarn. If the sink answers `Break`, the run
-    /// ends and the answer is returned; at most one more chunk has been worked on by then.
+    /// piece of indices may end anywhere, even within a triangle. No triangle comes twice. Only
+    /// vertices are repeated, if a chunk ends inside a yarn. If the sink answers `Break`, the run
+    /// ends and the answer is returned. At most one more chunk has been worked on by then.
     ///
     /// **Errors**: the errors of [`Pipeline::mesh`].
     pub fn stream<B>(

@@ -23,9 +23,9 @@ pub struct YarnPlace {
 }
 
 impl YarnPlace {
-    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`. A
-    /// picked triangle has such numbers, for example. `None` if there is no such yarn or interval,
-    /// or `t` is outside its range.
+    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`. The
+    /// numbers may be those of a picked triangle, for example. `None` if there is no such yarn or
+    /// interval, or `t` is outside its range.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};

@@ -32,8 +32,8 @@ pub struct Ring {
     pub width_growth: f32,
     /// Growth of the half height along the yarn.
     pub height_growth: f32,
-    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame. 0
-    /// unless the yarn has [up directions](crate::Layout::ups).
+    /// Turn of the yarn's outline about the tangent, against the upright frame. 0 unless the yarn
+    /// has [up directions](crate::Layout::ups).
     pub lean: Turn,
 }
 
@@ -89,9 +89,9 @@ impl Ring {
     /// The vertex at `point` of the section with `stance`.
     ///
     /// The section is turned by the roll, then stretched to the half width along the side and to
-    /// the half height along the up of the upright frame. Its normal is stretched by the inverse
-    /// transpose. If the section grows along the yarn, the normal leans back, so that it is at
-    /// right angles both to the outline and to the line along the surface.
+    /// the half height along the up of the upright frame, which is turned by the lean. Its normal
+    /// is stretched by the inverse transpose. If the section grows along the yarn, the normal leans
+    /// back, so that it is at right angles both to the outline and to the line along the surface.
     #[must_use]
     #[inline]
     pub fn vertex(&self, stance: &Stance, point: &SectionPoint) -> Vertex {

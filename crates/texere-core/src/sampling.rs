@@ -25,8 +25,8 @@ pub struct Sampling {
     step: f32,
 }
 
-/// The most points that may be inserted between two control points. With a thousand, the rings of a
-/// 0.1 mm yarn are already less than a micrometre apart.
+/// The most points that may be inserted between two control points. With a thousand between control
+/// points a millimetre apart, rings are only a micrometre apart.
 pub(crate) const SUBDIVISIONS_MAX: u32 = 1023;
 
 impl Default for Sampling {

@@ -107,7 +107,8 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 
     /// Cuts a scan's chunks to `limits` if they are stricter than the device's own. If the caller
-    /// cuts chunks to the same limits, tables are sent once for the scan and the stages.
+    /// cuts chunks to the same limits, tables that are still in a slot after the scan are not sent
+    /// again for the stages.
     #[must_use]
     pub fn with_limits(mut self, limits: &Limits) -> Self {
         self.limits = self.limits.min(limits);
@@ -174,7 +175,7 @@ impl<E: Engine + ?Sized> Session<E> {
         self.scan_watched(&mut || ControlFlow::Continue(())).map(|_| ())
     }
 
-    /// [`Session::scan`], which ends early where `watch` answers `Break`, and gives that answer.
+    /// [`Session::scan`], which ends early if `watch` answers `Break`, and returns that answer.
     /// `watch` is called now and then.
     ///
     /// **Errors**: the errors of [`Session::scan`].
@@ -195,7 +196,7 @@ impl<E: Engine + ?Sized> Session<E> {
         self.measure_watched(&mut || ControlFlow::Continue(())).map(|_| ())
     }
 
-    /// [`Session::measure`], which ends early where `watch` answers `Break`, and gives that answer.
+    /// [`Session::measure`], which ends early if `watch` answers `Break`, and returns that answer.
     /// `watch` is called now and then.
     ///
     /// **Errors**: the errors of [`Session::measure`].

@@ -81,8 +81,8 @@ pub const ZERO_VELOCITY: f32 = 1e-12;
 pub const NO_LENGTH: f32 = 1e-30;
 
 /// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is
-/// within 1e-4 rad of the axis, and the square of anything steeper would begin to leave the range
-/// of `f32`.
+/// within 1e-4 rad of the axis. Without a limit, the square of a growth could leave the range of
+/// `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
 
 /// The least half width and half height between two control points, as a share of the smaller value

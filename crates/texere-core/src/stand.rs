@@ -40,7 +40,8 @@ pub(crate) struct Stand {
 impl Stand {
     /// The stand of the yarn through `points`, with given up directions or without.
     ///
-    /// A flattened yarn without given ups gets ups if its upright frame turns too fast.
+    /// A flattened yarn without given ups gets ups if its upright frame turns too fast, or if it is
+    /// vertical at a control point.
     pub(crate) fn of(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3]>) -> Self {
         let given = ups.is_some();
         let upright = Self { steep: false, leaning: None };

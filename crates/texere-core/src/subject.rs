@@ -148,7 +148,8 @@ impl BoundaryError {
 
 impl YarnError {
     /// The property of the cloth that the error is about. The thread is unknown here. `None` for
-    /// tables that don't fit one another, and for the tension of splines, which no design sets.
+    /// tables that don't fit one another, invalid up directions, an unknown yarn, and the tension
+    /// of splines, which no design sets.
     #[must_use]
     pub const fn subject(&self) -> Option<Subject> {
         Some(match self {

@@ -15,8 +15,8 @@ pub enum Topology {
     /// Three `u32` indices per triangle, counted from the chunk's first vertex.
     #[default]
     Indexed,
-    /// One index pattern for all parts, drawn with a base vertex. Half as many bytes have to be
-    /// written as with [`Topology::Indexed`].
+    /// One index pattern for all parts, drawn with a base vertex. About half as many bytes have to
+    /// be written as with [`Topology::Indexed`].
     Shared,
     /// No indices. This is for a caller who has the pattern.
     None,

@@ -35,7 +35,7 @@ pub const TWIST_SUBDIVISIONS_MAX: u32 = 63;
 const TWIST_RINGS_MAX: u64 = 1 << 21;
 
 /// A warning: the rings of a mesh are too far apart for the twist of a yarn, so that its plies lean
-/// the wrong way or its tube is wrung. Its text is one line.
+/// the wrong way or its tube is wrung, that is, narrow between rings. Its text is one line.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Pipeline, Section, Settings, Undersampled, Yarn, Yarns};
@@ -55,7 +55,7 @@ const TWIST_RINGS_MAX: u64 = 1 << 21;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Undersampled {
-    /// The yarn with the worst undersampling.
+    /// Number of the yarn with the worst undersampling, counted from 0.
     pub yarn: usize,
     /// The yarn's origin.
     pub origin: Origin,
@@ -116,8 +116,8 @@ impl Settings {
     }
 
     /// These settings with enough subdivisions for the twist of all `yarns`. No yarn then turns by
-    /// more than [`TWIST_STEP`] from one ring to the next, or by more than 90 degrees if it is
-    /// round, because its twist hardly shows.
+    /// more than [`TWIST_STEP`] from one ring to the next. A round yarn may turn by 90 degrees,
+    /// because its twist hardly shows.
     ///
     /// The number of subdivisions never falls. It is not raised above [`TWIST_SUBDIVISIONS_MAX`],
     /// or to more than two million rings in all. [`Undersampled::of`] reports the twist that is

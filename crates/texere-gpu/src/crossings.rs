@@ -58,7 +58,7 @@ pub struct CrossingsParams {
     pub press: f32,
     /// The weight of terms that keep threads apart.
     pub penalty: f32,
-    /// The share of its area that a thread tends to.
+    /// The area that a thread tends to, as a share of its full area.
     pub area: f32,
     /// The number of the pass since the host last waited, counted from 0.
     pub pass_number: u32,

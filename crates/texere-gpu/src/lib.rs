@@ -6,7 +6,7 @@
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
 //! | tables of a settling, and what comes back in them | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
 //! | tables of crossings | [`CrossingsParams`], [`ThreadRow`], [`crossings_ups`], [`CrossingsSeenRow`] |
-//! | tables that turn settled places into control points | [`SettledParams`], [`SettledRow`], [`BoundsRow`] |
+//! | tables that turn settled places into control points, and boxes round these points | [`SettledParams`], [`SettledRow`], [`BoundsRow`] |
 //! | uploads of control points with virtual ends | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
 //! | the chunk whose tables lie in a slot, checked so that no kernel has to check a bound | [`LoadedChunk`] |

@@ -9,17 +9,20 @@ use crate::upload::Ends;
 
 /// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the meshes of
 /// all chunks of `plan`. Each comes as what it holds, and its bytes. The buffers of the two chunks
-/// in flight come last. `limits` are the device's own, which chunks are cut to. If a caller cuts
-/// smaller chunks, tables are still as large as a scan needs them, because a scan cuts chunks to
-/// the device's limits.
+/// in flight come last. `limits` are those that chunks are cut to, by the caller and in a
+/// [scan](texere_core::backend::Session::with_limits). If a scan cuts larger chunks than the
+/// caller, tables are as large as the scan needs them.
 ///
-/// Not counted are: the rounding up of each buffer to what kernels read at a time; parameters and
-/// time stamps, some hundred bytes; the 16 MiB that wgpu maps to upload through, which some drivers
-/// take from the device's memory; rings, 48 bytes each, where
-/// [`Session::trajectory`](texere_core::backend::Session::trajectory) is called; packed vertices,
-/// 12 bytes each, where [`Session::packed`](texere_core::backend::Session::packed) is called;
-/// attributes of vertices and the lengths of yarn before blocks, where
-/// [`Session::attributes`](texere_core::backend::Session::attributes) is called.
+/// These are not counted:
+/// - the rounding up of each buffer to what kernels read at a time,
+/// - parameters and time stamps, some hundred bytes,
+/// - the 16 MiB that wgpu maps to upload through, which some drivers take from the device's memory,
+/// - rings, 48 bytes each, if [`Session::trajectory`](texere_core::backend::Session::trajectory) is
+///   called,
+/// - packed vertices, 12 bytes each, if [`Session::packed`](texere_core::backend::Session::packed)
+///   is called,
+/// - attributes of vertices and the lengths of yarn before blocks, if
+///   [`Session::attributes`](texere_core::backend::Session::attributes) is called.
 ///
 /// ```
 /// use texere_core::backend::Plan;

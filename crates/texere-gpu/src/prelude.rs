@@ -48,9 +48,9 @@ const fn integer(name: &'static str, value: u32) -> Constant {
     Constant { name, value: Value::Integer(value) }
 }
 
-/// The constants of meshes. Each has the value of a constant of the core. The number at the end of
-/// a name is the power for `SINE`, `COSINE` and `ARCTANGENT`, and counts elements for `ARC_NODE`
-/// and `ARC_WEIGHT`.
+/// The constants of meshes. All but `FULL_TURN`, which is 2π, have values of the core. The number
+/// at the end of a name is the power for `SINE`, `COSINE` and `ARCTANGENT`, and counts elements for
+/// `ARC_NODE` and `ARC_WEIGHT`.
 pub const CONSTANTS: [Constant; 38] = [
     integer("BLOCK_RINGS", BLOCK_RINGS),
     float("TURN_STEPS", Turn::STEPS),
@@ -212,8 +212,8 @@ pub fn prelude(language: Language, flattened: bool) -> String {
 mod tests {
     use super::*;
 
-    /// The core's values, each named once more. If a number replaces a name in the tables above,
-    /// the test finds the difference.
+    /// The constants that come from the core, each named once more. The test fails if a value in
+    /// the tables above differs.
     const OF_THE_CORE: [(&str, &[f32]); 84] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
@@ -301,7 +301,7 @@ mod tests {
         ("PASSAGE_TURN", &[crossings::TURN]),
     ];
 
-    /// The texts are parsed as their compilers parse them. The values must have the core's bits.
+    /// The numbers in the texts of both languages are read back. They must equal the core's.
     #[test]
     fn a_constant_of_the_core_is_the_same_in_both_languages() {
         for (language, define, assign) in

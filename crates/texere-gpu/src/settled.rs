@@ -1,5 +1,5 @@
-//! Tables with which a device turns settled places into control points, so that they need not go
-//! through the host.
+//! Tables with which a device turns settled places into control points, so that the points need not
+//! go through the host.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::backend::Plan;

@@ -283,8 +283,7 @@ impl SettlingParams {
 
     /// These parameters with the cells that chords are sorted into at `growth`. `rows` give the
     /// extent of all chords. Cells are so large that a chord's neighbours lie in its own cell or in
-    /// one beside it. There are no more cells than chords, apart from a few that are always
-    /// allowed.
+    /// one beside it. There are no more cells than chords, or than 64 if there are fewer chords.
     #[must_use]
     pub fn with_cells(self, plan: &SettlingPlan, growth: f32, rows: &[ExtentRow]) -> Self {
         let fold = |of: fn(&ExtentRow) -> i32, better: fn(i32, i32) -> i32| {

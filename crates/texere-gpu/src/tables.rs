@@ -258,7 +258,7 @@ mod tests {
 
     use super::*;
 
-    /// Chunks of plans of short and long yarns, cut in many places.
+    /// Calls `check` with chunks of plans of short and long yarns, cut in many places.
     fn chunks(check: impl Fn(&Plan, &Chunk)) {
         for (subdivisions, sides) in [(0, 3), (1, 6), (7, 5)] {
             for topology in [Topology::Indexed, Topology::Shared] {
@@ -295,8 +295,9 @@ mod tests {
         });
     }
 
-    /// The plan's own blocks are rows of 64 rings. Rows of 64 rings must equal them, also if they
-    /// are joined from shorter rows. No row may be longer than asked for.
+    /// Rows of at most 64 rings must equal the chunk's own blocks, also if they are made from rows
+    /// of another length. No row may be longer than asked for, and each must have the control point
+    /// of its first ring.
     #[test]
     fn rows_of_any_length_say_what_the_blocks_say() {
         chunks(|plan, chunk| {

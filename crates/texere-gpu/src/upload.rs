@@ -113,7 +113,8 @@ impl YarnEnds {
         for (yarn, ends) in self.ends.iter_mut().enumerate() {
             let own = &padded[plan.padded_offsets()[yarn] as usize + 1..];
             let count = (plan.layout().offsets()[yarn + 1] - plan.layout().offsets()[yarn]) as usize;
-            // In a yarn of two points the second is also stored as the third, as in an upload.
+            // A yarn of two points has no third point. The second is stored in its place, and
+            // nothing depends on it.
             for (end, at) in ends.iter_mut().zip([0, 1, 2.min(count - 1), count - 2, count - 1]) {
                 *end = own[at];
             }
@@ -162,9 +163,9 @@ impl PaddedUpload<'_> {
         ]
     }
 
-    /// Lends the padded points of `range` run by run: slices of the caller's own points, and
-    /// virtual ends. `range` should lie within one of [`PaddedUpload::ranges`]. In any other range,
-    /// only the points that this upload has are lent.
+    /// Lends the padded points of `range` run by run: slices of the caller's own points, virtual
+    /// ends, and zeros for room without points. `range` should lie within one of
+    /// [`PaddedUpload::ranges`]. In any other range, only the points that this upload has are lent.
     pub fn runs(&self, range: Range<u64>, mut take: impl FnMut(&[ControlPoint])) {
         let offsets = self.plan.padded_offsets();
         let before = offsets.partition_point(|&start| start <= range.start).saturating_sub(1);

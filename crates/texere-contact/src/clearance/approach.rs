@@ -1,5 +1,5 @@
 //! The places where two intervals of round yarns come nearest to one another, refined on the
-//! spline.
+//! spline. A knot is a control point, at which one interval ends and the next begins.
 
 use glam::{DMat2, DVec2, Vec2Swizzles};
 
@@ -62,7 +62,8 @@ impl Side<'_> {
         direction != 0.0 && self.held(t + CLOSE * direction.signum()) == t && self.own(t).is_none()
     }
 
-    /// `t`, held at the cut ends of a yarn, and a little outside the interval elsewhere.
+    /// `t`, clamped to the interval. Beyond an end that is no cut end of the yarn, `t` may go on by
+    /// [`MARGIN`].
     pub(super) fn held(&self, t: f64) -> f64 {
         let [low, high] =
             [if self.cut[0] { 0.0 } else { -MARGIN }, if self.cut[1] { 1.0 } else { 1.0 + MARGIN }];
@@ -105,7 +106,7 @@ fn ratio_of(a: &At, b: &At) -> f64 {
 /// The first parameter of an approach, if the approach belongs to its interval.
 ///
 /// At a knot within a yarn the earlier interval owns the approach if the distance clearly rises at
-/// the knot, because the minimum then lies before the knot. Both intervals see the same slope
+/// the knot, because the minimum then lies before the knot. Both intervals have the same slope
 /// there, and an interval that
 /// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) leaves out
 /// never owns it.

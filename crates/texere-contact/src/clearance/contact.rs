@@ -16,11 +16,11 @@ pub const CLEAR: f64 = 0.985;
 
 /// The accuracy of a ratio. Yarns at a ratio of 0.999 count as touching.
 ///
-/// Yarns with plies, corners or twisted flat sections may have a contact that is not found, nearer
-/// than the one found by up to 0.003. The difference may be larger where such a yarn bends as
-/// sharply as it is thick and meets itself. Once a ratio of two intervals is below 0.25, no smaller
-/// one is looked for. A section that reaches 64 times as far as its control interval is long counts
-/// by its hull, untwisted.
+/// For yarns with plies, corners or twisted flat sections, the contact that is found may not be the
+/// nearest, and its ratio may be too large by up to 0.003. The error may be larger if such a yarn
+/// bends as sharply as it is thick and meets itself. Once a ratio of two intervals is below 0.25,
+/// no smaller one is looked for. A section that reaches 64 times as far as its control interval is
+/// long counts by its hull, untwisted.
 ///
 /// Flattened yarns that bend sharply may approach twice on one pair of intervals. The nearer
 /// approach may then not be found.
@@ -29,11 +29,11 @@ pub const CLEARANCE_ACCURACY: f64 = 1e-3;
 /// The most contacts that are listed one by one.
 pub const CONTACTS_LISTED: usize = 100;
 
-/// The most intervals that one interval is compared with in a cell of the search. Only intervals
-/// that meet one plane through it are compared.
+/// The most intervals that one interval is compared with in a cell of the search. In a cell of more
+/// than 256 intervals, only those that meet one plane through it are compared.
 ///
-/// Yarns that are clear of one another reach this number only if a radius has some 250 control
-/// points, or if a thousand straight yarns of two points lie side by side.
+/// Yarns that are clear of one another reach this number only if some 250 control points lie on a
+/// length of one radius, or if a thousand straight yarns of two points lie side by side.
 pub const CLEARANCE_BESIDE: usize = 1024;
 
 /// The most pairs of control intervals that are compared for each control point. An interval lies

@@ -200,7 +200,7 @@ impl Search<'_> {
     }
 
     /// How far the section reaches into the bend, mm. It is 0 or less if a polygon that does not
-    /// hold its axis lies on the outer side alone. Then the section folds in no bend.
+    /// hold its axis lies on the outer side alone. Then no such bend folds the section.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {
@@ -222,7 +222,8 @@ impl Search<'_> {
 /// the parameter of that bend. None unless the ratio is clearly less than `within`. The ratio is
 /// exact to [`ACCURACY`], and 0 if the yarn turns straight back.
 ///
-/// Sections stand upright. With `turning` each counts with the furthest reach of any roll.
+/// Sections stand upright, or by the yarn's up directions. With `turning` each counts with the
+/// furthest reach of any roll.
 pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;

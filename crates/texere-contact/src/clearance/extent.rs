@@ -12,7 +12,7 @@ const STATIONS: [f64; 3] = [0.0, 0.5, 1.0];
 /// needs 1/8.
 const BETWEEN: f64 = 0.25;
 
-/// The reach of an interval whose sections stand upright.
+/// The reach of an interval whose sections do not turn.
 pub(super) struct Extent {
     hull: [DVec3; 4],
     middle: DVec3,

@@ -57,10 +57,10 @@ pub struct Clearance {
     /// Number of contacts within [`CLEARANCE_NEAR`]. Two yarns side by side may make a contact in
     /// each pair of control intervals.
     pub contacts: u64,
-    /// Number of contacts nearer than 1 by more than [`CLEARANCE_ACCURACY`]. Threads that touch by
-    /// construction have many, since splines between their control points come to 0.99.
+    /// Number of contacts whose ratio is below 1 by more than [`CLEARANCE_ACCURACY`]. Threads that
+    /// touch by construction have many, since splines between their control points come to 0.99.
     pub below_one: u64,
-    /// Number of contacts that pierce: nearer than [`CLEAR`].
+    /// Number of contacts that pierce: their ratio is below [`CLEAR`].
     pub piercing: u64,
     /// The worst contacts, [`CONTACTS_LISTED`] at most, worst first.
     pub worst: Vec<Contact>,
@@ -82,7 +82,7 @@ pub struct Clearance {
     pub pairs: u64,
 }
 
-/// Measures how near yarns come to one another, to themselves, and how tightly they bend.
+/// Measures how near yarns come to one another and to themselves, and how tightly they bend.
 ///
 /// Surfaces are those of a mesh with `settings`, without its facets: sections stand on the spline
 /// with the roll and the flattening that they have on its rings. A ply that lies in another yarn's

@@ -102,7 +102,8 @@ impl<'a> Pair<'a> {
         let discs = self.curves.into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && self.surfaces().iter().any(|surface| !surface.is_simple()) {
             self.touching(add);
-            // This pair takes as long as thousands of other pairs.
+            // A pair like this takes as long as thousands of other pairs, so a request to stop is
+            // noticed at once.
             return watch.advance(0);
         }
         let round = self.curves[0].round && self.curves[1].round;
@@ -133,7 +134,7 @@ impl<'a> Pair<'a> {
         closest(straight[0], straight[1]).0 > (self.near * self.reach + bends).powi(2)
     }
 
-    /// Whether a plane lies between both surfaces, whose sections stand upright.
+    /// Whether a plane lies between both surfaces, whose sections do not turn.
     fn is_parted(&self) -> bool {
         let extent = |k: usize| self.met[k].extent(self.curves[k], self.sides[k].support);
         extent(0).is_clear_of(extent(1), self.near)
@@ -176,7 +177,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Adds the nearest places of all other surfaces: `round` ones, `discs`, or upright ones.
+    /// Adds the nearest places of all other surfaces: `round` ones, `discs`, or smooth ones that do
+    /// not turn.
     fn approaches(&self, round: bool, discs: bool, mut add: impl FnMut(DVec2, f64)) {
         let ([a, b], sides, surfaces) = (self.curves, self.sides, self.surfaces());
         let mut seen: Vec<DVec2> = Vec::new();

@@ -1,4 +1,5 @@
-//! Whether one interval only comes nearer to another, or only goes away from it.
+//! Whether one interval only comes nearer to another, or only goes away from it. A knot is a
+//! control point, at which one interval ends and the next begins.
 
 use glam::DVec3;
 

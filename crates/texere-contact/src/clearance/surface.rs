@@ -82,7 +82,8 @@ impl Surface<'_> {
         stand.across(direction).length() * self.side.support.extent()
     }
 
-    /// The parameter near `t` whose cross-section holds `point`.
+    /// The parameter near `t` of the place that is level with `point`: the plane of its section
+    /// holds `point`.
     pub(super) fn level_with(&self, point: DVec3, mut t: f64) -> f64 {
         for _ in 0..STEPS {
             let [position, velocity, acceleration] = self.side.cubic.path(t);

@@ -111,7 +111,7 @@ pub(super) fn touch(
     }
 }
 
-/// The least growth at which two surfaces touch that neither turn nor have lobes, close to the
+/// The least growth at which two surfaces that neither turn nor have lobes touch, close to the
 /// place where their tubes touch. None if the tubes show that the growth exceeds `most`, or if the
 /// place belongs to another interval.
 pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest) -> Option<Touch> {
@@ -288,7 +288,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let Some(other) = thick.stand(beside) else { return };
         let towards = other.centre - stand.centre;
         let level = tried.level() + tried.slack();
-        // The two surfaces are out of reach at this growth.
+        // If the two surfaces are out of reach at this growth, none of the points can touch.
         let (direction, apart) = (towards.normalize_or_zero(), towards.length());
         if apart > BENT * level * (thin.reach(stand, direction) + thick.reach(&other, direction)) {
             return;

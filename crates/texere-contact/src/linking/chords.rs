@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn chords_have_the_integral_of_the_definition() {
-        // Knuth's multiplicative congruential generator.
+        // Knuth's linear congruential generator.
         let mut state = 1_u64;
         let mut number = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -12,8 +12,8 @@ const LIMIT: u64 = 1 << 29;
 
 /// The copies of an interval's box that are searched: the copy that begins within the first repeat,
 /// and earlier copies that still reach into the first repeat. If any copies of two boxes meet,
-/// exactly one such pair is among these copies with, along each axis, one of the two beginning
-/// within the first repeat.
+/// exactly one of the pairs that meet consists of searched copies of which, along each axis, one
+/// begins within the first repeat.
 #[derive(Debug)]
 pub(super) struct Images {
     /// Lengths of the repeat along x and y, mm. A length is 0 if nothing repeats along that axis.

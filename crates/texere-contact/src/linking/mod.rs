@@ -69,7 +69,7 @@ const TASK: usize = 1024;
 /// **Errors**: [`ContactError::OtherLayout`] if `after` has other yarns or other numbers of control
 /// points, [`ContactError::Yarns`] if it has another tension, [`ContactError::Boundary`] for a
 /// boundary that is not that of the yarns, [`ContactError::LinkingSize`] for more intervals than
-/// are compared (with their copies, of which a small repeat has many),
+/// are compared (with their copies, of which a small repeat has many), and
 /// [`ContactError::OutOfMemory`].
 ///
 /// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA",

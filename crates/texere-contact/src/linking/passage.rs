@@ -22,7 +22,7 @@ pub(super) const WINDOW_INTERVALS: usize = 8;
 pub(super) const WINDOW_REACH: f64 = 5.0;
 
 /// The most control intervals beside one that are tested in a cell of the search. Cloth has some
-/// 20, and 300 if a radius has four control points.
+/// 20, and 300 if four control points lie on a length of one radius.
 pub(super) const LINKING_BESIDE: usize = 512;
 
 /// The most windows that one window is compared with in a cell. Cloth has a few where something has

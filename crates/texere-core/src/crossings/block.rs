@@ -4,8 +4,9 @@
 /// pick.
 const UNKNOWNS: usize = 8;
 
-/// The damping of the equations. Each diagonal element grows by this share of itself, and by this
-/// number, for unknowns that no term depends on.
+/// The damping of the equations. Each diagonal element grows by this share of itself. The number
+/// itself is added, too, so that the equations have a solution even if no term depends on an
+/// unknown.
 pub const DAMPING: f32 = 1e-3;
 
 /// The least pivot of Cholesky's method. Without it, rounding could make a pivot zero or negative.
@@ -33,8 +34,8 @@ impl CrossingBlock {
     /// unknowns of this crossing, each with the unknown's number.
     ///
     /// All crossings step at once. `share` is the factor by which this crossing's step must be
-    /// shorter than if it stepped alone, so that the term does not grow: the sum of the slopes of
-    /// all crossings in the term, divided by this crossing's own.
+    /// shorter than if it stepped alone, so that the term does not grow. The reciprocals of the
+    /// shares of all crossings in the term add up to 1.
     pub(crate) fn add<const N: usize>(
         &mut self,
         weight: f32,
@@ -52,7 +53,7 @@ impl CrossingBlock {
         }
     }
 
-    /// Notes a distance of two threads, divided by the distance that they need.
+    /// Notes a distance of two threads, divided by the distance that they need. The least is kept.
     pub(crate) const fn see(&mut self, clearance: f32) {
         self.clearance = self.clearance.min(clearance);
     }

@@ -14,7 +14,7 @@ const PENALTIES: [f64; 2] = [30.0, 1000.0];
 pub struct CrossingsPass {
     /// The weight of the terms that keep threads apart.
     pub penalty: f32,
-    /// The share of its area that a thread tends to.
+    /// The area that a thread tends to, as a share of its full area.
     pub area: f32,
 }
 

@@ -3,8 +3,9 @@
 /// Number of steps of Newton's method towards the best slope.
 pub const STEPS: u32 = 5;
 
-/// The least curvature of the room by the angle, as a share of the distance, at which Newton's step
-/// is used. Below it, the step is in proportion to the room's first derivative alone.
+/// How much the room, as a function of the slope angle, must curve downwards for Newton's step to
+/// be used. It is a share of the distance between the ellipses' middles. If the room curves less,
+/// the step is the room's first derivative, divided by that distance.
 pub const CURVED: f32 = 0.1;
 
 /// The longest turn of one step, radians.
@@ -13,10 +14,11 @@ pub const TURN: f32 = 0.5;
 /// The straight passage of a thread over the first of two crossed threads and under the second, at
 /// the slope that leaves most room.
 ///
-/// A line at slope angle t must keep a distance from the middle of an upright ellipse that is the
-/// ellipse's support, sqrt((a sin t)² + (b cos t)²). Let two ellipses lie `across` and `rise`
-/// apart. A thread fits between them if across sin t + rise cos t is at least the sum of both
-/// supports and of both half heights of the thread.
+/// A line at slope angle t touches an upright ellipse of half width a and half height b if its
+/// distance from the ellipse's middle is the ellipse's support, sqrt((a sin t)² + (b cos t)²). Let
+/// two ellipses lie `across` and `rise` apart. A thread fits between them if across sin t + rise
+/// cos t is at least the sum of both supports and of the half heights that the thread has at the
+/// two ellipses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightPassage {
     /// Cosine and sine of the slope angle, which lies between 0 and a right angle.

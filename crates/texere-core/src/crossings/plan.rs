@@ -217,8 +217,8 @@ impl CrossingsPlan {
     }
 
     /// All crossings before the first pass: thin round threads at the heights of their levels. If
-    /// the two threads of a crossing would pierce one another at these heights, they touch instead,
-    /// one on top of the other.
+    /// the two threads of a crossing would pierce one another at these heights, or lie on the wrong
+    /// sides, they touch instead, one on top of the other.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn start(&self) -> Result<Vec<CrossingState>, BackendError> {

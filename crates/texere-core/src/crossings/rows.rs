@@ -6,8 +6,9 @@ use crate::backend::room;
 /// The largest distance, in threads, at which threads of one level count as neighbours.
 const BESIDE_MAX: i32 = 16;
 
-/// The largest shift sideways: a quarter of a unit, and two fifths of the way to the nearer
-/// neighbour. Without bounds, threads pass through one another, or the steps stop short.
+/// The largest shift sideways: a quarter of a unit, or two fifths of the distance to the nearer
+/// neighbour if that is less. Without bounds, threads pass through one another, or the steps stop
+/// short.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// A thread. Lengths are in the plan's unit.
@@ -51,7 +52,7 @@ impl Site {
 }
 
 /// Number `at` moved on by `by` among `count` threads. If the threads repeat, the first follows the
-/// last. Otherwise there is none beyond the last.
+/// last. Otherwise there is none before the first or after the last.
 pub(super) fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
     let to = at.wrapping_add_signed(by as isize);
     if to < count {

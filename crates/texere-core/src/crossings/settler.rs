@@ -29,8 +29,8 @@ impl CrossingsSeen {
     }
 }
 
-/// The crossings of a plan on one device. [`settle`](super::settle) calls these methods: first
-/// `upload`, with as many crossings as the plan has.
+/// The crossings of a plan on one device. [`settle`](super::settle) calls `upload` first, with as
+/// many crossings as the plan has.
 ///
 /// **Errors**: methods that can fail return a [`BackendError`], only for failures that could not be
 /// foreseen.

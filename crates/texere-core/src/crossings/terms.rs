@@ -1,9 +1,9 @@
 //! The terms of the energy of crossings.
 //!
 //! The energy is a sum of terms. Each term is a weight times the square of a residual, which is 0
-//! if a condition holds: a thread is straight, flat and of its own area, and clear of every thread
-//! beside it. A pass is one step of the Gauss-Newton method for the sum of all terms, at every
-//! crossing at once.
+//! if a condition holds. The conditions are that a thread is straight, level and even, has its
+//! shape and its area, and is clear of the threads beside it. A pass is one step of the
+//! Gauss-Newton method for the sum of all terms, at every crossing at once.
 //!
 //! ```text
 //! for each crossing:
@@ -431,8 +431,8 @@ impl Here<'_> {
         self.keep_clear(block, &ellipses, sign, 0.5);
     }
 
-    /// Adds the clearance of two ellipses. `part` is the share with which this crossing's thread
-    /// enters them.
+    /// Adds the clearance of two ellipses. `part` is the share of this crossing's thread in their
+    /// sizes and places: 1 at the crossing, 0.5 half way to the next.
     fn keep_clear(&self, block: &mut CrossingBlock, ellipses: &Ellipses, sign: f32, part: f32) {
         let Ellipses { apart, rise, wide, thick } = *ellipses;
         let (x, z) = (apart / wide, rise / thick);

@@ -17,8 +17,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// next [`LiveMesh::update`] makes again all rings that they affect.
     ///
     /// **Errors**: [`SessionError::UploadRange`] past the last control point,
-    /// [`SessionError::Yarns`] for an invalid point, [`SessionError::Plan`] if the points of a yarn
-    /// with given up directions move, and [`SessionError::Backend`].
+    /// [`SessionError::Yarns`] for an invalid point, [`SessionError::Plan`] if points of a yarn
+    /// with given up directions change, and [`SessionError::Backend`].
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
         let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
         if end > total {

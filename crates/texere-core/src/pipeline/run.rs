@@ -33,7 +33,7 @@ pub(super) enum Points<'a> {
 }
 
 /// A plan that is run on a device, chunk by chunk, with its results in the caller's memory. A
-/// program that has planned already, and knows the chunks, takes it in place of a
+/// program that has a plan and its chunks already uses a run in place of a
 /// [`Pipeline`](crate::Pipeline), which plans and cuts each time.
 ///
 /// ```
@@ -67,12 +67,13 @@ impl fmt::Debug for Run<'_> {
 }
 
 impl<'a> Run<'a> {
-    /// Starts a run: opens a session of `plan` on `device`, sends the control points of the yarns
-    /// that the plan is of, and works out rolls. `progress` is called as
+    /// Starts a run: opens a session of `plan` on `device`, sends `points`, the control points of
+    /// the plan's yarns, and works out rolls. `progress` is called as
     /// [`Pipeline::progress`](crate::Pipeline::progress) says.
     ///
-    /// `limits` are those that chunks are cut to, if they are stricter than the device's own. With
-    /// others the results are equal, but the tables of yarns that turn are sent twice.
+    /// `limits` are those that chunks are cut to, if they are stricter than the device's own. If
+    /// chunks are cut to other limits, the results are equal, but tables that were sent for the
+    /// scan of rolls are sent again.
     ///
     /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
     pub fn start(
@@ -264,7 +265,8 @@ impl<'a> Run<'a> {
         self.watched(|_, watch| Ok(watch()))
     }
 
-    /// Calls `work` with a watch that reports progress. Fails if that asks to stop.
+    /// Calls `work` with a watch that reports progress. Fails if the progress callback asks to
+    /// stop.
     fn watched(
         &mut self,
         work: impl FnOnce(&mut Session, Watch<'_>) -> Result<ControlFlow<()>, SessionError>,

@@ -6,10 +6,11 @@ use bytemuck::{Pod, Zeroable};
 /// first cache. A GPU works on each block with one workgroup.
 pub const BLOCK_RINGS: u32 = 64;
 
-/// A block: up to [`BLOCK_RINGS`] consecutive rings of one yarn. Blocks are the rows of a table.
-/// From its row, a kernel gets its yarn without a search.
+/// A block: up to [`BLOCK_RINGS`] consecutive rings of one yarn. Blocks are the rows of a table. A
+/// kernel reads a block's yarn from the row, without a search.
 ///
-/// **Shape**: eight `u32`, 32 bytes. All starts but `first_ring` count from the start of the chunk.
+/// **Shape**: eight `u32`, 32 bytes. `first_ring` is counted from the yarn's start, and all other
+/// starts from that of the chunk or of its window.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Block {

@@ -80,7 +80,7 @@ impl Plan {
     /// [uploaded](PaddedPoints::upload). For a cloth that is edited, a `Picker` of texere-cpu keeps
     /// such boxes.
     ///
-    /// **Panics** for points that were made for another plan.
+    /// **Panics** if `points` holds fewer points than the plan.
     ///
     /// ```
     /// use texere_core::backend::{PaddedPoints, Plan};
@@ -120,8 +120,8 @@ impl Plan {
     ///
     /// The box is that of the spline's Bézier hull, widened by the section's reach. Along x and y
     /// that is the section's furthest reach, times the larger of half width and half height. Along
-    /// z it is the section's reach along its up times the half height, for a yarn that neither
-    /// turns nor leans.
+    /// z it is the half height times the section's reach along its up, or times its furthest reach
+    /// if the yarn turns. If the yarn leans, it is the same along z as along x and y.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -144,7 +144,8 @@ impl Plan {
     }
 
     /// The furthest reach of the section of `yarn` from its centre, in half widths or half heights:
-    /// first in any direction, then along the frame's up.
+    /// first in any direction, then along the frame's up, or again in any direction if the yarn
+    /// turns.
     pub(crate) fn reach(&self, yarn: usize) -> [f32; 2] {
         let outline = self.outline(self.yarn(yarn).section as usize);
         let most = |reach: fn(f32, f32) -> f32| {
@@ -164,8 +165,8 @@ impl Plan {
         let last = end.saturating_sub(1);
         let at = move |ring: u32| (ring / per_interval, (ring % per_interval) as f32 * step);
         let (mut first, mut last) = (at(rings.start), at(last));
-        // A ring at a knot also ends the interval before it. An open yarn has no interval behind
-        // its last ring.
+        // A ring at a control point also ends the interval before it. An open yarn has no interval
+        // behind its last ring.
         if last.1 == 0.0 && (last.0 > first.0 || (end == all && !self.yarn(yarn).closed)) {
             last = (last.0 - 1, 1.0);
         }

@@ -32,9 +32,9 @@ impl Plan {
 
     /// A patch: a chunk of some rows of the block table of `chunk`, with the caps of their yarns.
     /// All results of the patch have the places that they have in `chunk`, so memory for `chunk` is
-    /// enough. `rows` are in order and do not overlap.
+    /// enough. `chunk` must be a chunk of this plan. `rows` are in order and do not overlap.
     ///
-    /// **Panics** for no rows, rows past the last, and a chunk of another plan.
+    /// **Panics** for no rows, and for rows past the last.
     #[must_use]
     pub(crate) fn patch(&self, chunk: &Chunk, rows: &[Range<usize>]) -> Chunk {
         let blocks: Vec<_> = rows.iter().flat_map(|rows| &chunk.blocks[rows.clone()]).copied().collect();

@@ -16,7 +16,7 @@ pub struct Counts {
     /// Number of triangles that are drawn, caps included.
     pub triangles: u64,
     /// Number of indices that are stored. With [`Topology::Shared`](crate::Topology::Shared) it is
-    /// far less than three per triangle.
+    /// usually far less than three per triangle.
     pub indices: u64,
 }
 

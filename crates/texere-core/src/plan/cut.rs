@@ -12,7 +12,7 @@ use crate::{ControlPoint, PlanError, Topology, Vertex};
 /// every device allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;
 
-/// The size of a chunk, in the units of [`Limits`].
+/// The counts of a chunk that are compared with [`Limits`].
 #[derive(Debug, Clone, Copy, Default)]
 struct Size {
     blocks: u64,

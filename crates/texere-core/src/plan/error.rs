@@ -47,7 +47,7 @@ pub enum PlanError {
         /// The largest number allowed.
         limit: u64,
     },
-    /// All yarns together have more rings than any machine holds.
+    /// All yarns together have more rings than a plan may have.
     #[error("{rings}, more than {limit}", rings = counted(*.rings, "ring"))]
     Rings {
         /// Number of all rings.
@@ -88,14 +88,15 @@ pub enum PlanError {
     BlockTooLarge {
         /// Number of rings of the block.
         rings: u32,
-        /// The buffer.
+        /// The buffer, or all buffers together.
         what: &'static str,
         /// The bytes needed.
         needed: u64,
         /// The bytes allowed.
         limit: u64,
     },
-    /// Not even one block fits a limit of counts: see [`Limits::blocks`](crate::Limits::blocks).
+    /// Not even one block fits [`Limits::blocks`](crate::Limits::blocks), or the numbers of
+    /// vertices and indices that an indexed draw can count.
     #[error("one block of {rings} takes {needed} {what}, but the limit is {limit}", rings = counted(*.rings, "ring"))]
     BlockOverCount {
         /// Number of rings of the block.

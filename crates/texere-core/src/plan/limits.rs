@@ -7,7 +7,7 @@ use crate::definitions::SIDES_MAX;
 /// The limits that chunks are cut to.
 ///
 /// By default a buffer of a chunk has at most 64 MiB. With six sides that is some 466,000 rings and
-/// 5.6 million triangles. Two such chunks need less than 300 MB, whatever the fabric. Progress is
+/// 5.6 million triangles. Two such chunks need less than 300 MiB, whatever the fabric. Progress is
 /// reported after each chunk, and a cancellation takes effect after the present one. Larger chunks
 /// would only save launches.
 ///
@@ -28,7 +28,8 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// No limits except those of `u32` indices.
+    /// No limits except those of an indexed draw, which counts indices in a `u32` and vertices in
+    /// an `i32`.
     pub const NONE: Self = Self { binding_bytes: u64::MAX, memory_bytes: u64::MAX, blocks: u64::MAX };
 
     /// The stricter of two limits in each field.

@@ -255,7 +255,7 @@ impl Plan {
         self.sampling.rings(points[yarn + 1] - points[yarn], self.yarn(yarn).closed) as u32
     }
 
-    /// The data of `yarn`: material, section, twist and origin.
+    /// The data of `yarn`: material, section, twist, origin, and whether it is closed.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

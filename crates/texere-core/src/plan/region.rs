@@ -11,8 +11,8 @@ use crate::backend::PaddedPoints;
 impl Plan {
     /// A plan that makes only the part of the mesh in a box: the blocks of [`BLOCK_RINGS`] rings
     /// whose own [box](Plan::part_bounds) touches `bounds`. Everything in the box is made, with the
-    /// same bits as in the whole mesh, and up to a block of each yarn beyond. `points` must have
-    /// been made for this plan.
+    /// same bits as in the whole mesh. Blocks are made whole, so parts of yarns beyond the box are
+    /// made, too. `points` must have been made for this plan.
     ///
     /// Yarns, rings and control points keep their numbers, and all offsets stay. A session of
     /// either plan can make chunks of both. Only [counts](Plan::counts) and [chunks](Plan::chunks)

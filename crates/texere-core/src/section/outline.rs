@@ -62,7 +62,7 @@ fn point(section: &Section, k: u32, count: u32) -> SectionPoint {
         }
         Section::PowerEllipse { aspect, exponent } => {
             let (width, height) = (aspect, 1.0);
-            // Within a millionth of an edge the outline's tangent is vertical.
+            // Within a millionth of an edge the outline's tangent counts as vertical.
             if sin.abs() < 1e-6 {
                 return with_normal(width * cos, 0.0, cos, 0.0);
             }
@@ -138,7 +138,8 @@ fn polygon(corners: &[[f32; 2]]) -> Vec<SectionPoint> {
     (0..count)
         .map(|k| {
             let [before, here, after] = [k + count - 1, k, k + 1].map(|corner| corners[corner % count]);
-            // The normal is that of the sum of the outward normals of both edges at this corner.
+            // The normal has the direction of the sum of the outward normals of both edges at this
+            // corner.
             let edge = |from: [f32; 2], to: [f32; 2]| {
                 let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
                 let inverse = 1.0 / (dx * dx + dy * dy).sqrt();

@@ -5,9 +5,9 @@ use super::SectionPoint;
 /// The `n - 2` triangles that fill an outline of `n` points, as numbers of corners,
 /// counter-clockwise like the outline.
 ///
-/// The method is ear clipping (Meisters 1975), because lobed sections are not convex. The result
-/// always has `n - 2` triangles. If rounding leaves no corner that can be cut cleanly, the corner
-/// with the best-shaped triangle is cut.
+/// The method is ear clipping (Meisters 1975), because lobed sections and some polygons are not
+/// convex. The result always has `n - 2` triangles. If rounding leaves no corner that can be cut
+/// cleanly, the corner with the best-shaped triangle is cut.
 #[must_use]
 pub(crate) fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     let mut left: Vec<u32> = (0..outline.len() as u32).collect();

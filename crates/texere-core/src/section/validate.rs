@@ -9,8 +9,8 @@ const CORNER_LIMIT: f32 = 100.0;
 impl Section {
     /// Checks the shape's parameters.
     ///
-    /// **Errors**: [`SectionError`] for a number outside its limits, and for a polygon that repeats
-    /// a corner, meets itself or runs clockwise.
+    /// **Errors**: [`SectionError`] for a number outside its limits, and for a polygon that has too
+    /// few or too many corners, repeats a corner, meets itself or runs clockwise.
     pub fn validate(&self) -> Result<(), SectionError> {
         let within = |field, value: f32, low: f32, high: f32| {
             if (low..=high).contains(&value) {

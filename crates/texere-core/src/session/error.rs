@@ -75,7 +75,7 @@ pub enum SessionError {
         /// The planned length.
         planned: u64,
     },
-    /// The plan can't be made, or not even one block of it fits the device.
+    /// The plan can't be made or edited as asked, or not even one block of it fits the device.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The backend failed.

@@ -133,8 +133,8 @@ impl Pair<'_> {
 
 impl Approach {
     /// The direction from the first interval's place to the second's. If both places are one, the
-    /// direction is at right angles to both yarns. For the second interval it is then the opposite
-    /// one.
+    /// direction is at right angles to both yarns, and the opposite one for the second interval. If
+    /// the yarns are parallel there, too, it is +z.
     #[must_use]
     #[inline]
     pub(super) fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {

@@ -38,7 +38,8 @@ pub enum SettlingError {
     /// coarse.
     #[error("a cloth of {extent} mm is too large to settle with yarns of {diameter} mm")]
     TooLarge {
-        /// The distance from the cloth's middle to its furthest point along one axis, mm.
+        /// The distance along one axis from the cloth's middle to its furthest point, plus the
+        /// longest way to a next repeat or round, mm.
         extent: f32,
         /// The thinnest yarn's diameter, mm.
         diameter: f32,

@@ -3,7 +3,7 @@
 //!
 //! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] makes the
 //! passes on a device, and [`settle`] calls the settler until the yarns are at rest. All devices
-//! share the definitions in this module: [`Interval`], [`Chord`], [`Pull`].
+//! share the definitions in this module, such as [`Interval`], [`Chord`] and [`Pull`].
 
 mod check;
 mod contact;

@@ -24,7 +24,8 @@ pub struct Listed<'a> {
 }
 
 /// The least length of yarn between two neighbouring chords of one yarn, as a multiple of the sum
-/// of both radii. To come back to itself, a yarn needs at least a half circle.
+/// of both radii. To come back to within that sum of itself, a yarn needs at least a half circle of
+/// that diameter.
 pub const LEADS_ON: f32 = FRAC_PI_2;
 
 impl<'a> Listed<'a> {
@@ -86,8 +87,8 @@ impl SettlingPlan {
     }
 
     /// Whether two chords of a yarn lie so close along it that they can't be clear of one another,
-    /// because less than a half circle of their `thickness` lies between them. The second chord
-    /// counts at its image `image` repeats away.
+    /// because less yarn than a half circle of diameter `thickness` lies between them. The second
+    /// chord counts at its image `image` repeats away.
     #[must_use]
     pub fn leads_on(&self, yarn: u32, chords: [u32; 2], image: [i32; 2], thickness: f32) -> bool {
         let strand = &self.strands()[yarn as usize];

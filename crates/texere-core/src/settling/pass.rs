@@ -35,8 +35,8 @@ use super::{Interval, Listed, MARGIN, NEAR, Place, SHORT, SettlingPlan, bends};
 /// The way in which a point's step is made from its pulls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Form {
-    /// Contacts, bends and length each have a weighted mean, and the step is the sum of these. This
-    /// form needs few passes to come near rest.
+    /// Contacts and bends each have a weighted mean. The step is the sum of both means and of the
+    /// pulls by length. This form needs few passes to come near rest.
     #[default]
     Weighted,
     /// The step is the best compromise of all pulls, each along its own direction. This form is
@@ -70,7 +70,7 @@ pub const BEND_MARGIN: f32 = 1.02;
 /// the limit.
 pub const SOFT_BEND: f32 = 0.02;
 
-/// The weight of contacts, for each control point times its spline weight.
+/// The weight of a contact at a control point, as a multiple of the point's weight in the spline.
 pub const CONTACT: f32 = 1.12;
 
 /// The weight of bends in the weighted form. 0.6 was tried first.

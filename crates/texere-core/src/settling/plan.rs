@@ -19,7 +19,8 @@ const CHORD_MOST: f32 = 0.6;
 /// The most chords of an interval.
 const CHORDS_MAX: f32 = 4096.0;
 
-/// The number of chords that any yarns may have, beside [`CHORDS_A_POINT`].
+/// The number of chords that yarns may have in addition to [`CHORDS_A_POINT`] for each control
+/// point.
 const CHORDS_FREE: u64 = 1 << 16;
 
 /// The number of chords that yarns may have for each control point. Usual cloth has 3 to 10 per
@@ -27,7 +28,8 @@ const CHORDS_FREE: u64 = 1 << 16;
 /// 1,390, and a settling of 16 such loops took a minute.
 const CHORDS_A_POINT: u64 = 256;
 
-/// The number of neighbours that may be listed for any yarns, beside [`NEIGHBOURS_A_CHORD`].
+/// The number of neighbours that may be listed in addition to [`NEIGHBOURS_A_CHORD`] for each
+/// chord.
 const NEIGHBOURS_FREE: u64 = 1 << 20;
 
 /// The number of neighbours that may be listed for each chord. Usual cloth has 1 to 6 per chord,
@@ -151,8 +153,8 @@ impl SettlingPlan {
         self.counts
     }
 
-    /// Checks that this number of neighbours of all chords may be listed. The limit is many times
-    /// what usual cloth has.
+    /// Checks that this number of neighbours of all chords may be listed. The limit is several
+    /// times what usual cloth has.
     ///
     /// **Errors**: [`BackendError::Crowded`].
     pub fn allow_neighbours(&self, neighbours: u64) -> Result<(), BackendError> {
@@ -203,7 +205,7 @@ impl SettlingPlan {
         self.frequency
     }
 
-    /// The places of each yarn.
+    /// The places of each yarn. There is one element per yarn.
     #[must_use]
     pub fn strands(&self) -> &[SettlingYarn] {
         &self.strands

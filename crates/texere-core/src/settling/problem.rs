@@ -28,7 +28,7 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// A settling of yarns whose ends are free, that keep their length and are not pressed. The
+    /// A settling of yarns with free ends, which keep their length and are not pressed. The
     /// [tension](crate::Layout::tension) of their splines may be 0.99 at most.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {

@@ -26,8 +26,8 @@ const STEP_PASSES: u32 = 4;
 /// is 0.
 const EASES: [f32; 2] = [0.3, 0.6];
 
-/// The random move of points at the start, in diameters. Symmetric yarns could otherwise balance at
-/// places that are not at rest.
+/// The largest random move of a point along each axis at the start, in diameters. Symmetric yarns
+/// could otherwise balance at places that are not at rest.
 const JITTER: f32 = 0.01;
 
 /// The distance, divided by the sum of both reaches, from which on yarns count as clear.
@@ -71,8 +71,9 @@ pub struct Rest {
 /// breaks off, the best places so far are left.
 ///
 /// Yarns grow from a quarter of their thickness, and bends are soft at first. Passes of the
-/// weighted form are made until the yarns are at rest or the form stalls. Passes of the block form
-/// follow, at most as many as there may be of the weighted form at full thickness.
+/// weighted form are made until the yarns are at rest, the form stalls, or there may be no more.
+/// Passes of the block form follow, at most as many as there may be of the weighted form at full
+/// thickness.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(
@@ -222,7 +223,8 @@ fn own_places(plan: &SettlingPlan) -> impl Iterator<Item = (&Place, u32)> {
     all.filter(|(_, tags)| tags & tag::POINT != 0)
 }
 
-/// The places of all control points, each moved a little in its own random direction.
+/// The places of all control points, each but the pinned ones moved a little in its own random
+/// direction.
 fn jittered(plan: &SettlingPlan) -> Vec<Place> {
     let scale = plan.scale();
     let moved = own_places(plan).zip(0_u32..).map(|((place, tags), number)| {

@@ -24,7 +24,8 @@ pub struct SettlingSeen {
     pub length: f32,
 }
 
-/// A settling on one device. [`settle`](super::settle) calls these methods and keeps these rules:
+/// A settling on one device. [`settle`](super::settle) calls most of these methods and keeps these
+/// rules:
 ///
 /// - `upload` comes first, with as many places as the plan has control points.
 /// - `list` comes before the first pass. It is called again before chords have moved so far, or

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::{SectionError, counted};
 
-/// Invalid yarns. Yarns and points are counted from 0.
+/// Invalid yarns. Yarns, points, sections and materials are counted from 0.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum YarnError {

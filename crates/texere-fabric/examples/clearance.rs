@@ -1,5 +1,6 @@
 //! Measures the clearance of the 3/1 twill of the paper that texere implements (README.md), with
-//! three diameters from thread to thread:
+//! three diameters from thread to thread. The arguments are the numbers of ends and picks, `round`
+//! for threads that bend round one another, and `flat` for elliptical sections:
 //!
 //! ```text
 //! cargo run --release -p texere-fabric --example clearance -- 1630 1500 round

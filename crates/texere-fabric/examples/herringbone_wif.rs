@@ -37,7 +37,7 @@ pub(crate) fn draft() -> Draft {
     }
 }
 
-/// One `number=list` line for each of `lists`.
+/// Writes the heading `section`, and a line `number=list` for each of `lists`.
 fn lines(wif: &mut String, section: &str, lists: &[Vec<u32>]) -> std::fmt::Result {
     writeln!(wif, "\n[{section}]")?;
     for (number, list) in (1..).zip(lists) {

@@ -74,8 +74,8 @@ pub struct KnitMeasures {
     pub loop_length_mm: f64,
     /// Loops to the square centimetre.
     pub stitch_density: f64,
-    /// The tightness factor: √tex over the loop length in cm. None if the yarns that are used do
-    /// not all have the same tex.
+    /// The tightness factor: √tex over the loop length in cm. None if one of the yarns that are
+    /// used has no tex, or if they do not all have the same.
     ///
     /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11
     /// to 17, usually 14 to 15.
@@ -131,11 +131,12 @@ impl Measures {
         }
     }
 
-    /// Measures a woven `cloth` and its `yarns`, which may be as woven or at rest. Whole repeats
-    /// are measured, as if more repeats lay around them, so that a cloth of one repeat has the same
-    /// numbers as a cloth of many. Values that depend on tex are measured in whole repeats of the
-    /// weave together with the tex of its yarns. If such a repeat is longer than the cloth, the
-    /// whole cloth is measured.
+    /// Measures a woven `cloth` and its `yarns`, which may be as woven or at rest. Crimp, cover and
+    /// weight are measured in whole repeats, and the thickness from the lowest yarn to the highest.
+    /// A small cloth as woven is measured as if more repeats lay around it, unless its weft turns
+    /// at selvedges. It then has the same numbers as a cloth of many repeats. Values that depend on
+    /// tex are measured in repeats after which the tex of the yarns repeats, too. If the cloth has
+    /// no whole repeat, all of it is measured.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not the
     /// cloth's yarns, and the errors of [`Woven::new`] and [`Woven::yarns`], because a small cloth
@@ -192,8 +193,8 @@ impl Cover {
         let turns = |threads: &[Thread], section: usize| {
             threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
         };
-        // For each section, half its width when it lies level, and its mean half width over all
-        // directions. A twisted thread shows one side after another.
+        // For each section, half its width when it lies level and, if twisted threads have it, its
+        // mean half width over all directions. A twisted thread shows one side after another.
         let widths: Vec<[f32; 2]> = (0..)
             .zip(cloth.sections())
             .map(|(number, section)| {
@@ -268,16 +269,16 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
     used.map(|(length, material)| Some(length * 1e-6 * f64::from(material.tex?))).sum()
 }
 
-/// Thickness from the lowest point of the yarns' surfaces to the highest, mm. Upright sections
-/// reach half their height above and below the centreline. A twisted section turns through every
-/// direction, so its furthest reach counts.
+/// Thickness from the lowest point of the yarns' surfaces to the highest, mm. A section without
+/// twist stands upright. A twisted section turns through every direction, so its furthest reach
+/// counts.
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns) -> f64 {
     thickness_within(yarns, |_| 0..usize::MAX)
 }
 
-/// Thickness of a part of each yarn, mm. `own` gives the numbers of the control points at which the
-/// intervals of the part begin.
+/// Thickness from the lowest point to the highest of the surfaces of a part of each yarn, mm. `own`
+/// gives the numbers of the control points at which the intervals of the part begin.
 fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
     let s = tangent_factor(yarns.tension());

@@ -18,7 +18,8 @@ pub(crate) struct Own {
 
 impl Own {
     /// The part of a yarn that repeats without end: all its points except `before` points at its
-    /// beginning and `beyond` points at its end.
+    /// beginning and `beyond` points at its end. If no point is left, the part is the whole yarn,
+    /// taken as a yarn that ends.
     pub(crate) fn round(yarns: &Yarns, yarn: usize, [before, beyond]: [u32; 2], onward: [f64; 2]) -> Self {
         let count = yarns.yarn_points(yarn).map_or(0, <[ControlPoint]>::len);
         let points = before as usize..count.saturating_sub(beyond as usize);

@@ -104,8 +104,9 @@ impl Structure {
         }
     }
 
-    /// `finish` with the structure's own choice of lengths for [`Structure::repeat`], if `finish`
-    /// makes none: see [`Knitted::finish_of`] and [`WarpKnitted::finish_of`].
+    /// `finish` with a rule for the lengths of a knit's repeat, if `finish` has none: see
+    /// [`Knitted::finish_of`] and [`WarpKnitted::finish_of`]. For woven cloth `finish` is returned
+    /// as it is.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         match self {
@@ -297,6 +298,7 @@ impl Structure {
     }
 
     /// Faults of the fabric before it settles: see [`Woven::diagnose`](crate::Woven::diagnose).
+    /// Contacts with a ratio below `touching` count as piercing.
     ///
     /// **Errors**: the errors of [`Structure::yarns`] and of [`Structure::clearance`].
     pub fn diagnose(

@@ -6,7 +6,7 @@ use crate::warp::WarpError;
 use crate::weft::WeftError;
 use crate::{FabricError, FinishError, ThreadError, WovenError};
 
-// No match has an arm for all other variants, as none has in the core.
+// No match here has a `_` arm, so that a new variant can't be left without a subject by oversight.
 
 impl FabricError {
     /// The part of the cloth that the error is about. None if no design is at fault: for a lack of

@@ -48,7 +48,7 @@ pub enum FabricWarning {
     },
 }
 
-/// `end 3`, or `end 3 and 41 more`.
+/// The first of `count` threads, and the number of the others: `end 3`, or `end 3 and 41 more`.
 fn and_more(first: Origin, count: usize) -> String {
     if count > 1 { format!("{first} and {} more", count - 1) } else { first.to_string() }
 }

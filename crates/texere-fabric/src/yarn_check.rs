@@ -12,7 +12,7 @@ pub enum ThreadError {
     Radius {
         /// The thread.
         thread: Origin,
-        /// Its radius, mm.
+        /// The thread's radius, mm.
         radius_mm: f32,
         /// The least radius allowed, mm.
         low: f32,
@@ -24,7 +24,7 @@ pub enum ThreadError {
     Twist {
         /// The thread.
         thread: Origin,
-        /// Its twist, rad/mm.
+        /// The thread's twist, rad/mm.
         twist: f32,
         /// The largest twist allowed in either direction, rad/mm.
         limit: f32,
@@ -34,7 +34,7 @@ pub enum ThreadError {
     UnknownMaterial {
         /// The thread.
         thread: Origin,
-        /// The number of its material, counted from 0.
+        /// The number of the thread's material, counted from 0.
         material: u32,
         /// The number of materials.
         materials: usize,
@@ -44,7 +44,7 @@ pub enum ThreadError {
     UnknownSection {
         /// The thread.
         thread: Origin,
-        /// The number of its section, counted from 0.
+        /// The number of the thread's section, counted from 0.
         section: u32,
         /// The number of sections.
         sections: usize,

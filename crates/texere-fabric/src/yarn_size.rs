@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn cotton_agrees_with_peirce() {
-        // d = 1 / (28 √Ne) inch is Peirce's rounding of a specific volume of 1.1.
+        // Peirce rounds the diameter at a specific volume of 1.1 to d = 1 / (28 √Ne) inch.
         for ne in [10.0f64, 30.0, 80.0] {
             let inches = 1.0 / (28.0 * ne.sqrt());
             let diameter = diameter_mm(tex_from_cotton_count(ne), COTTON_DENSITY);

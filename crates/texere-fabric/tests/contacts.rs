@@ -217,7 +217,7 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert_eq!((report.contacts, report.below_one), (0, 0));
     assert!(report.min.is_infinite());
     assert!((report.curvature_min / 4.0 - 1.0).abs() < 0.02, "{}", report.curvature_min);
-    // A yarn as thick as the ring is wide touches itself across the ring, and nearly folds.
+    // A yarn whose radius is nearly that of the ring nearly folds.
     let thick = clearance(&yarns(&Section::Circle, &[(true, ring(1.9))]), &Settings::default()).unwrap();
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }

@@ -20,7 +20,7 @@ use cloths::{cloth, weave, weaves};
 use oracle::round_clearance;
 
 /// The most pairs per control point in cloth whose yarns are clear of one another. A small cloth
-/// that lies in one cell of the grid takes most pairs.
+/// that lies in one cell of the grid takes the most.
 const SANE: u64 = 128;
 
 /// Plain cloth of `size` ends and picks, 0.75 mm apart.
@@ -187,7 +187,7 @@ fn a_yarn_coiled_on_itself_ends() {
 #[test]
 fn points_in_one_place_end() {
     // Too many points lie in one place for a walk along the yarn from each point to each other one,
-    // and a few lie beside them.
+    // and 500 more lie in lines beside them.
     for count in [200, 300, 1000, 1500, 200_000] {
         let still = std::iter::repeat_n([1.0, 1.0, 1.0, 0.1], count);
         let beside = (0..250).map(|k| [1.0 + 1e-3 * k as f32, 1.0, 1.0, 0.1]);

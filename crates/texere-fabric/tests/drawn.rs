@@ -30,8 +30,8 @@ fn moved(outline: &[[f32; 2]], by: [f32; 2]) -> Vec<[f32; 2]> {
     outline.iter().map(|corner| [corner[0] + by[0], corner[1] + by[1]]).collect()
 }
 
-/// The mesh's quality of a yarn with this section along a third of a circle about the z axis, to
-/// the left or to the right.
+/// The quality of the mesh of a yarn with this section. The yarn bends to the left or to the right,
+/// along a third of a circle with the radius `bend_mm` in the plane of x and y.
 fn bent(outline: &[[f32; 2]], bend_mm: f32, left: bool, twist: f32) -> Drawn {
     let side = if left { 1.0 } else { -1.0 };
     let point = |number: u8| {

@@ -283,7 +283,7 @@ fn a_settled_repeat_fits_its_copies() {
     };
     let inner: Vec<_> = found.worst.iter().filter(|contact| !contact.places.iter().any(is_cut)).collect();
     assert!(inner.len() > 20 && inner[0].ratio > 0.99, "{:?}", inner[0]);
-    // Many contacts have their places on both sides of a seam.
+    // Some of these contacts lie at a seam.
     let seam = |x: f64| (x / 6.8 - (x / 6.8).round()).abs() < 0.1 && x > 3.0 && x < 17.0;
     assert!(inner.iter().any(|contact| seam(contact.places[0].position[0])));
 }

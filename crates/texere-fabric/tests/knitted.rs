@@ -92,7 +92,7 @@ fn even_cells_have_twelve_points_each() {
 }
 
 /// The yarn of a cloth that does not repeat turns at its edges. The pinned points stay in place:
-/// the ends, the first feet and the heads on needles.
+/// the yarn's ends, the arcs between the first loops, and the heads that are on needles at the end.
 #[test]
 fn a_whole_piece_settles_with_its_edges_held() {
     let knit = knit(flat(6, 6), [1, 1]).unwrap();
@@ -120,7 +120,8 @@ fn a_whole_piece_settles_with_its_edges_held() {
     assert_eq!(piece.yarns.sources().unwrap()[0], 2);
 }
 
-/// One repeat settles. Its copies are as clear as the repeat, also at the cut edges.
+/// One repeat settles. Its copies are clear, also at the cut edges, and their measures follow from
+/// the loops.
 #[test]
 fn copies_of_a_repeat_that_settled_are_clear() {
     let gauge = Gauge { loop_length_mm: Some(3.9), ..Gauge::new(1.0, 0.75) };
@@ -137,7 +138,7 @@ fn copies_of_a_repeat_that_settled_are_clear() {
     let measures = knit.measures(&settled.yarns).unwrap();
     let loops = measures.knit.unwrap();
     assert_eq!((loops.loops, loops.size), (96, [12, 8]));
-    // The ends that stick out are a small part of the yarn.
+    // Loops have about the length that the gauge gives.
     assert!((loops.loop_length_mm / 3.9 - 1.0).abs() < 0.05, "{loops:?}");
     assert!((loops.stitch_density - 100.0 / 0.75).abs() < 1e-9);
     assert!((loops.tightness.unwrap() - 30f64.sqrt() / (loops.loop_length_mm / 10.0)).abs() < 1e-9);
@@ -191,7 +192,8 @@ fn what_is_no_cloth_is_refused_by_name() {
     }
 }
 
-/// Small programs whose cloths would take too much memory.
+/// Small programs whose cloths would take too much memory, and copies of a repeat that would have
+/// to settle as one, because their number has no small divisor.
 #[test]
 fn small_programs_of_huge_cloths_are_refused_by_name() {
     let made = |operations: Vec<(Instruction, u32)>| {
@@ -228,7 +230,8 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
 }
 
 /// Loops with lengths of their own together get the sum of these lengths, along splines of any
-/// tension. A loop without a length counts with the length of the gauge.
+/// tension. A loop without a length counts with the length of the gauge. If there is none, no
+/// length is asked for.
 #[test]
 fn loops_ask_for_their_lengths() {
     let given = |lengths: [Option<f32>; 2], gauge: Option<f64>, tension: f32| {

@@ -102,8 +102,8 @@ fn crimp_lengthens_the_yarns_of_a_cloth() {
 
 #[test]
 fn a_yarn_of_many_intervals_adds_up_over_tasks() {
-    // All intervals of a zigzag are alike, except the first and the last. A zigzag with twice as
-    // many intervals has twice the length between these two.
+    // All intervals of a zigzag are alike, except the first and the last. Each further interval
+    // adds the same length.
     let zigzag = |count: usize| -> Vec<_> {
         (0..count).map(|k| ControlPoint::new(k as f32, (k % 2) as f32, 0.0, 0.1)).collect()
     };

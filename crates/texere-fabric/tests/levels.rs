@@ -61,7 +61,8 @@ fn threads_without_any_order_lie_side_by_side() {
     }
 }
 
-/// Threads are given levels, and each level is a weave of its own. The same levels are then found.
+/// Threads are given levels, and each level is a weave of its own. [`Drawdown::levels`] finds the
+/// same levels.
 #[test]
 fn layers_are_found_in_any_order() {
     let weaves: [fn(usize, usize) -> bool; 3] = [

@@ -75,7 +75,7 @@ fn satins() {
     ] {
         assert_eq!(Weave::parse(short).unwrap(), Weave::parse(long).unwrap());
     }
-    // Every satin that can be woven has one binding point on each end, and never two side by side.
+    // A satin has one binding point on each end, and never two side by side.
     for ends in [5, 7, 8, 9, 10, 11, 12, 13] {
         let sateen = Weave::parse(&format!("sateen {ends}")).unwrap();
         for end in 0..ends {
@@ -374,8 +374,8 @@ fn an_unknown_name_is_told_which_there_are() {
     }
 }
 
-/// In an irregular satin of 6 each pick binds one end, and each end is bound by one pick. No pick
-/// binds an end beside the end of the pick before.
+/// In an irregular satin each pick binds the end that the notation names. An error about a satin
+/// without a move shows the irregular one. The notation has to name each end once.
 #[test]
 fn an_irregular_satin_is_drawn_by_its_binding_points() {
     for (ends, order) in [(6, "1 3 5 2 6 4"), (4, "1 2 4 3")] {

@@ -1,4 +1,5 @@
-//! Threads that bend around one another stay clear at every pitch, by the clearance report.
+//! Threads stay clear at all pitches from the least one on, by the clearance report. Below it they
+//! are reported as jammed, and flattening helps some of them.
 //!
 //! `contacts.rs` compares the report with brute force. `clearance.rs` measures some of these cloths
 //! by brute force.
@@ -43,7 +44,7 @@ impl Pair {
         })
     }
 
-    /// The least clearance of `drawdown` at this share and ratio. None where a pitch is beyond
+    /// The least clearance of `drawdown` at this share and ratio. None if a pitch is beyond
     /// [`FURTHEST`].
     fn clearance(&self, drawdown: &Drawdown, share: f32, ratio: f64) -> Option<f64> {
         let threads = self.threads(share, ratio);

@@ -50,8 +50,8 @@ fn the_least_pitch_is_peirces() {
 
 #[test]
 fn nothing_between_two_threads_jams_nothing() {
-    // Two pairs of ends, 0.35 mm apart. The ends of a pair touch, because no pick passes between
-    // them.
+    // Two pairs of ends and two pairs of picks, 0.35 mm from pair to pair. The threads of a pair
+    // touch, which jams nothing, because no thread passes between them.
     let drawdown = Weave::parse("2/2(2+2)").unwrap().drawdown(4, 4).unwrap();
     let set: Vec<_> = [0.05, 0.35, 0.35, 0.05].map(|spacing| Thread::new(spacing, 0.1)).into();
     let mut cloth =
@@ -98,8 +98,7 @@ fn what_can_not_be_flattened_is_told() {
     assert_eq!(report.after.map(|set| set.jammed).into_array().into_iter().max(), Some(7));
 }
 
-/// Plies, and sections that turn with the twist, are not changed. They stay inside the flattened
-/// outline.
+/// Threads of two plies are flattened, and their section stays as it is.
 #[test]
 fn plies_are_flattened_as_they_are() {
     let plies = Section::Lobed { plies: 2 };
@@ -141,7 +140,7 @@ fn threads_too_thin_to_shrink_are_left_alone() {
 }
 
 /// Other lifts jam other threads. After a change of a lift, relief starts from the cloth that was
-/// given.
+/// given. A lift and a colour that the cloth does not have are refused.
 #[test]
 fn a_design_with_another_lift_is_one_that_was_given_so() {
     let given = dense("plain", 1.2, 1.2);

@@ -170,7 +170,7 @@ proptest! {
             let [warp, weft] = size.map(|size| (0..size).map(thread).collect());
             Woven::new(drawdown, warp, weft, tex.clone(), vec![Section::Circle]).unwrap()
         };
-        // The second cloth has a few threads more than whole repeats.
+        // The second cloth may have one or two threads more than whole repeats.
         let [one, many] = [[repeat; 2], times.map(|times| times * repeat + times - 1)].map(cloth).map(|cloth| {
             Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
         });

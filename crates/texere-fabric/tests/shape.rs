@@ -1,5 +1,5 @@
-//! Control points of woven cloth, crossing by crossing, for each shape, share of the crimp and
-//! selvedge.
+//! Control points of woven cloth of the shape [`Shape::Round`], crossing by crossing, for any share
+//! of the crimp, with and without a selvedge.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 

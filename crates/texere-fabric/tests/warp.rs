@@ -154,8 +154,8 @@ fn jacquards_displace_single_guides() {
     assert!(Displacements::new([4, 1], vec![vec![[0, 1]], vec![]], |_, _| 0).is_none());
 }
 
-/// Origins and sources count guides and courses of the whole cloth. Every copy equals the repeat,
-/// moved to its place.
+/// Origins and sources count guides and courses of the whole cloth. A yarn of the last copy equals
+/// that of the first one, moved to its place.
 #[test]
 fn copies_have_names_of_their_own() {
     let threaded = Threading::of(vec![Some(0), None]);
@@ -278,7 +278,7 @@ fn what_is_no_cloth_is_refused() {
     let other = Bar { jacquard, ..bar() };
     let courses = FabricError::Warp(WarpError::JacquardCourses { bar: 1, courses: 1, chain: 2 });
     assert_eq!(refused(vec![other], four, one), courses);
-    // A displaced lap may go round three needles: 2-0 displaced by 1-0 is 3-0.
+    // A displaced lap must not go round three needles: 2-0 displaced by 1-0 would be 3-0.
     let wide = Displacements::new([1, 1], vec![vec![[1, 0], [0, 0]]], |_, _| 0);
     let wide = Bar { jacquard: wide, ..Bar::new(chain("2-0/1-2//")) };
     let lap = FabricError::Warp(WarpError::JacquardLap {

@@ -287,8 +287,8 @@ fn a_section_that_is_not_sound_changes_nothing() {
 
 #[test]
 fn threads_that_just_fit_are_not_warned_of() {
-    // The threads are spaced by twice their thickness, which is about the closest at which crossing
-    // threads pass.
+    // The threads are spaced by twice their thickness, a little more than the closest at which
+    // crossing threads pass.
     let thread = Thread::new(0.3, 0.075);
     assert_eq!(woven(plain(6, 6), vec![thread; 6], vec![thread; 6]).unwrap().warnings(), []);
 }

@@ -4,13 +4,14 @@
 use super::crossing;
 use super::shape::{Set, Shape};
 
-/// Distance of a shoulder from its crossing, as a multiple of the distance between the two
-/// centrelines at the crossing. A shoulder is the control point beside a crossing of a thread that
-/// changes sides. It lies at most [`SHOULDER_MOST`] of the way to the next crossing.
+/// Distance of a shoulder from its crossing, as a multiple of half the width of the crossed thread
+/// plus half the height of the thread itself. A shoulder is the control point beside a crossing of
+/// a thread that changes sides. [`SHOULDER_MOST`] makes the distance smaller if the next crossing
+/// is near, and [`STRIDE`] makes it larger if that is far.
 const SHOULDER: f32 = 0.7;
 
-/// The largest distance of a shoulder, as a share of the way to the next crossing. The trials are
-/// those of [`FALL`].
+/// The largest distance of a shoulder, as a share of the way to the next crossing. It was found in
+/// the trials that [`FALL`] describes.
 const SHOULDER_MOST: f32 = 0.32;
 
 /// The largest fall of a shoulder below the crossing, as a multiple of the distance between the two
@@ -46,7 +47,7 @@ const FALL_OUT: f32 = 0.2;
 pub(super) const STRIDE: f32 = 3.34;
 
 /// The share by which a length must differ from a stride to count as another length. A shoulder may
-/// lie exactly a stride away, and rounding must not decide on which side.
+/// lie exactly a stride away. Rounding must not decide whether that counts as further.
 pub(super) const ROUNDING: f32 = 1e-3;
 
 /// Threads of one height, with the threads that they cross.
@@ -62,7 +63,7 @@ pub(super) struct Bend<'a> {
 }
 
 impl Bend<'_> {
-    /// Distance of the crossings `from` and `to`, mm.
+    /// Distance between the crossings `from` and `to`, mm.
     pub(super) fn pitch(&self, from: usize, to: usize) -> f32 {
         (self.crossed.at[to] - self.crossed.at[from]).abs()
     }
@@ -85,15 +86,15 @@ impl Bend<'_> {
     /// The shoulder at crossing `number` towards a neighbour `pitch` away: its distance from the
     /// crossing, and its distance from the cloth's middle, mm.
     ///
-    /// The thread goes a little outside a circle round the crossed thread. Flat threads stretch
-    /// that circle to `across`.
+    /// The thread goes a little outside a circle round the crossed thread. For flat threads the
+    /// circle is stretched sideways, to the radius `across`.
     ///
     /// If the neighbour is far away, the shoulder slides down the line to the middle between the
     /// two crossings, so that no step is longer than [`STRIDE`] times the step before.
     pub(super) fn shoulder(&self, number: usize, pitch: f32) -> (f32, f32) {
         let (room, depth) = (self.room(number), self.depth(number));
         let across = self.crossed.half_width[number] + self.half_height;
-        // Close threads that lie far from the cloth's edge may have one place after rounding.
+        // Close threads far from the cloth's edge may be rounded to one place.
         if pitch <= 0.0 {
             return (0.0, 0.5 * depth);
         }
@@ -104,9 +105,9 @@ impl Bend<'_> {
         (aside, (depth - fall).max(0.5 * depth) * slid)
     }
 
-    /// Height of the shoulders at crossing `number`, from the cloth's middle, mm. The thread
-    /// changes sides between that crossing and the neighbour `one`. `other` is the neighbour on the
-    /// other side, if any, and `both` says whether the thread changes sides there too.
+    /// Height of the shoulder at crossing `number` towards the neighbour `one`, from the cloth's
+    /// middle, mm. The thread changes sides between the two. `other` is the neighbour on the other
+    /// side, if any, and `both` says whether the thread changes sides there too.
     ///
     /// If `both` is set, both shoulders have the height of the higher one, so that the thread is
     /// level at the crossing. Beside a short float a shoulder falls less.
@@ -123,8 +124,8 @@ impl Bend<'_> {
         if both {
             return z.max(self.shoulder(number, pitch).1);
         }
-        // A neighbour just a stride away makes the shoulder fall less. Without this, threads of
-        // unlike spacing came to 0.9896 of touching, not 0.99.
+        // A neighbour just a stride away counts as far, which makes the shoulder fall less. Without
+        // this, threads of unlike spacing came to 0.9896 of touching, not 0.99.
         let far = pitch > (1.0 - ROUNDING) * STRIDE * aside;
         let step = if far { (STRIDE - 1.0) * aside } else { pitch };
         z.max(self.depth(number) - TILT * (step + aside))

@@ -7,22 +7,24 @@ use crate::WovenError;
 ///
 /// At a crossing the two centrelines are apart by R, half the heights of both sections together.
 /// The warp lies `share × R` from the cloth's middle, and the weft lies at the rest of R on the
-/// other side. All crossings of a cloth have the same share. A thread therefore keeps one level if
-/// the threads that it crosses are alike, as a thread under tension does.
+/// other side. All crossings of a cloth have the same share. If the threads that a thread crosses
+/// are alike, it therefore has the same distance from the middle at all crossings, as a thread
+/// under tension does.
 ///
-/// Another share is crimp interchange. If a cloth is pulled along the warp, the warp straightens,
-/// so that its share falls, and the weft takes more crimp. The pitches change, too. The caller
-/// gives them as the threads' spacings.
+/// A change of the share is called crimp interchange. If a cloth is pulled along the warp, the warp
+/// straightens, so that its share falls, and the weft takes more crimp. The pitches change, too.
+/// The caller gives them as the threads' spacings.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
 /// 1937: h₁ + h₂ = D.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Crimp {
-    /// The shares follow from the threads' stiffness in bending, which grows with the fourth power
-    /// of the diameter. The stiffer set stays straighter. The share is a half if both sets are
-    /// alike, and is kept between 20 and 80 %. Beyond these shares the yarn that bends more needs a
-    /// pitch that few cloths have, and thin yarns do not hold thick ones quite straight.
+    /// The shares follow from the threads' stiffness in bending, taken as the fourth power of the
+    /// radius. [`Thread::stiffness`] does not count. The stiffer set stays straighter. The share is
+    /// a half if both sets are alike, and is kept between 20 and 80 %. Beyond these shares the yarn
+    /// that bends more needs a pitch that few cloths have, and thin yarns do not hold thick ones
+    /// quite straight.
     #[default]
     Stiffness,
     /// The warp's share, from 0 (straight ends) to 1 (straight picks).

@@ -53,7 +53,7 @@ impl WovenDesign {
         self.draft.as_ref()
     }
 
-    /// Which threads were jammed, and what was done about them.
+    /// How tight the threads were before relief and after, and what was changed.
     #[must_use]
     pub const fn jam_report(&self) -> &JamReport {
         &self.jam_report

@@ -49,7 +49,7 @@ pub enum Shedding {
         /// The treadles that each pick presses.
         treadling: Vec<Vec<u32>>,
     },
-    /// Each pick lifts these shafts directly, as on a dobby loom.
+    /// The shafts that each pick lifts directly, as on a dobby loom.
     LiftPlan(Vec<Vec<u32>>),
 }
 
@@ -88,7 +88,7 @@ impl Draft {
             Shedding::TieUp { tie_up, .. } => self.treadles(tie_up, &shafts)?,
             Shedding::LiftPlan(_) => shafts,
         };
-        // Most picks repeat an earlier one.
+        // Most picks repeat an earlier one, and are copied from it.
         let mut woven: HashMap<&[u32], usize> = HashMap::new();
         for (pick, list) in self.shedding.picks().iter().enumerate() {
             if let Some(&same) = woven.get(list.as_slice()) {
@@ -147,7 +147,7 @@ enum Lift {
 
 impl Lift {
     /// The lift of `ends`, in a cloth whose rows have `words` words. A list with one end for each
-    /// word of a row takes as long as the row.
+    /// word of a row takes as long to add as the row.
     fn new(ends: Vec<u32>, words: usize) -> Result<Self, FabricError> {
         let many = ends.len() > words;
         let few = Self::Few(ends);

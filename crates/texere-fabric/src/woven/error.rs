@@ -27,7 +27,7 @@ pub enum WovenError {
         ends: usize,
         /// Picks asked for.
         picks: usize,
-        /// Their product.
+        /// Number of crossings: ends times picks.
         crossings: u64,
         /// The most crossings allowed.
         limit: u64,
@@ -63,7 +63,7 @@ pub enum WovenError {
         treadles: usize,
         /// Ends of the cloth.
         ends: usize,
-        /// The largest product of both allowed.
+        /// The largest product of treadles and ends allowed.
         limit: u64,
     },
     /// A weave's notation that can't be read.
@@ -172,7 +172,7 @@ pub enum WovenError {
     Spacing {
         /// The thread.
         thread: Origin,
-        /// Its spacing, mm.
+        /// The thread's spacing, mm.
         spacing_mm: f64,
         /// The least spacing allowed, mm.
         low: f64,
@@ -184,7 +184,7 @@ pub enum WovenError {
     Stiffness {
         /// The thread.
         thread: Origin,
-        /// Its stiffness, as a multiple of that of cotton.
+        /// The thread's stiffness, as a multiple of that of cotton.
         stiffness: f32,
         /// The least stiffness allowed.
         low: f32,
@@ -196,7 +196,7 @@ pub enum WovenError {
     Flatness {
         /// The thread.
         thread: Origin,
-        /// Its flatness: width over height.
+        /// The thread's flatness: width over height.
         flatness: f32,
         /// The least flatness allowed.
         low: f32,
@@ -254,7 +254,8 @@ pub enum WovenError {
     },
 }
 
-/// The textbooks' irregular satin on a number of ends on which there is no regular one.
+/// The part of a message that names the textbooks' irregular satin on `ends` ends. It is empty for
+/// numbers of ends without such a satin.
 const fn irregular_satin(ends: usize) -> &'static str {
     match ends {
         6 => "; an irregular one names the end that each pick binds: satin 6(1 3 5 2 6 4)",

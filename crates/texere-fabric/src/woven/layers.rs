@@ -46,11 +46,11 @@ impl Drawdown {
         });
         let (mut layers, mut last) = (Vec::<[usize; 2]>::new(), [0, 0]);
         for (first, over) in sums_over.iter().enumerate() {
-            // Each further pick crosses the ends that are not among the first, and lies on top of
-            // as many ends as its count. Counts only fall. The number of times on top, less the
-            // number of crossings, is therefore largest when all picks with a greater count than
-            // the number of those ends are taken, and none with a smaller count. Only there can
-            // both numbers be equal.
+            // After the first ends, picks are taken, those with the greatest counts first. Each
+            // pick adds its count to the number of times on top, and the number of the other ends
+            // to the number of crossings. The first number, less the second, is therefore largest
+            // once all picks with a count above the number of other ends are taken, and none with a
+            // count below it. Only there can both numbers be equal.
             let others = (ends - first) as u64;
             let [fewest, most] = [
                 under.partition_point(|count| *count > others),

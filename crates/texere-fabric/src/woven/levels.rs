@@ -2,9 +2,9 @@
 
 use super::{BySet, Drawdown};
 
-/// A thread lies above the next one if, of the threads that pass between the two, at most one
-/// passes the other way for each [`STITCHED`] that have the thread above. The exceptions are
-/// stitches of a double cloth.
+/// How many crossing threads have to pass below a thread and above the next one, for each crossing
+/// thread that passes the other way, so that the first thread counts as lying above the second.
+/// Those that pass the other way are stitches of a double cloth.
 const STITCHED: u64 = 4;
 
 /// The most neighbouring threads of one level in a cloth of several layers. A longer run is a
@@ -15,7 +15,8 @@ const SIDE_BY_SIDE: usize = 4;
 /// cloth with three threads of the face to one of the back this share is a half.
 const STACKED: f64 = 0.4;
 
-/// The most levels that a cloth can have.
+/// The most passes in the search for levels. A cloth with this number of levels needs no more, and
+/// neighbours that contradict one another would go on for ever.
 const LEVELS_MAX: u32 = 8;
 
 /// How two neighbouring threads of a set lie.
@@ -34,9 +35,10 @@ impl Drawdown {
     /// A pick lies above the next one if ends pass between the two, below the first pick and above
     /// the second. If about as many ends pass the other way, as in plain weave, twills and satins,
     /// both picks lie side by side. Stitches between two layers, at most one in five of these ends,
-    /// don't count. Ends are compared in the same way. All threads lie side by side if neighbours
-    /// contradict one another round the cloth, or if fewer than two in five neighbours lie above
-    /// one another.
+    /// don't count. Ends are compared in the same way. More than four threads side by side are a
+    /// stripe, which lies neither above its neighbours nor below them. All threads lie side by side
+    /// if neighbours contradict one another round the cloth, or if fewer than two in five
+    /// neighbours lie above one another.
     ///
     /// ```
     /// use texere_fabric::{Drawdown, Weave};
@@ -82,9 +84,9 @@ const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     }
 }
 
-/// The lowest levels that agree with all neighbours; 0 for all threads if no levels do. The last
-/// thread and the first one count as neighbours only if one of them lies above the other, because a
-/// cloth need not repeat.
+/// The lowest levels that agree with all neighbours; 0 for all threads if no levels do, or if too
+/// few neighbours lie above one another. The last thread and the first one count as neighbours only
+/// if one of them lies above the other, because a cloth need not repeat.
 fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
     let count = neighbours.len();
     // Threads side by side form runs: the number of each thread's run, and the length of each run.
@@ -110,8 +112,8 @@ fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
         return vec![0; count];
     }
     let mut heights = vec![0_u32; lengths.len()];
-    // Each pass lifts threads that must lie higher. It ends after as many passes as there are
-    // levels.
+    // Each pass lifts threads that must lie higher. A pass that lifts none is the last one. There
+    // are at most as many passes as levels.
     for _ in 0..LEVELS_MAX {
         let mut lifted = false;
         for &[above, below] in &over {

@@ -36,8 +36,8 @@ pub(super) enum Reversal {
 }
 
 impl Reversal {
-    /// The fewest ends in one direction with which each pick still crosses all ends of a twill on
-    /// `repeat` ends.
+    /// The fewest ends in one direction with which all ends of a twill on `repeat` ends still
+    /// occur.
     pub(super) const fn least(self, repeat: usize) -> usize {
         match self {
             Self::Cut => repeat.div_ceil(2),

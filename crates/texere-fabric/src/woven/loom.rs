@@ -11,8 +11,8 @@ use super::path::Station;
 use super::yarns::{Kind, Measured, Pass};
 use crate::{FabricError, WovenError, yarn_check};
 
-/// A cloth on the loom. Its lifts are changed one by one, and only the yarns that a change affects
-/// are placed anew.
+/// A cloth on the loom. Its lifts are changed one by one or in blocks, and only the yarns that a
+/// change affects have to be placed anew.
 ///
 /// The yarns equal those of [`Woven::yarns`] to the bit, and have the same numbers. A lift changes
 /// the yarn of the end and the yarn of the pick that cross there, and no other yarn.

@@ -11,8 +11,9 @@ pub(super) const REPEAT_MAX: usize = 4096;
 /// A weave as it is written.
 #[derive(Clone)]
 pub(super) enum Notation {
-    /// A row of ends, `base`. Each pick moves the row `step` ends further to the right, from 0 to
-    /// less than its length. After `picks` picks the row has come back to its first place.
+    /// A row of ends, `base`. Each pick moves the row `step` ends further to the right. `step` is
+    /// less than the length of the row. After `picks` picks the row has come back to its first
+    /// place.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
     /// A column of picks, `base`: as it is for `left` ends, and inverted for the next `right` ends.
     Matt { base: Vec<bool>, left: usize, right: usize },
@@ -63,9 +64,11 @@ const _: () = assert!(REPEAT_MAX == 4096);
 /// What is expected where the picks of a satin name the ends that they bind.
 const ORDER: &str = "each end of the satin once, in the order in which picks bind them: satin 6(1 3 5 2 6 4)";
 
-/// What is expected behind the name of a satin, a matt weave or a twill.
+/// What is expected behind the name of a satin.
 const ENDS: &str = "the number of its ends: satin 8";
+/// What is expected behind the name of a matt weave.
 const THREADS: &str = "how many threads lie together: matt 2, or matt 3/2";
+/// What is expected behind the name of a twill, or behind its hand.
 const FLOATS: &str = "its floats, up and down in turn: twill 2/2";
 
 /// The names of weaves, each with its other names.
@@ -113,8 +116,8 @@ pub(super) fn parse(text: &str) -> Result<Notation, WovenError> {
     if cursor.rest.trim_start().is_empty() { Ok(notation) } else { Err(cursor.fail("the end")) }
 }
 
-/// Reads what follows the name of a satin: its number of ends and its move, or the order of its
-/// binding points.
+/// Reads what follows the name of a satin: its number of ends, and then its move, the order of its
+/// binding points, or nothing.
 fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenError> {
     cursor.need(ENDS)?;
     let position = cursor.position();
@@ -139,13 +142,14 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenErr
     } else {
         smallest
     };
-    // In a warp-faced satin all ends but the last are up, in a weft-faced one all ends but the
-    // first are down.
+    // In the first pick of a warp-faced satin all ends but the last are up, in that of a weft-faced
+    // one all ends but the first are down.
     let base = (0..ends).map(|end| if warp_faced { end + 1 < ends } else { end == 0 }).collect();
     Ok(Notation::Shifted { base, step, picks: ends })
 }
 
-/// The ends that the picks of a satin bind, counted from 0; `None` if there is a move or nothing.
+/// The ends that the picks of a satin bind, counted from 0. None if the number of ends is followed
+/// by a move or by nothing.
 fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, WovenError> {
     let before = cursor.rest;
     let (mut order, mut bound) = (Vec::new(), vec![false; ends]);
@@ -171,7 +175,8 @@ fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, Wov
     Ok(None)
 }
 
-/// Reads what follows the name of a matt weave, whose floats are equal in both directions.
+/// Reads what follows the name of a matt weave, whose floats are as long along the picks as along
+/// the ends.
 fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     cursor.need(THREADS)?;
     let left = cursor.number(NUMBER)?;
@@ -270,8 +275,8 @@ fn twill(
 ) -> Result<Notation, WovenError> {
     let ends = base.len();
     let step = written.rem_euclid(ends as i64) as usize;
-    // The picks bring an end all the places of the row that lie a multiple of `apart` further on,
-    // and no other places.
+    // From pick to pick, an end takes the values of `base` at all places that are a multiple of
+    // `apart` away from its own, and at no others.
     let apart = greatest_divisor(step, ends);
     for end in 0..apart {
         if base.iter().skip(end).step_by(apart).all(|&up| up == base[end]) {
@@ -287,8 +292,8 @@ fn twill(
 }
 
 /// The name of a weave that is spelt most like a word. None if no name is near: the number of
-/// different letters may be at most a third of the name's letters plus one, and must be less than
-/// the letters of the word.
+/// letters to change, add, remove or swap may be at most a third of the name's letters plus one,
+/// and must be less than the number of the word's letters.
 fn nearest(word: &str) -> Option<&'static str> {
     let word: String = word.chars().take(20).flat_map(char::to_lowercase).collect();
     let names = NAMES.iter().flat_map(|(name, others)| others.iter().chain([name]));
@@ -306,7 +311,7 @@ fn greatest_divisor(mut a: usize, mut b: usize) -> usize {
     b
 }
 
-/// The rest of a text. Every method skips spaces first.
+/// A text, and the rest of it that is still to be read. Methods that read skip spaces first.
 struct Cursor<'a> {
     text: &'a str,
     rest: &'a str,
@@ -324,8 +329,8 @@ impl Cursor<'_> {
         found
     }
 
-    /// Reads the name of a weave, and returns the weave's first name. None if no name stands here
-    /// but floats.
+    /// Reads the name of a weave, and returns the weave's first name. None if floats stand here, or
+    /// the hand of a twill.
     fn name(&mut self) -> Result<Option<&'static str>, WovenError> {
         let before = self.rest;
         if self.hand().is_some() {
@@ -407,7 +412,7 @@ impl Cursor<'_> {
         shown
     }
 
-    /// The next character; empty at the end.
+    /// The next character that is no space; empty at the end.
     fn next(&self) -> &str {
         let next = self.rest.trim_start();
         &next[..next.chars().next().map_or(0, char::len_utf8)]

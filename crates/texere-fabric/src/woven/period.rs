@@ -11,7 +11,7 @@ use crate::own::Own;
 
 /// Number of threads from which a set is measured as it is. The stretch from a thread's last
 /// crossing to its first crossing in the next repeat then changes its crimp by a share of less than
-/// 1 / `FEW`. Smaller cloths are woven with more repeats around them to be measured.
+/// 1 / `FEW`. A smaller set of three repeats or fewer is woven with more repeats to be measured.
 const FEW: usize = 256;
 
 /// Cloth to be measured, with its yarns.
@@ -23,8 +23,8 @@ pub(crate) struct Sample<'a> {
 }
 
 impl Woven {
-    /// For each set, the number of threads in whole repeats, after which the threads lie and cross
-    /// in the same way, and the width that these threads take, mm.
+    /// For each set, the number of threads in whole repeats, and the width that these threads take,
+    /// mm. After a repeat, threads lie and cross in the same way.
     pub(crate) fn whole(&self) -> [(usize, f64); 2] {
         self.whole_of(self.repeat())
     }
@@ -46,9 +46,9 @@ impl Woven {
 }
 
 impl<'a> Sample<'a> {
-    /// The sample of a cloth and its yarns. A small cloth with yarns as woven is woven again with
-    /// more repeats around it, because the bend of a thread at an edge depends on floats that are
-    /// cut off there.
+    /// The sample of a cloth and its yarns. A small cloth with yarns as woven, whose weft does not
+    /// turn at selvedges, is woven again with more repeats, because the bend of a thread at an edge
+    /// depends on floats that are cut off there.
     ///
     /// **Errors**: the errors of [`Woven::new`] and of [`Woven::yarns`].
     pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
@@ -78,9 +78,9 @@ impl<'a> Sample<'a> {
         })
     }
 
-    /// For each end and each pick, the length of yarn over the length of cloth, in whole repeats.
-    /// The outermost repeats are left out if there are enough. Turns at a selvedge count with their
-    /// picks.
+    /// For each end and each pick, the length of yarn over the length of cloth. The outermost
+    /// repeats are left out if there are enough. Otherwise, and for a yarn of several picks, the
+    /// whole yarn counts, with its turns at the selvedges.
     pub(crate) fn ratios(&self) -> [Vec<f64>; 2] {
         let threads: Vec<_> = self.cloth.yarns_of_threads().collect();
         let mut passes = vec![0_usize; self.yarns.layout().yarns().len()];

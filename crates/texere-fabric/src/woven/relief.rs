@@ -73,7 +73,7 @@ const SHARE_STEP: f32 = 0.025;
 /// before.
 const WIDENED_MAX: f32 = 2.0;
 
-/// A change of a cloth that thins none of its threads.
+/// A change of the share of the crimp and of the widths of threads. All threads keep their area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Change {
     share: f32,
@@ -91,8 +91,8 @@ impl Needs {
             .iter()
             .map(|gap| [gap.widths, gap.between.unwrap_or(0.0)].map(|size| size / gap.pitch as f32))
             .collect();
-        // The widest gaps come first. After a gap, only gaps with thicker threads between can be
-        // tighter.
+        // The gaps whose threads take the largest share of the pitch come first. After a gap, only
+        // gaps with thicker threads between can be tighter.
         needs.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
         let mut thickest = f32::NEG_INFINITY;
         needs.retain(|[_, between]| {
@@ -120,9 +120,9 @@ impl Woven {
     /// Makes room for jammed threads, as `relief` says, and reports the threads before and after.
     ///
     /// First the warp's share of the crimp changes, between 20 and 80 %, and no more than it must.
-    /// A share that was given as [`Crimp::WarpShare`] stays. No thread changes its size by this,
-    /// and in real cloth, too, a dense set makes the threads that cross it bend. Threads that are
-    /// still jammed are then flattened or thinned.
+    /// A share that was given as [`Crimp::WarpShare`] stays. A change of the share changes no
+    /// thread's size, and in real cloth, too, a dense set bends more and the threads that cross it
+    /// straighten. Threads that are still jammed are then flattened or thinned.
     ///
     /// Flattening changes the set that passes between the jammed threads. A wider thread needs more
     /// room beside it, so that relief of one set may jam the other. Threads that can't be relieved

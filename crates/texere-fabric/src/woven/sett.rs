@@ -26,9 +26,10 @@ pub struct Sett {
     /// from 0 to 1. It is 1 in plain weave and 2/n in a satin of n ends. In a cloth of several
     /// levels, it is the mean over the levels, and only changes within each level count.
     pub interlacings: f64,
-    /// The greatest sett by the rule of ends and intersections: where a thread changes sides it
-    /// takes the room of one more thread. Each level of a cloth has this sett, so that a double
-    /// cloth has room for twice as many threads ([`Drawdown::levels`](crate::Drawdown::levels)).
+    /// The greatest sett by the rule of ends and intersections: where a thread of the other set
+    /// changes sides, it takes the room of its own diameter. Each level of a cloth has this sett,
+    /// so that a double cloth has room for twice as many threads
+    /// ([`Drawdown::levels`](crate::Drawdown::levels)).
     ///
     /// **Source**: T. R. Ashenhurst, "A treatise on textile calculations and the structure of
     /// fabrics", 1884: diameters to the inch × ends of a repeat / (ends + intersections). J. T.
@@ -55,8 +56,8 @@ impl Sett {
 }
 
 impl Woven {
-    /// The setts of warp and weft, worked out with the diameters that the yarns have when they are
-    /// round.
+    /// The setts of warp and weft. Greatest setts follow from the mean diameters that the yarns
+    /// have when they are round, and jammed setts from their widths and heights in the cloth.
     #[must_use]
     pub fn setts(&self) -> BySet<Sett> {
         let whole = self.whole();
@@ -93,7 +94,7 @@ impl Woven {
             (0..repeat[set]).filter(|&thread| levels[set][thread] == level).collect()
         };
         let all = |set: usize| -> Vec<usize> { (0..repeat[set]).collect() };
-        // A cloth of one thread is its own neighbour.
+        // A single thread is its own neighbour.
         let up =
             |end: usize, pick: usize| self.drawdown().up(end % self.warp().len(), pick % self.weft().len());
         [0, 1].map(|set| {
@@ -125,9 +126,10 @@ struct Level {
     interlacings: f64,
 }
 
-/// The pitch at which the threads of plain weave jam between those of the other set, mm. It solves
-/// cos θ₁ + cos θ₂ = 1. The pitch of each set is the sum of both heights times sin θ, plus the
-/// excess of the set's width over its height.
+/// The pitch at which `threads`, in plain weave, jam between the threads of the other set, mm.
+/// `pitch` is the pitch of the other set. The steepest slopes θ₁ and θ₂ of both sets then have cos
+/// θ₁ + cos θ₂ = 1. The pitch of each set is the sum of both heights times sin θ, plus the excess
+/// of the set's width over its height.
 fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
     let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
         let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));

@@ -25,8 +25,8 @@ use crate::reach::Reach;
 #[non_exhaustive]
 pub enum Shape {
     /// One control point at each crossing, and one before and after all crossings, as in the paper
-    /// that texere implements (README.md). Threads swing out further than they are thick, because
-    /// the spline cuts corners. Floats bulge.
+    /// that texere implements (README.md). If crossed threads lie close, threads swing out further
+    /// than their thickness needs, because the spline cuts corners. Floats bulge.
     Crossing,
     /// Threads bend round one another as round threads do, and floats lie flat. There are three
     /// more control points wherever a thread changes sides, and a few more within floats that are

@@ -30,7 +30,7 @@ pub(super) const STIFFNESS_MAX: f32 = 100.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thread {
     /// Width of the thread's column of the cloth, mm. The thread lies in the middle of its column,
-    /// so that two neighbours are half of each spacing apart.
+    /// so that the distance of two neighbours is half the sum of their spacings.
     pub spacing_mm: f64,
     /// Radius of the yarn when it is round, mm.
     pub radius_mm: f32,

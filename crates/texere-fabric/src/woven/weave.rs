@@ -138,7 +138,7 @@ impl Weave {
         }
     }
 
-    /// A cloth of `ends` and `picks` in this weave.
+    /// The drawdown of a cloth of `ends` ends and `picks` picks in this weave.
     ///
     /// **Errors**: the errors of [`Drawdown::new`].
     pub fn drawdown(&self, ends: usize, picks: usize) -> Result<Drawdown, FabricError> {

@@ -21,7 +21,8 @@ pub const NO_CROSSING: u32 = u32::MAX;
 /// [`NO_CROSSING`].
 const _: () = assert!(POINTS_MAX / 2 < NO_CROSSING as u64);
 
-/// One passage of a thread through the cloth: an end, or a pick after the turn that leads to it.
+/// One passage of a thread through the cloth: an end, or a pick with the turn that leads to it, if
+/// there is one.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Pass {
     End(usize),

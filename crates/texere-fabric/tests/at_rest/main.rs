@@ -34,7 +34,7 @@ struct Cloth {
     crimp: [Option<f64>; 2],
 }
 
-/// A cotton yarn, with Peirce's diameter.
+/// Peirce's diameter of a cotton yarn, mm.
 fn diameter(tex: f64) -> f64 {
     0.0373 * tex.sqrt()
 }
@@ -67,7 +67,8 @@ fn satin(end: usize, pick: usize) -> bool {
     !(end + 64 - 3 * (pick % 8)).is_multiple_of(8)
 }
 
-/// Counts and threads per inch of cloths on sale.
+/// Cloths with counts and threads per inch as on sale, and cloths of one yarn at pitches of 1.25 to
+/// 3 diameters.
 ///
 /// Sources of crimp. Denim: 10 to 14 % in the warp, from mills. Poplin: "the warp crimp could be 14
 /// % and the weft crimp only 2 %"
@@ -208,8 +209,8 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// In cloth without any room, settling does not make threads vanishingly thin, and its result is no
-/// worse than the cloth before.
+/// Threads without any room keep at least 35 % of the area that they have before they are made
+/// thinner, and their clearance is then no worse than before.
 #[test]
 fn cloth_without_room_is_no_worse() {
     let thread = |pitch: f64| vec![Thread::new(pitch, 0.0837); 8];
@@ -245,8 +246,8 @@ fn chance(seed: &mut u64) -> f64 {
     (*seed >> 40) as f64 / (1_u64 << 24) as f64
 }
 
-/// Cloth of random threads and crossings, in which nothing repeats. Every thread begins and ends at
-/// an edge.
+/// Cloth of random threads and crossings, in which nothing repeats, becomes clear and does not
+/// fold. Every thread runs from edge to edge and never turns back.
 #[test]
 fn uneven_cloth_comes_to_rest_whole() {
     let mut seed = 11;
@@ -320,7 +321,7 @@ fn a_woven_structure_comes_to_rest() {
         assert!((fraction * 25.4 / 60.0 / widths[set] - 1.0).abs() < 0.02, "{fraction} {widths:?}");
         assert!((waves - crimp[set]).abs() < 0.005, "{waves} {crimp:?}");
     }
-    // Round threads are narrower, and wave differently.
+    // As woven, threads are round, and cover less.
     let woven = structure.measures(&structure.yarns().unwrap()).unwrap();
     assert!(measures.cover.unwrap().cloth > woven.cover.unwrap().cloth + 0.05);
     for (finish, asked) in [
@@ -334,7 +335,7 @@ fn a_woven_structure_comes_to_rest() {
 }
 
 /// Stiff threads stay straight, and threads that cross them crimp. If both sets are equally stiff,
-/// the cloth is as balanced as before.
+/// they have the same crimp.
 #[test]
 fn stiff_threads_stay_straight() {
     let sheeting = cloths().swap_remove(2).woven;
@@ -355,7 +356,8 @@ fn stiff_threads_stay_straight() {
     assert!((stiff[0] - stiff[1]).abs() < 1e-4, "{stiff:?}");
 }
 
-/// A taut set straightens, and the other set takes its crimp. A calender makes the cloth thinner.
+/// A taut set straightens, and the other set takes its crimp. A calender makes the cloth thinner,
+/// and is refused above its limit.
 #[test]
 fn a_finish_is_felt() {
     let sheeting = cloths().swap_remove(2).woven;

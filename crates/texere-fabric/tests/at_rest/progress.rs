@@ -7,8 +7,8 @@ use texere_fabric::{FabricError, Finish, FinishError};
 
 use crate::cloths;
 
-/// Once surfaces are measured, the threads of the whole cloth are placed. That takes longest for a
-/// large cloth of a small repeat.
+/// Once surfaces are measured, the threads of the whole cloth are placed, which takes longest for a
+/// large cloth of a small repeat. Placing reports its progress, and nothing after `Break`.
 #[test]
 fn placing_threads_tells_its_progress_and_ends_within_a_thread() {
     let sheeting = cloths().swap_remove(2).woven;

@@ -14,9 +14,9 @@ fn stretched(cloth: &Woven, along: Set, by: f64) -> Result<(Woven, Finish), Fini
     cloth.stretched(&Finish::default(), Stretch { along, by }, 0.0, &device, |_| ControlFlow::Continue(()))
 }
 
-/// Threads keep their lengths, which the test measures along yarns at rest. Pulled threads
-/// straighten. The cloth becomes narrower, because the threads that cross them need more length for
-/// their crimp.
+/// Threads keep their lengths, which the test measures along yarns at rest. Cloth that is pulled
+/// longer becomes narrower, because the threads across need more length for their crimp. Cloth that
+/// is made shorter becomes wider.
 #[test]
 fn threads_keep_their_length() {
     for (name, along, by) in [
@@ -50,7 +50,8 @@ fn threads_keep_their_length() {
     }
 }
 
-/// Cloth stretches until its threads are straight, and no further.
+/// Cloth is stretched neither beyond straight threads nor by factors outside the limits. The error
+/// says at which factor threads are straight.
 #[test]
 fn straight_threads_stretch_no_further() {
     let sheeting = cloths().swap_remove(2).woven;
@@ -60,7 +61,8 @@ fn straight_threads_stretch_no_further() {
     }
 }
 
-/// Progress begins long before the cloth is first at rest, and never goes back.
+/// Progress is reported long before the cloth is first at rest, and never goes back. `Break` ends
+/// the call at once.
 #[test]
 fn stretching_tells_its_progress_and_ends_within_a_pass() {
     let sheeting = cloths().swap_remove(2).woven;

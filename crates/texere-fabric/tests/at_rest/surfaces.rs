@@ -26,7 +26,7 @@ pub(crate) struct Surfaces {
     pub(crate) warp: Vec<bool>,
 }
 
-/// Point and slope of the cardinal spline of tension 0.
+/// Value and slope of one coordinate of the cardinal spline of tension 0.
 fn spline(four: [f64; 4], t: f64) -> [f64; 2] {
     let [a, b, c, d] = four;
     let (m, n) = ((c - a) / 2.0, (d - b) / 2.0);
@@ -101,8 +101,8 @@ impl Surfaces {
         for (yarn, rings) in self.yarns.iter().enumerate() {
             for ring in rings {
                 let [x, y] = key(ring.middle);
-                // For every other yarn, the ring nearest to the middle of this ring. The search of
-                // the other yarn's surface begins there.
+                // For every other yarn, its rings near this ring. Its surface is searched between
+                // them.
                 let mut near: HashMap<usize, Vec<usize>> = HashMap::new();
                 for (dx, dy) in (-2..=2).flat_map(|dx| (-2..=2).map(move |dy| (dx, dy))) {
                     for &(other, number) in cells.get(&[x + dx, y + dy]).into_iter().flatten() {
@@ -141,7 +141,7 @@ impl Surfaces {
         least
     }
 
-    /// For each set, the length of its yarns and the length of cloth that they span.
+    /// For each set, the crimp: the length of its yarns over the length that they span, less 1.
     pub(crate) fn crimp(&self) -> [f64; 2] {
         [true, false].map(|warp| {
             let yarns = self.yarns.iter().zip(&self.warp).filter(|(_, is)| **is == warp);
@@ -215,7 +215,7 @@ impl Surfaces {
 }
 
 /// The factor by which sections of rings have to grow to reach a place between two of them: 1 on
-/// their outline.
+/// their outline. None if the place lies between no two neighbouring rings.
 fn inside(rings: &[Ring], place: DVec3) -> Option<f64> {
     let mut least: Option<f64> = None;
     let before = |ring: &Ring| (place - ring.middle).dot(ring.tangent);

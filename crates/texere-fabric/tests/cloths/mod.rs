@@ -48,8 +48,8 @@ pub(crate) fn cloth(shape: Shape, drawdown: Drawdown, [end, pick]: [Thread; 2], 
     cloth
 }
 
-/// The least pitch, over (widths + heights) / 2, at which a thread with this share of the crimp has
-/// a straight piece between two bends.
+/// The least pitch at which a thread with this share of the crimp has a straight piece between two
+/// bends, over the width of a crossed thread plus the height of the thread itself.
 pub(crate) fn jam(share: f32) -> f64 {
     f64::from((share * (2.0 - share)).sqrt())
 }

@@ -94,7 +94,7 @@ impl Knit {
         courses(self.lines(true, to))
     }
 
-    /// Moves the head of one loop in front of the loop that holds it, so that it drops off.
+    /// Moves the head of one loop in front of the loop that holds it, so that the head is free.
     pub(crate) fn dropped(&self, at: [usize; 2]) -> impl Fn([usize; 2], usize, [f32; 3]) -> [f32; 3] {
         let head = self.points() / 2;
         move |place, point, [x, y, z]| {

@@ -58,7 +58,7 @@ fn compared(before: &Yarns, after: &Yarns) -> Linking {
 fn pairs(found: &Linking) -> Vec<[usize; 2]> {
     let pairs: BTreeSet<_> = found.worst.iter().map(|each| each.places.map(|place| place.yarn)).collect();
     assert_eq!(found.passages == 0, pairs.is_empty());
-    // Pairs are in order, and none is listed twice.
+    // Passages are listed by their change, the largest first, and none twice.
     for (place, passage) in found.worst.iter().enumerate() {
         assert!(!found.worst[..place].contains(passage), "{found:?}");
     }
@@ -150,7 +150,7 @@ fn weaves_stay_linked() {
     }
 }
 
-/// The cloth's yarns with an end moved to the other side of a pick.
+/// The cloth's yarns as they are, and with an end moved to the other side of a pick.
 fn flipped(cloth: &Woven, end: usize, pick: usize) -> [Yarns; 2] {
     let before = cloth.yarns().unwrap();
     let crossing = (pick * cloth.drawdown().ends() + end) as u32;
@@ -176,7 +176,7 @@ fn a_flipped_end_is_told() {
                     let found = compared(&before, &after);
                     let whole = format!("{name}, {shape:?}, {pitch} d, {end}, {pick}: {found:?}");
                     assert_eq!(pairs(&found), [[end, 10 + pick]], "{whole}");
-                    // At an edge half of the windows is missing.
+                    // At an edge, half of each window is missing.
                     let at_edge = end == 0 || pick == 0;
                     assert!(found.largest > if at_edge { LINKING_CHANGE } else { SEEN }, "{whole}");
                     let origins =

@@ -33,7 +33,7 @@ fn yarns_meet_over_the_edge_of_a_repeat() {
     assert_eq!(pairs(&repeated(1, true, |knit| knit.repeat(knit.dropped([0, 2])))), [[0, 0]]);
     assert_eq!(pairs(&repeated(1, true, |knit| knit.repeat(knit.pulled([0, 2])))), [[0, 0]]);
 
-    // Windows of loops beside an edge along x go on in the next round of the yarn.
+    // Windows of loops beside the left or the right edge go on in the next round of the yarn.
     for wale in [0, 3] {
         let found = repeated(3, true, |knit| knit.repeat(knit.dropped([0, wale])));
         assert_eq!(pairs(&found), [[0, 1]], "{found:?}");

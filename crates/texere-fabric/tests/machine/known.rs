@@ -162,7 +162,8 @@ fn a_carrier_that_comes_back_is_another_yarn() {
     assert_eq!(stitches.strands.len(), 2);
 }
 
-/// Every kind of fault is found, with its line.
+/// Faults are found with their lines, and no other errors with them. Needles that never knit,
+/// cast-ons and loose yarns have tests of their own.
 #[test]
 fn faults_are_named() {
     let none = "in 1\nin 2\nin 3\n";

@@ -114,8 +114,7 @@ fn back(other: LoopRef, number: usize) -> LoopRef {
     LoopRef { number: number as u32, repeat: other.repeat.map(|repeats| -repeats) }
 }
 
-/// Checks the laws for all stitches. In a repeat where needles never knit, some loops are not held
-/// by any loop.
+/// Checks the laws for all stitches. They do not hold for a repeat with needles that never knit.
 fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     prop_assert!(names(program, stitches).is_sorted_by(|one, other| one < other), "loops in their order");
     let mut seen = vec![0; stitches.loops.len()];

@@ -68,7 +68,7 @@ fn racks_that_are_no_numbers_are_faults_and_move_nothing() {
     }
 }
 
-/// Up to three million operations of each kind. If one operation took time that grows with the
+/// Programs of 300,000 to three million operations. If one operation took time that grows with the
 /// program, this test would not end.
 #[test]
 fn large_programs_are_run_in_time_that_grows_with_them() {
@@ -87,7 +87,8 @@ fn large_programs_are_run_in_time_that_grows_with_them() {
     });
     assert!(Machine::default().knit(&program(tucks.chain(moves))).is_ok());
 
-    // A hook that takes the same carrier many times, and releases other carriers.
+    // A hook that takes 60,000 carriers at once, then one of them many times, and releases that one
+    // many times.
     let hooks = (0..COUNT / 10).map(|_| Instruction::InHook);
     let mut hooks = program(hooks.chain((0..COUNT / 10).map(|_| Instruction::ReleaseHook)));
     let names = 0..60_000;

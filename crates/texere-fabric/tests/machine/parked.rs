@@ -1,5 +1,5 @@
-//! Yarn that nothing holds is left out: carriers that are parked beyond the cloth, and sets of
-//! carriers that act together.
+//! Yarn that nothing holds is left out, such as that of a carrier that is parked beyond the cloth.
+//! Carriers of a set act together.
 
 use proptest::prelude::*;
 use texere_fabric::weft::{Fault, FaultKind, Knit, Machine, Step, Stitches};
@@ -25,7 +25,7 @@ fn bare(mut stitches: Stitches) -> Stitches {
     stitches
 }
 
-/// Two rows of knitting with `carriers`, to and fro over needles 1 to 4 of a bed. `right` and
+/// Six rows of knitting with `carriers`, to and fro over needles 1 to 4 of a bed. `right` and
 /// `left` are the operations at the end of a row in that direction.
 fn rows(bed: &str, carriers: &str, [right, left]: [&str; 2]) -> String {
     let row = |way: &str, needles: [u32; 4], end: &str| {
@@ -119,8 +119,8 @@ fn floats_between_loops_stay() {
         stitches.strands[0].steps.iter().map(|step| stitches.visit(step).at).collect()
     };
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f2 1\nmiss + f3 1\nknit + f4 1"), [1.0, 2.0, 3.0, 4.0]);
-    // First the carrier passes the needle on its way out, and makes a loop on its way back. Then it
-    // passes a needle on its way back, to a loop further in.
+    // In the first program the carrier passes needle 3 on its way out, and makes a loop on its way
+    // back. In the second it passes needle 3 on its way back, to a loop further in.
     assert_eq!(places("in 1\nknit + f1 1\nmiss + f3 1\nmiss + f9 1\nknit - f5 1"), [1.0, 3.0, 5.0]);
     assert_eq!(places("in 1\nknit + f5 1\nmiss + f9 1\nmiss - f3 1\nknit - f1 1"), [5.0, 3.0, 1.0]);
     // A loop that falls off a needle between two loops becomes a float.

@@ -33,12 +33,12 @@ pub(crate) fn surface_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     first_touch(yarns, settings, Outline::of)
 }
 
-/// The factor for the hulls of the sections.
+/// [`surface_ratio`] for the hulls of the sections.
 pub(crate) fn hull_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     first_touch(yarns, settings, Outline::hull_of)
 }
 
-/// The factor for sections with the outlines that `outline` makes.
+/// [`surface_ratio`] for sections with the outlines that `outline` makes.
 fn first_touch(yarns: &Yarns, settings: Settings, outline: fn(&Section) -> Outline) -> f64 {
     let trajectory = Pipeline::new(yarns).settings(settings).trajectory(&SerialBackend::new()).unwrap();
     let layout = yarns.layout();

@@ -1,4 +1,4 @@
-//! The surface of a yarn between its rings, and the depth of a point in it.
+//! The surface of a yarn between its rings, and how far sections have to grow to reach a point.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -122,9 +122,10 @@ impl Tube {
         stretches
     }
 
-    /// The factor by which sections in `stretch` have to grow to reach `point`. It is exact up to
-    /// `most`, never too large, and infinite beyond the stretch's ends. The search starts at
-    /// `ring`, which becomes the ring of the result.
+    /// The factor by which sections in `stretch` have to grow to reach `point`. A factor of at most
+    /// `most` is exact. A larger one may be given too small, but is still above `most`. Beyond the
+    /// stretch's ends the factor is infinite. The search starts at `ring`, which becomes the ring
+    /// of the result.
     ///
     /// No bend is so tight that the point lies between more than one pair of rings.
     pub(crate) fn gauge(

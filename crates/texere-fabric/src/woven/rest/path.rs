@@ -84,7 +84,7 @@ impl<'a> Change<'a> {
         self.lengths[LINE - 1]
     }
 
-    /// All points between the two crossings, evenly spaced except where they would bend too
+    /// All points between the two crossings, evenly spaced except where the thread would bend too
     /// tightly.
     pub(super) fn points(&self) -> impl Iterator<Item = Stop> {
         let mut stops = std::array::from_fn(|point| self.at(self.whole() * point as f64 / STEPS));
@@ -193,7 +193,7 @@ impl<'a> Way<'a> {
     /// round the second one.
     fn line(&self) -> [[f64; 2]; LINE] {
         let first = |part: usize| self.arc(self.stations[0], 1.0, part as f64 / PARTS as f64);
-        // The second arc is the first one turned by half a turn.
+        // The second arc is computed like the first one, and turned by half a turn.
         let second = |part: usize| {
             let [x, y] = self.arc(self.stations[1], -1.0, (PARTS - part) as f64 / PARTS as f64);
             [self.across - x, self.rise - y]
@@ -220,7 +220,8 @@ impl<'a> Way<'a> {
     }
 
     /// A place on the arc round a crossed thread, relative to that thread's middle. `share` is the
-    /// share of the way from the crossing to the straight line.
+    /// share of the way from the crossing to the straight line. `sign` is 1 for the first crossed
+    /// thread and -1 for the second one.
     fn arc(&self, at: &Station, sign: f64, share: f64) -> [f64; 2] {
         let (s, c) = (share * self.slope).sin_cos();
         let [a, b] = at.crossed;
@@ -233,14 +234,14 @@ impl<'a> Way<'a> {
         [x + half_height * s, b * b * c / reach + half_height * c]
     }
 
-    /// Distance by which the thread stays clear of touching each thread that it crosses, because
-    /// other threads may hold it away at the crossing.
+    /// For both crossings, the distance that the thread has from touching the crossed thread. Other
+    /// threads may hold the two apart.
     fn lifts(&self) -> [f64; 2] {
         self.stations.map(|at| at.side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height)
     }
 }
 
-/// The share of a lift that is left at a share of half the way to the other crossing.
+/// The share of a lift that is left after `share` of half the way to the other crossing.
 fn fading(share: f64) -> f64 {
     let left = (1.0 - share).clamp(0.0, 1.0);
     left * left * (3.0 - 2.0 * left)

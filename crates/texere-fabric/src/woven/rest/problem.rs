@@ -71,8 +71,8 @@ impl Woven {
             .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels().into_array())
     }
 
-    /// Numbers of ends and picks after which threads lie and cross as before. Each is at least two,
-    /// and all of the cloth if nothing repeats.
+    /// Numbers of ends and picks after which threads lie and cross as before. Each number is at
+    /// least two. If nothing repeats, it is the number of all threads of the set.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
         self.period_of(|_| None)
     }

@@ -93,7 +93,7 @@ impl RestingRepeat {
     ) -> Result<Yarns, FabricError> {
         let placing = Placing::new(self, cloth);
         let passes = cloth.passes();
-        // Each pass is counted, then laid.
+        // The points of each pass are counted, and then laid.
         let watch = Watch::new(2 * passes.len() as u64, progress);
         let counts = passes.par_iter().map(|pass| watch.advance(1).map(|()| placing.count(*pass)));
         let counts = counts.collect::<Result<Vec<usize>, _>>()?;

@@ -17,8 +17,8 @@ const STRAIGHT: f64 = 0.002;
 /// length.
 const NEAR: f64 = 2e-4;
 
-/// The largest ratio of one set's tautness to the other's, as a natural logarithm. It takes relaxed
-/// cloth to the limit of [`Finish::taut`], 10.
+/// The largest factor by which the ratio of both sets' tautness changes, as a natural logarithm. It
+/// takes relaxed cloth to the limit of [`Finish::taut`], 10.
 const TAUTER: f64 = 4.6;
 
 /// Number of halvings of the range of tautness.

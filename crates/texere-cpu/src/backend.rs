@@ -18,7 +18,7 @@ pub struct SerialBackend {
     info: DeviceInfo,
 }
 
-/// The parallel backend: all cores make equal ranges of rings. Use it where there is no GPU.
+/// The parallel backend: all cores make short ranges of rings. Use it if there is no GPU.
 #[derive(Debug)]
 pub struct ParallelBackend {
     info: DeviceInfo,

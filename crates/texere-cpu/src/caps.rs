@@ -1,4 +1,4 @@
-//! The closed ends of yarns.
+//! The caps that close the ends of open yarns.
 
 use texere_core::backend::{Chunk, MeshMut};
 use texere_core::{Cap, End, Topology, Vertex};

@@ -1,5 +1,5 @@
-//! A grid of cells that chords are sorted into. Only chords in the same cell or in cells side by
-//! side may be neighbours.
+//! A grid of cells that chords are sorted into. Only chords in the same cell or in cells beside one
+//! another may be neighbours. Cells are beside one another if they share an edge or a corner.
 
 use std::ops::Range;
 
@@ -60,7 +60,8 @@ pub(crate) struct Grid {
 
 impl Grid {
     /// A grid whose cells are as large as `growth` requires, or larger. It has no more cells than
-    /// there are chords (or than 64), because a cloth may lie scattered over a large field.
+    /// there are chords, or than 64 if there are fewer chords, because a cloth may lie scattered
+    /// over a large field.
     pub(crate) fn new(plan: &SettlingPlan, growth: f32, extent: &Extent) -> Self {
         let most = (plan.counts().chords as i64).max(64);
         let mut size =

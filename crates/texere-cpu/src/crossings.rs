@@ -38,8 +38,9 @@ impl CrossingsMemory {
     }
 }
 
-/// Moves crossing `number` by one step of a pass. All crossings are read from `found`. The moved
-/// state goes to `crossing`, and that with momentum added to `next`.
+/// Moves crossing `number` by one step of a pass. All crossings are read from `found`. `crossing`
+/// holds the state after the pass before, and gets the moved state. The moved state with momentum
+/// added goes to `next`.
 pub(crate) fn step(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,

@@ -55,7 +55,7 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
     fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]);
 }
 
-/// The memory of one chunk at a time. It is used again for the next chunk but one.
+/// The memory of one chunk at a time. Later chunks of the same slot use it again.
 #[derive(Debug, Default)]
 struct ChunkMemory {
     rings: Vec<Ring>,
@@ -88,7 +88,7 @@ impl<E: Executor> CpuEngine<E> {
 }
 
 /// Makes `buffer` `length` values long. If its memory is too small, new memory full of zeros takes
-/// its place. Otherwise the values that are in it stay.
+/// its place. Otherwise its values stay, and zeros are added.
 pub(crate) fn resize<T: bytemuck::Zeroable>(
     what: &'static str,
     buffer: &mut Vec<T>,
@@ -101,7 +101,8 @@ pub(crate) fn resize<T: bytemuck::Zeroable>(
     Ok(())
 }
 
-/// Rings that are scanned before a cancellation is heard: some 10 ms of a slow core.
+/// The number of rings that are scanned between two checks for a cancellation: some 10 ms of a slow
+/// core.
 const SCAN_RINGS: u64 = 1 << 17;
 
 /// `yarns`, cut after each [`SCAN_RINGS`] rings or so. A yarn is not cut.
@@ -243,7 +244,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         let rings = &self.memory[slot.index()].rings;
-        // The caller has memory for the whole mesh.
+        // The caller keeps the whole mesh in memory. Its size says whether the caches can hold it.
         let bytes = self.work.plan.counts().bytes().max(out.bytes());
         timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out, bytes));
         Ok(())

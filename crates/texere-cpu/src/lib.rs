@@ -1,7 +1,7 @@
 //! The CPU backends of texere.
 //!
 //! [`SerialBackend`] is the paper's algorithms 1 and 3, written to be read: the gold reference that
-//! every other backend is held against. [`ParallelBackend`] spreads equal ranges of rings over all
+//! every other backend is held against. [`ParallelBackend`] spreads short ranges of rings over all
 //! cores, inside a yarn as well as across yarns, and gives the same bits. A [`Picker`] says which
 //! triangle of the mesh a ray hits first.
 //!

@@ -5,8 +5,9 @@
 /// Asks the system for huge pages for `memory`. Pages that have been touched already stay as they
 /// are.
 ///
-/// Ordinary pages at both ends count as a whole, so that memory which is filled chunk by chunk is
-/// one range in the end: a huge page lies within one range or not at all.
+/// The range is widened at both ends to whole ordinary pages of the largest size. If memory is
+/// filled chunk by chunk, the ranges of all chunks then join to one. This matters because a huge
+/// page has to lie within one range. Memory of less than 64 kB is left as it is.
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     use rustix::mm::{Advice, madvise};
@@ -18,8 +19,8 @@ pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     }
     let before = memory.as_ptr().addr() % PAGE;
     let start = memory.as_ptr().cast_mut().wrapping_byte_sub(before).cast();
-    // SAFETY: the advice changes nothing of what any memory holds. Where the system refuses it,
-    // pages stay small, so the answer does not matter.
+    // SAFETY: the advice changes nothing of what any memory holds. If the system refuses it, pages
+    // stay small, so the answer does not matter.
     let _ = unsafe { madvise(start, (before + bytes).next_multiple_of(PAGE), Advice::LinuxHugepage) };
 }
 

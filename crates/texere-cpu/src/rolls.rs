@@ -1,4 +1,5 @@
-//! Rolls at the starts of blocks: all that a block needs to know of the yarn before it.
+//! Rolls: how far sections are turned about their yarn, at the starts of blocks and from there to
+//! each ring.
 
 use texere_core::backend::{BLOCK_RINGS, Block, Plan};
 use texere_core::definitions::Turn;
@@ -7,11 +8,11 @@ use texere_core::definitions::Turn;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rolls {
     /// The roll at the first ring of each block. For a closed yarn, `closed_up` still has to take
-    /// away the block's share of the yarn's total turn. Empty if no yarn turns.
+    /// away each ring's share of the yarn's total turn. Empty if no yarn turns.
     pub(crate) at_block: Vec<Turn>,
     /// For each ring, the sum of the steps to it from the first ring of its block. The rings of a
-    /// yarn follow those of the yarn before. Empty if no yarn turns, and where serial functions
-    /// make the rings, which add the steps up themselves.
+    /// yarn follow those of the yarn before. Empty if no yarn turns, and for the serial functions,
+    /// which add the steps up themselves.
     pub(crate) in_block: Vec<Turn>,
     /// For each yarn, the sum of all its steps: the turn of its section from the first ring to the
     /// last. Empty if no yarn turns.

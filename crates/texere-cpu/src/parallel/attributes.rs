@@ -11,7 +11,8 @@ use crate::attributes::{block, block_length, blocks_of, caps, sum_up};
 use crate::engine::Work;
 
 pub(super) fn measure(plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {
-    // Each item is one block, so that one long yarn feeds all cores as well as many short ones.
+    // Each item is one block, so that all cores share the work on one long yarn as well as on many
+    // short ones.
     let (mut left, mut first, mut blocks) = (&mut *lengths, 0, Vec::new());
     for yarn in yarns.clone() {
         let own = blocks_of(plan, yarn);

@@ -20,8 +20,8 @@ use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
 // SAFETY, for all blocks in this file: the instructions need AVX2. An `Avx2` proves that the
 // processor has it, since `detect` alone makes one. A vector or a mask proves it too, since it is
-// made with an `Avx2` or from another of them: their fields are private, and nothing outside this
-// file makes one. What is said at a block is about its pointers.
+// made with an `Avx2` or from another vector or mask. Their fields are private, and nothing outside
+// this file makes one. The comment at each block is about its pointers alone.
 
 /// Proof that the processor has AVX2.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +32,7 @@ impl Avx2 {
         is_x86_feature_detected!("avx2").then_some(Self(()))
     }
 
-    /// Two points, one in each half.
+    /// A vector of two points, one in each half.
     #[cfg_attr(optimized, inline(always))]
     fn pair(self, low: &[f32; 4], high: &[f32; 4]) -> F32x8 {
         // SAFETY: each load reads four values, and need not be aligned.
@@ -301,8 +301,8 @@ impl Floats for F32x8 {
         // SAFETY: no pointers.
         Self(unsafe {
             let (before, here) = (_mm256_castps_si256(before.0), _mm256_castps_si256(self.0));
-            // The last half of `before` and the first half of `here`: from this vector each half
-            // gets its first lane.
+            // The last half of `before` and the first half of `here`. The last lane of each half of
+            // this vector becomes the first lane of the same half of the result.
             let middle = _mm256_permute2x128_si256::<0x21>(before, here);
             _mm256_castsi256_ps(_mm256_alignr_epi8::<12>(here, middle))
         })
@@ -357,7 +357,8 @@ impl Integers for U32x8 {
             let a = self.0;
             let a = _mm256_add_epi32(a, _mm256_slli_si256::<4>(a));
             let a = _mm256_add_epi32(a, _mm256_slli_si256::<8>(a));
-            // Each half has its own sums; the second lacks the last one of the first.
+            // Each half has its own sums. Those of the second half still lack the last sum of the
+            // first.
             let first = _mm256_permute2x128_si256::<0x08>(a, a);
             _mm256_add_epi32(a, _mm256_shuffle_epi32::<0xff>(first))
         })

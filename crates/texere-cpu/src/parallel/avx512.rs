@@ -1,4 +1,4 @@
-//! Sixteen lanes, a line of the output each, on x86-64 processors with AVX-512.
+//! Sixteen lanes, which fill one line of the output, on x86-64 processors with AVX-512.
 #![allow(unsafe_code, reason = "vector instructions and streaming stores")]
 
 use std::arch::x86_64::{
@@ -21,8 +21,8 @@ use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
 // SAFETY, for all blocks in this file: the instructions need AVX-512 F and DQ. An `Avx512` proves
 // that the processor has them, since `detect` alone makes one. A vector or a mask proves it too,
-// since it is made with an `Avx512` or from another of them: their fields are private, and nothing
-// outside this file makes one. What is said at a block is about its pointers.
+// since it is made with an `Avx512` or from another vector or mask. Their fields are private, and
+// nothing outside this file makes one. The comment at each block is about its pointers alone.
 
 /// Proof that the processor has AVX-512, its parts F and DQ.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,7 @@ impl Avx512 {
         (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")).then_some(Self(()))
     }
 
-    /// Four points, one in each quarter.
+    /// A vector of four points, one in each quarter.
     #[cfg_attr(optimized, inline(always))]
     fn quarters(self, [a, b, c, d]: [&[f32; 4]; 4]) -> F32x16 {
         // SAFETY: each load reads four values, and need not be aligned.
@@ -135,8 +135,8 @@ impl Simd for Avx512 {
         let points = points[..16].as_flattened();
         let (a, b) = (self.load(points), self.load(&points[16..]));
         let (c, d) = (self.load(&points[32..]), self.load(&points[48..]));
-        // Four of lanes 0, 4, 8 and 12 are the components of points 0 to 3: the order has to be
-        // turned, too. SAFETY: no pointers.
+        // After `tiles` the components of points 0 to 3 are in lanes 0, 4, 8 and 12, and so on.
+        // `order` puts the points in turn. SAFETY: no pointers.
         let order =
             U32x16(unsafe { _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) });
         let [x, y, z, w] = self.tiles([a, b, c, d]);
@@ -275,7 +275,7 @@ impl Floats for F32x16 {
 
     #[cfg_attr(optimized, inline(always))]
     fn floor(self) -> Self {
-        /// The rounding of the instruction: downwards, to no binary places, without exceptions.
+        /// The rounding of the instruction: downwards to a whole number, without exceptions.
         const DOWN: i32 = 0x09;
         // SAFETY: no pointers.
         Self(unsafe { _mm512_roundscale_ps::<DOWN>(self.0) })

@@ -1,5 +1,5 @@
-//! Yarns whose outlines lean. They are rare, so the reference's own functions make them. The blocks
-//! of a call are consecutive blocks of one yarn.
+//! Yarns whose outlines lean. They are rare, so the reference's function makes their rings, and the
+//! core's function their vertices. The blocks of a call are consecutive blocks of one yarn.
 
 use texere_core::Vertex;
 use texere_core::backend::{BLOCK_RINGS, Block};

@@ -1,8 +1,8 @@
 //! Output in whole cache lines, which can go past the caches.
 //!
 //! A line that is written past the caches need not be read first. But the processor can have only
-//! few such lines on their way to memory at a time. A few at a time are therefore sent between
-//! other work, so that the processor need not wait for memory.
+//! few such lines on their way to memory at a time. Lines are therefore sent in small groups
+//! between other work, so that the processor need not wait for memory.
 
 use std::ops::Range;
 
@@ -33,9 +33,10 @@ impl<'a> Lines<'a> {
 /// Vertices on their way to the output.
 ///
 /// They are written to scratch memory, aligned there as they will be in the output. Whole lines are
-/// sent from it: half of them at once, half while the next rings are worked out. The floats after
-/// the last whole line move to the front of a second scratch memory, and the two take turns. Each
-/// holds one vector of rings, so both stay in the nearest cache.
+/// sent from it: half of them at once, the other half before the vertices of the next rings are
+/// written. The floats after the last whole line move to the front of a second scratch memory, and
+/// the two take turns. Each holds the vertices of one vector of rings, so both stay in the nearest
+/// cache.
 #[derive(Debug)]
 pub(super) struct VertexLines<'a> {
     out: Lines<'a>,
@@ -43,9 +44,9 @@ pub(super) struct VertexLines<'a> {
     other: &'a mut [f32],
     /// Index in the scratch memory at which the next vertices go.
     end: usize,
-    /// The lines of the other scratch memory that are still to be sent.
+    /// The floats of the other scratch memory whose lines are still to be sent.
     waiting: Range<usize>,
-    /// Whether the first line is still to be sent.
+    /// Whether the floats before the first whole line are still to be sent.
     starts: bool,
 }
 
@@ -121,8 +122,8 @@ impl<'a> VertexLines<'a> {
     }
 }
 
-/// The index pattern of [`INDEX_RINGS`] rings, which are whole lines, and the start of the pattern
-/// once more.
+/// The indices of the first [`INDEX_RINGS`] rings, which fill whole lines, and one line of those of
+/// the next ring.
 #[derive(Debug)]
 pub(super) struct IndexTable {
     table: Vec<u32>,

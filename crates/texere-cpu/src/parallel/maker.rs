@@ -27,8 +27,8 @@ impl<'a> Maker<'a> {
         Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
-    /// Makes `piece`. If any of its rings may be flattened, a separate function does so, in order
-    /// that the loops of round yarns stay small.
+    /// Makes `piece`, which is work on `blocks`. If any of their rings may be flattened, a separate
+    /// function does so, in order that the loops of round yarns stay small.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn make<S: Simd>(&self, simd: S, piece: impl Piece, blocks: &[Block]) {
         if self.source().all_round(Stretch::of(blocks)) {
@@ -79,7 +79,7 @@ pub(super) trait Piece {
     fn make<S: Simd, const FLATTENED: bool>(self, simd: S);
 }
 
-/// A piece of a yarn that is flattened somewhere.
+/// A piece with rings that may be flattened.
 struct Flattened<P>(P);
 
 impl<P: Piece> Job for Flattened<P> {

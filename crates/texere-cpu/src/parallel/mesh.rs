@@ -1,4 +1,5 @@
-//! Both stages at once: vertices and indices, from rings that never leave the registers.
+//! Both stages at once: vertices and indices, from rings that never leave the registers. Yarns that
+//! lean are made apart (`leaning.rs`).
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk, MeshMut};

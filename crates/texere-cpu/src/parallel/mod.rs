@@ -1,4 +1,5 @@
-//! Equal ranges of rings over all cores: inside a yarn as well as across yarns.
+//! The parallel backend. It spreads short ranges of rings over all cores, inside a yarn as well as
+//! across yarns.
 
 mod attributes;
 #[cfg(target_arch = "x86_64")]

@@ -1,5 +1,5 @@
 //! Packed vertices. The vertices of a few blocks are made in memory that stays in the core's cache.
-//! There they are packed in lanes, and then sent on in whole lines.
+//! They are packed in lanes, and then sent to the output in whole lines.
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk};
@@ -98,7 +98,7 @@ impl Job for PackJob<'_> {
 /// Packs a vector of pairs, a pair a lane, in the way of [`PackedVertex::pack`].
 #[cfg_attr(optimized, inline(always))]
 fn pack<S: Simd>(simd: S, pairs: &[Pair], quantum: Quantum, words: &mut [f32]) {
-    // No closures here: they would not be compiled for the instructions of the path.
+    // No closures here: they would not be compiled for the instructions of `simd`.
     let [x, y, z, normal_x] = simd.rows(pairs, &IN_TURN, 0);
     let [normal_y, normal_z, next_x, next_y] = simd.rows(pairs, &IN_TURN, 1);
     let [next_z, next_normal_x, next_normal_y, next_normal_z] = simd.rows(pairs, &IN_TURN, 2);
@@ -124,7 +124,7 @@ const _: () = assert!(Quantum::BITS == 21);
 #[cfg_attr(optimized, inline(always))]
 fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     let quanta = mm * simd.splat(quantum.per_mm());
-    // Where two whole numbers of turns are equally near, either does: the lowest bits are the same.
+    // If two whole numbers of turns are equally near, either will do: the lowest bits are the same.
     let turns = (quanta * simd.splat(1.0 / Quantum::WRAP) + simd.splat(0.5)).floor();
     let rest = quanta - turns * simd.splat(Quantum::WRAP);
     (rest + simd.splat(PackedVertex::ROUNDING)).to_bits().masked((1 << Quantum::BITS) - 1)

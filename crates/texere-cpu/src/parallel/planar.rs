@@ -1,8 +1,9 @@
 //! A test on control points for yarns along which every step of the frame is zero.
 //!
-//! A woven thread keeps to a plane of constant x, or of constant y, and never turns back in it. The
-//! sides of its frames then lie along that axis, and their products with chords and tangents are
-//! zero. Each step of a rotation minimising frame is therefore zero to the bit.
+//! Most woven threads keep to a plane of constant x, or of constant y, and never turn back in it.
+//! The sides of their frames then lie along the x axis, or along the y axis, and the products of
+//! sides with chords and tangents are zero. Each step of a rotation minimising frame is therefore
+//! zero to the bit.
 
 use texere_core::definitions::NO_LENGTH;
 
@@ -10,23 +11,25 @@ use super::rings::{Source, Stretch};
 use super::simd::{Floats, Mask, Simd, difference};
 use super::spline::{neighbours, xyz};
 
-/// The least velocity along the plane that counts as going on, as a share of the interval's extent:
-/// the distances of its four points in all axes, added up. It is far above the rounding of
-/// velocities (some 1e-5), at which a yarn could seem to turn back. It is also far above what
-/// counts as standing still or as vertical (1e-6), where frames have rules of their own.
+/// The least velocity along the plane that counts as going on, as a share of the interval's extent.
+/// The extent is the sum, over all axes, of the distances from the interval's start to the three
+/// other points. The share is far above the rounding of velocities (some 1e-5), at which a yarn
+/// could seem to turn back. It is also far above what counts as standing still or as vertical
+/// (1e-6), where frames have rules of their own.
 const ONWARD: f32 = 1e-3;
 
 /// The largest extent that is tested, mm. Its square is well within the range of `f32`.
 const EXTENT_MAX: f32 = 1e15;
 
-/// Whether the frame's part of every step between the rings of `stretch` is zero.
+/// Whether the test shows that the frame's part of every step between the rings of `stretch` is
+/// zero.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
     let intervals = (plan.rings(stretch.yarn) - 1) / per_interval;
-    // An open yarn's last ring belongs to the interval that it ends. A closed yarn's last ring
-    // belongs to the interval after that.
+    // An open yarn's last ring belongs to the interval that it ends. A closed yarn's last ring lies
+    // where one more interval begins, a copy of the first.
     let last = if plan.yarn(stretch.yarn).closed { intervals } else { intervals - 1 };
     let end = ((stretch.first + stretch.count - 1) / per_interval).min(last) + 1;
     let mut first = stretch.first / per_interval;

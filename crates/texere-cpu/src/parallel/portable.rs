@@ -1,10 +1,10 @@
-//! Four lanes in plain Rust, which the compiler turns into whatever vectors there are.
+//! Four lanes in plain Rust, which the compiler turns into the vectors of the target.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
-/// Instructions that every processor has.
+/// Vectors that need no instructions beyond those of every processor of the target.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Portable;
 

@@ -1,8 +1,10 @@
 //! Stage 1 in lanes: consecutive rings of a yarn, a vector of them at a time.
 //!
 //! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the
-//! same. The core branches for rare cases: a yarn at rest, a tangent along z, a yarn's last ring.
-//! The lanes only notice a rare case, and call the core's own functions for that ring.
+//! same. The core branches for rare cases: a yarn at rest, a tangent along z, an open yarn's last
+//! ring. The lanes only detect a ring at rest or with a tangent along z, and call the core's own
+//! functions for it. An open yarn's last ring gets a seat of its own ([`Seats`]). The core makes it
+//! only if it is the first of a vector.
 
 use texere_core::ControlPoint;
 use texere_core::backend::{Block, PaddedPoints, Plan};
@@ -67,7 +69,7 @@ pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// The side of the section's frame. The frame is turned by the roll if the yarn is round, and
+    /// The side of the section's frame. The frame is turned by the roll if the ring is round, and
     /// upright if it is flattened.
     pub(super) side: [S::Floats; 3],
     /// The up of the section's frame.
@@ -179,7 +181,7 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
     }
 }
 
-/// Fields of a ring that the core replaces.
+/// The number of a ring's fields that are replaced if the core makes the ring.
 const FIELDS: usize = 16;
 
 /// The fields of a vector of rings in memory. They are aligned as vectors are. The compiler then
@@ -233,9 +235,10 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     }
 }
 
-/// The seats of a vector that ends an open yarn. The yarn's last ring lies at the end of the
-/// interval before; the other rings have `seats`. If the last ring is the vector's first, there is
-/// no such interval, and a bit says that the core has to make the ring.
+/// The seats of the last vector of a stretch, and a bit for each ring that the core has to make. If
+/// the vector ends an open yarn, the yarn's last ring is put at the end of the interval before its
+/// seat. If this ring is the vector's first, there is no such interval, and its bit is set. All
+/// other rings have `seats`.
 #[cold]
 #[inline(never)]
 fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {

@@ -62,7 +62,8 @@ pub(super) fn mesh_runs<'a>(
     chunk.blocks().chunks(RUN_BLOCKS).map(run).collect()
 }
 
-/// Runs of `each` blocks. Each has the part of the output for its vertices.
+/// Runs of `each` blocks, each run with the part of the output for its vertices. The last run may
+/// have fewer blocks.
 pub(super) fn vertex_runs<'a, T>(
     chunk: &'a Chunk,
     each: usize,

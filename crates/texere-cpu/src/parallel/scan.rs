@@ -20,7 +20,7 @@ use crate::rolls::Rolls;
 /// The number of blocks of one rayon item.
 const RUN_BLOCKS: u32 = 64;
 
-/// The number of rings of these blocks.
+/// The most rings of one rayon item.
 const RUN_RINGS: u32 = RUN_BLOCKS * BLOCK_RINGS;
 
 pub(super) fn scan(

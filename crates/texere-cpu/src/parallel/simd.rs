@@ -22,9 +22,10 @@ pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 
 
 /// A set of vector instructions, and proof that the processor has it.
 ///
-/// Only an implementation's own detection makes a value of the type. Vectors and masks are made
-/// with such a value or from other vectors, so they prove the same, and all methods are safe to
-/// call. The values have no size, so it takes no time to pass them on.
+/// If not every processor has the set, only the implementation's own detection makes a value of the
+/// type. Vectors and masks are made with such a value or from other vectors, so they prove the
+/// same, and all methods are safe to call. The values have no size, so it takes no time to pass
+/// them on.
 ///
 /// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation
 /// gives the same bits.
@@ -213,7 +214,7 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     fn bit_cast(self) -> Self::Floats;
 }
 
-/// The mask with as many lanes.
+/// A mask: yes or no for each lane of a vector.
 pub(super) trait Mask: Copy + Debug {
     /// The vector of `f32` with as many lanes.
     type Floats;

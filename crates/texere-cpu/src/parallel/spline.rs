@@ -138,7 +138,7 @@ impl<S: Simd> Widths<S> {
 }
 
 /// A size and its growth, with both limits applied. A size below `floor` is held at `floor`, and
-/// does not grow.
+/// does not grow. Any other size grows or shrinks by [`SLOPE_LIMIT`] at most.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn held_size<S: Simd>(
     simd: S,
@@ -180,7 +180,8 @@ fn low_halves<F: Floats<Integers: Integers<Floats = F>>>(halves: F) -> F {
 }
 
 /// The sizes at an interval's four points. They are half floats in the high 16 bits of `before` and
-/// `after`. Each is converted once, because the sizes of the points between stand in other lanes.
+/// `after`. Each size is converted only once: the sizes at the two points between are taken from
+/// other lanes of `before` and `after`.
 #[cfg_attr(optimized, inline(always))]
 fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4] {
     let (before, after) = (from_half(simd, before), from_half(simd, after));

@@ -22,7 +22,7 @@ pub(super) const PLAIN: u8 = 1;
 /// Kind of [`Round`]: constant radius, and the section's normals equal its points, as on a circle.
 pub(super) const ROUND: u8 = 2;
 
-/// Rings of round yarns.
+/// Round rings.
 pub(super) struct Round<'a, S: Simd, const FLATTENED: bool, const KIND: u8>(
     pub(super) &'a Rings<S, FLATTENED>,
 );
@@ -124,7 +124,8 @@ impl<S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> St
     }
 }
 
-/// Rings of flattened yarns with six sides, where opposite points mirror one another.
+/// Rings of flattened yarns with six sides. Opposite points of the section are negatives of one
+/// another.
 pub(super) struct SixSided<S: Simd> {
     centre: [S::Floats; 3],
     /// For each of the first three points: the way from the centre to the point, and the normal

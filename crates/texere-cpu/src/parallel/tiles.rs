@@ -5,8 +5,8 @@
 //! gives a column for each quarter of four rings. The first four lanes of a column hold one quarter
 //! of one ring, the next four lanes the same quarter of the ring four further on, and so on. The
 //! first four lanes of four consecutive columns are a line, and so are the next four lanes. Columns
-//! pass through memory, where they are aligned and are read as they were stored. Reads thus need
-//! not wait for the lines before them, which are slow to go past the caches.
+//! pass through memory, where they are aligned and are read as they were stored. A read thus need
+//! not wait until the lines of earlier rings have gone past the caches, which is slow.
 
 use super::lines::Lines;
 use super::runs::take;
@@ -15,7 +15,7 @@ use super::simd::{Floats, LANES_MAX, LINE, Line, Simd};
 /// The number of floats of a quarter of a line.
 const QUARTER: usize = 4;
 
-/// The number of columns of the rings before that the first lines may need: a line less a quarter.
+/// The most columns of the rings before that the first lines need: a line less a quarter.
 const BEFORE: usize = LINE / QUARTER - 1;
 
 /// Vertices on their way to the output, a vector of rings at a time.
@@ -65,7 +65,8 @@ impl<'a> TileLines<'a> {
         let (before, here) = self.columns.split_at_mut(BEFORE * S::LANES);
         let last = &here[(4 * self.quarters - BEFORE) * S::LANES..][..BEFORE * S::LANES];
         for (before, last) in before.chunks_exact_mut(S::LANES).zip(last.chunks_exact(S::LANES)) {
-            // Before ring 0 lie columns of the rings before, and before ring 4 lies ring 3.
+            // The lanes of ring 0 get the last quarters of the ring sent before, those of ring 4
+            // the last quarters of ring 3, and so on.
             simd.load(last).shift_in_four(simd.load(before)).store(before);
         }
 
@@ -113,8 +114,8 @@ impl<'a> TileLines<'a> {
     /// Sends what is left.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish<S: Simd>(self, _simd: S) {
-        // What is left lies in the last lanes of the last columns, unless less than a vector came
-        // last.
+        // What is left lies in the last lanes of the last columns. If the last rings did not fill a
+        // vector, `send_edge` has left nothing.
         let last = &self.columns[(BEFORE - self.shift) * S::LANES..BEFORE * S::LANES];
         let (tail, _) = self.out.tail.as_chunks_mut::<QUARTER>();
         for (to, from) in tail.iter_mut().zip(last.chunks_exact(S::LANES)) {

@@ -55,7 +55,8 @@ impl<S: Simd> Steps<S> {
         let simd = self.simd;
         let offset = preceding(before.offset, rings.offset);
         let span = preceding(before.span, rings.span);
-        // After the last ring of an interval comes the start of the next interval.
+        // A ring that starts an interval lies at the end of the interval before: at `span`,
+        // relative to that interval's start.
         let chord = difference(select(rings.t.is_zero(), span, rings.offset), offset);
         let length_squared = dot(chord, chord);
         let turn = if self.minimizing {

@@ -129,9 +129,10 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     }
 }
 
-/// Writes all vertices of a vector of rings ring after ring, the last vertices first. Floats that a
-/// store writes past the end of its ring are overwritten later by the first vertices of the next
-/// ring. After the last ring, `out` has room for them.
+/// Writes all vertices of a vector of rings, so that `out` holds one ring after the other. The last
+/// vertices of the rings are written first. Floats that a store writes past the end of its ring are
+/// overwritten later by the first vertices of the next ring. After the last ring, `out` has room
+/// for them.
 #[cfg_attr(optimized, inline(always))]
 fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;

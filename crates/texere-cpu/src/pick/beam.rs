@@ -2,8 +2,8 @@
 
 use texere_core::{Bounds, Ray};
 
-/// The ray does not move along an axis if its direction has a component below this. Directions are
-/// scaled first, so that the largest component is between 1 and 2.
+/// The ray counts as not moving along an axis if the scaled direction's component is below this.
+/// Directions are scaled so that the largest component is from 1 to 4, or less if it was subnormal.
 const NO_WAY: f64 = 1e-290;
 
 /// The factor by which the distance at which a ray leaves a box is enlarged. Both it and the

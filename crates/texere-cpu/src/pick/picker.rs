@@ -39,7 +39,8 @@ pub enum PickError {
         /// The number of yarns.
         yarns: usize,
     },
-    /// The plan differs from the picker's in yarns other than those that are set.
+    /// The plan is neither the picker's own plan nor one that [`Plan::edited_all`] makes of it for
+    /// the yarns that are set.
     #[error("the plan is not the picker's with yarn {yarn} edited")]
     OtherPlan {
         /// The first yarn that was to be set, counted from 0.
@@ -52,9 +53,9 @@ pub enum PickError {
 
 /// Says which triangle of the mesh of a cloth a ray hits first: its yarn, ring and side.
 ///
-/// No mesh is made for it. A picker holds the control points, 16 bytes each, and 48 bytes for each
-/// block of 64 rings. The time of a ray grows with the logarithm of both. Triangles are those of
-/// the CPU backends, to the bit, and lie between the same rings and sides whatever the
+/// No mesh is made for it. A picker holds the control points, 16 bytes each, and about 50 bytes for
+/// each block of 64 rings. The time of a ray grows with the logarithm of both. Triangles are those
+/// of the CPU backends, to the bit, and lie between the same rings and sides whatever the
 /// [`Topology`](texere_core::Topology).
 ///
 /// ```

@@ -9,16 +9,16 @@ use super::beam::{Beam, Touch};
 use super::picker::Picker;
 use crate::serial::rings;
 
-/// The rings of a block, and the ring after it, where the block's last triangles end.
+/// The number of rings of a block and the ring after it, where the block's last triangles end.
 const RINGS: usize = BLOCK_RINGS as usize + 1;
 
 /// The factor by which reaches are enlarged, because rounding may let sections and frames reach too
 /// far.
 const REACH_SLACK: f32 = 1.0 + 1e-5;
 
-/// The first triangle that a ray hits. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its
-/// yarn, interval and `t`; a structure's `place` then names that place in a weaver's or a knitter's
-/// terms.
+/// The first triangle that a ray hits. [`YarnPlace::at`](texere_core::YarnPlace::at) takes the
+/// yarn, the interval and `t` of the hit. A structure's `place` then names that place in a weaver's
+/// or a knitter's terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// Distance from the ray's origin, in lengths of the ray's direction: in mm if the direction
@@ -30,7 +30,8 @@ pub struct Hit {
     pub position: [f64; 3],
     /// The control interval of the yarn, counted from 0.
     pub interval: u32,
-    /// Position along the interval, from 0 to 1, interpolated between the triangle's two rings.
+    /// Position along the interval, from 0 to 1, interpolated between the triangle's two rings. On
+    /// a cap it is that of the yarn's end.
     pub t: f64,
 }
 
@@ -49,7 +50,7 @@ impl Picker {
 struct Search<'a> {
     picker: &'a Picker,
     beam: Beam,
-    /// The vertices of the rings that are being tested: two of a tube, or one of a cap.
+    /// The vertices of the rings that are being tested: two rings of a tube, or one of a cap.
     corners: Vec<[f32; 3]>,
     nearest: Option<Nearest>,
 }

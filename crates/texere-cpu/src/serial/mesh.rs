@@ -1,5 +1,5 @@
-//! Algorithm 3 of the paper: for each yarn and each ring, nc vertices; and the triangles between
-//! rings.
+//! Algorithm 3 of the paper: for each yarn and each ring, as many vertices as the section has sides
+//! (nc in the paper); and the triangles between rings.
 
 use texere_core::Topology;
 use texere_core::backend::{Chunk, MeshMut};

@@ -1,4 +1,4 @@
-//! Packed vertices: nc of them for each ring of each yarn.
+//! Packed vertices: for each ring of each yarn, as many as the section has sides.
 
 use texere_core::PackedVertex;
 use texere_core::backend::Chunk;

@@ -31,7 +31,7 @@ pub(crate) struct SerialSettler {
     /// For each chord, the place at which its interval begins.
     owners: Vec<u32>,
     /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
-    /// all.
+    /// all neighbours.
     starts: Vec<u32>,
     neighbours: Vec<u32>,
     pulls: Vec<Pull>,

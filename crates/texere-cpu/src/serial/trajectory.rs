@@ -1,4 +1,5 @@
-//! Algorithm 1 of the paper: for each yarn and each control interval, K + 1 points of the spline.
+//! Algorithm 1 of the paper: for each yarn and each control interval, K + 1 points of the spline,
+//! where K is the number of subdivisions.
 
 use texere_core::backend::{BLOCK_RINGS, Chunk};
 use texere_core::definitions::Ring;

@@ -1,5 +1,5 @@
-//! Cures for a cloth. Each cure is one change. To try it, the worst places of the changed cloth are
-//! measured.
+//! Cures for a cloth. Each cure is one change. To try a change, the cloth around the places that
+//! were the worst is measured again.
 
 use std::ops::{ControlFlow, Range};
 
@@ -15,8 +15,8 @@ const AROUND: usize = 12;
 
 /// Factor from each spacing that is tried to the next one.
 const WIDER: f64 = 1.05;
-/// Number of spacings that are tried. They begin at the least spacing at which nothing jams and end
-/// at nearly three times that (1.05 to the power of 22 is 2.9).
+/// Number of spacings that are tried. They begin at the first power of [`WIDER`] at which nothing
+/// jams, and end at 2.8 times that (1.05 to the power of 21).
 const WIDER_TIMES: i32 = 22;
 
 /// Flatnesses (width over height) that are tried for all yarns.
@@ -85,8 +85,8 @@ impl WovenDesign {
     /// design's cloth. Each change is tried on pieces of the cloth around its worst places. A cure
     /// ends at least one kind of fault, and adds none.
     ///
-    /// `progress` gets the share of the changes that have been tried. `Break` ends the search with
-    /// the cures found so far.
+    /// `progress` gets the share of the kinds of change that have been tried. `Break` ends the
+    /// search with the cures found so far.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -147,8 +147,8 @@ fn worst_crossings(faults: &Faults) -> Vec<Crossing> {
     let mut places: Vec<_> =
         [crowded, pierced, folded, jammed, wrung, turned].into_iter().flatten().collect();
     if places.is_empty() {
-        // The worst places are turns of the weft. These are all alike, so the first crossing stands
-        // for them.
+        // No worst place lies at a crossing. Turns of the weft, for example, are all alike. The
+        // first crossing stands for them.
         places.push(Crossing { end: 1, pick: 1 });
     }
     places
@@ -216,7 +216,7 @@ impl Trial<'_> {
         Some(self.better(&changed)?.by(Remedy::Shape(Shape::Round)))
     }
 
-    /// The nearest share of the crimp that cures.
+    /// The share of the crimp that cures and is nearest to the present one.
     fn share(&self) -> Option<Cure> {
         let before = self.cloth.warp_share();
         let mut shares: Vec<_> = SHARES.map(|step| f32::from(step) * SHARE_STEP).collect();
@@ -238,7 +238,7 @@ impl Trial<'_> {
         Some(self.better(&changed)?.by(Remedy::Relief { relief, report, thickest_mm }))
     }
 
-    /// Circular sections for all threads, if a thread has another section. Otherwise the least
+    /// Circular sections for all threads, if the cloth has another section. Otherwise the least
     /// flatness of all threads that cures.
     fn flatter(&self) -> Option<Cure> {
         let mut changed = self.cloth.clone();
@@ -255,7 +255,7 @@ impl Trial<'_> {
     /// The least spacing that cures, and the largest diameters that cure. Both give the same cloth
     /// at different scales.
     fn room(&self) -> Vec<Cure> {
-        // Pitches tell the least spacing at which no thread jams. No closer spacing is tried.
+        // The pitches give the least spacing at which no thread jams. No closer spacing is tried.
         let jammed = self.faults.jams.iter().filter_map(|jams| jams.threads.first());
         let least = jammed.map(|jam| jam.passing_mm / jam.pitch_mm).fold(1.0, f64::max);
         let first = (least.ln() / WIDER.ln()).ceil().max(1.0) as i32;
@@ -283,7 +283,8 @@ impl Trial<'_> {
     }
 
     /// The measures of `changed`, if at least one kind of fault is gone. Jams are looked for
-    /// everywhere, other faults at the worst places.
+    /// everywhere, most other faults at the worst places. The pieces of the cloth count as
+    /// unchanged.
     fn better(&self, changed: &Woven) -> Option<Outcome> {
         let mut left = Faults { jams: changed.jams(), apart: self.faults.apart.clone(), ..Faults::default() };
         let (mut clearance, mut curvature) = (f64::INFINITY, f64::INFINITY);

@@ -133,8 +133,8 @@ impl Faults {
 }
 
 impl Woven {
-    /// Diagnoses the cloth: measures its clearance at the default tension, and compares the pitches
-    /// of threads with the pitches that they need.
+    /// Diagnoses the cloth: measures its clearance at the default tension, compares the pitches of
+    /// threads with the pitches that they need, and looks for pieces that nothing joins.
     ///
     /// Contacts with a ratio below `touching` count as piercing. Splines through threads that just
     /// touch have a ratio of 0.985. `progress` gets the share that is done, as in

@@ -167,8 +167,8 @@ mod tests {
         for one in ways {
             for other in ways {
                 for copies in [[4_u32, 3], [7, 7], [12, 9]] {
-                    // The oracle paints connected copies, in a cloth so wide that no connection
-                    // leads round beyond its edges.
+                    // The oracle paints connected copies, in a cloth that is 20 copies wider on
+                    // each side, because copies may be connected by way of copies beyond the edges.
                     let (wide, edge) = (copies.map(|copies| copies + 40), 20);
                     let mut paint: Vec<usize> = (0..(wide[0] * wide[1]) as usize).collect();
                     let number = |x: i64, y: i64| {

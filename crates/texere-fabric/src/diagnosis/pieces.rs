@@ -19,15 +19,15 @@ pub struct Pieces {
     /// Number of pieces: 1 for a cloth that hangs together. A loose yarn of a knit is a piece of
     /// its own.
     pub count: u64,
-    /// Words for the first few pieces.
+    /// Words for the first pieces, at most 4.
     pub listed: Vec<String>,
     /// Number of loose yarns: yarns that neither another yarn nor a loop of their own holds.
     pub loose: u64,
-    /// The first few loose yarns.
+    /// The first loose yarns, at most 4.
     pub loose_listed: Vec<Origin>,
     /// Number of needles of a knit that never have a loop, over all wales.
     pub empty_needles: u64,
-    /// The first few of these needles, counted from 0 at the left.
+    /// The first of the needles that never have a loop, at most 4, counted from 0 at the left.
     pub empty_listed: Vec<u64>,
     /// Whether the pieces are layers, listed from the face.
     layers: bool,
@@ -80,7 +80,7 @@ impl Pieces {
             [0, picks] => counted(picks, "loose pick"),
             [ends, picks] => format!("{} with {}", counted(ends, "end"), counted(picks, "pick")),
         };
-        // A cloth of ends alone, or of picks alone, has no crossings.
+        // A single layer has both ends and picks, and no loose threads.
         let loose = if layers.len() > 1 { drawdown.loose(&layers) } else { Vec::new() };
         Self {
             count: layers.len() as u64,

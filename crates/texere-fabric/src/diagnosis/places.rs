@@ -27,8 +27,8 @@ pub struct StitchPlace {
     pub course: u32,
 }
 
-/// A place on a thread. It displays as `end 12 at pick 7`, as `carrier 1, wale 3, course 5`, or as
-/// the thread alone.
+/// A place on a thread. It displays as `end 12 at pick 7`, as `carrier 1, wale 3, course 5`, as
+/// `wale 3, course 5`, or as the thread alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadPlace {
     /// The thread. If the weft turns at selvedges, one yarn makes many picks, and the thread is the
@@ -36,7 +36,7 @@ pub struct ThreadPlace {
     pub thread: Origin,
     /// The point of the centreline, mm.
     pub position_mm: [f64; 3],
-    /// The nearest crossing. `None` at a yarn's end and in a turn of the weft.
+    /// The nearest crossing. `None` at a yarn's end, in a turn of the weft, and in a knit.
     pub crossing: Option<Crossing>,
     /// The stitch of a knit that the yarn makes at this place, counted in the whole cloth. `None`
     /// if the yarn floats, and in cloth that is not knitted.
@@ -119,8 +119,8 @@ pub struct ThreadDrawn {
     pub inwards_at: Option<ThreadPlace>,
 }
 
-/// [`Clearance`](texere_contact::Clearance), with places named by thread, and in woven cloth by
-/// crossing.
+/// [`Clearance`](texere_contact::Clearance), with places named by thread, and by crossing in woven
+/// cloth or by stitch in a knit. It also has the faults of the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClothClearance {
     /// See [`Clearance::min`](texere_contact::Clearance::min).
@@ -144,9 +144,10 @@ pub struct ClothClearance {
 }
 
 impl Woven {
-    /// Measures how near the cloth's threads come to one another, and how tightly they bend.
-    /// `yarns` are the yarns of this cloth, and are measured as drawn with `settings`. `progress`
-    /// gets the share that is done, as in [`clearance_with_progress`].
+    /// Measures how near the cloth's threads come to one another and how tightly they bend, and
+    /// looks for faults of their mesh. `yarns` are the yarns of this cloth, and are measured as
+    /// drawn with `settings`. `progress` gets the share that is done, as in
+    /// [`clearance_with_progress`].
     ///
     /// **Errors**: the errors of [`clearance_with_progress`] and of [`drawn()`].
     ///
@@ -280,7 +281,7 @@ impl Names<'_> {
     }
 }
 
-/// The pick of `cloth` that lies nearest to the height `y`, mm.
+/// The pick of `cloth` that lies nearest to the coordinate `y`, mm.
 fn pick_at(cloth: &Woven, y: f64) -> u32 {
     let middles = cloth.middles_mm().weft;
     let distances = middles.into_iter().map(|middle| (middle - y).abs());

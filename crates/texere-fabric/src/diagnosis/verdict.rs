@@ -15,12 +15,15 @@ const LENGTH: f32 = 0.01;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// No surface, as drawn, is nearer to another than [`CLEAR`], and none folds. Yarns of a knit
-    /// have the lengths that they should have, and keep their linking.
+    /// No two surfaces, as drawn, have a contact with a ratio below [`CLEAR`], and none folds.
+    /// Yarns of a knit have the lengths that they should have, unless lengths are free, and keep
+    /// their linking.
     AtRest,
-    /// Yarns of a knit have no room: even the block form of settling did not bring them to rest.
+    /// Yarns of a knit keep their linking but have no room: even the block form of settling did not
+    /// bring them to rest.
     Jammed,
-    /// A condition of [`Verdict::AtRest`] is not met.
+    /// A condition of [`Verdict::AtRest`] is not met, and the yarns are not
+    /// [jammed](Verdict::Jammed).
     NotAtRest,
 }
 

@@ -12,8 +12,8 @@ use crate::{BySet, FabricWarning};
 pub struct Finish {
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
     /// gets the loop lengths of its program or its gauge, and its lengths are free if a loop has
-    /// neither. A warp knit gets the lengths of its run-ins, and keeps its lengths if a bar has
-    /// none. All other yarns keep their lengths.
+    /// neither. A warp knit gets the lengths of its run-ins, and keeps its lengths if a bar with
+    /// yarns has none. All other yarns keep their lengths.
     pub length: Option<Length>,
     /// Distance of the two plates that press the cloth while yarns settle, mm. Yarns that are at
     /// rest at the start are not moved.

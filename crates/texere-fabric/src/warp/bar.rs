@@ -131,9 +131,9 @@ impl Displacements {
     /// displacements of the beginning and the end of the lap, and `colour` gives the colour of a
     /// cell by guide and round.
     ///
-    /// `None` for an image without cells or with more cells than a `u32` counts, for colours
-    /// without courses or with different numbers of courses, for displacements above 1, and for
-    /// colours that the palette lacks.
+    /// `None` for a palette without colours, for an image without cells or with more cells than a
+    /// `u32` counts, for colours without courses or with different numbers of courses, for
+    /// displacements above 1, and for colours that the palette lacks.
     #[must_use]
     pub fn new(
         size: [u32; 2],

@@ -1,5 +1,5 @@
 //! Checks of guide bars: whether each bar is valid, whether all repeat within the cloth, and
-//! whether the cloth has an allowed size.
+//! whether the cloth has loops and an allowed size.
 
 use texere_core::Origin;
 
@@ -89,8 +89,9 @@ fn common(one: u64, other: u64) -> u64 {
     (one / greatest.max(1)).saturating_mul(other)
 }
 
-/// Checks that the cloth has loops, and not too many laps, wales, courses or control points. The
-/// number of points is estimated, so that the check comes before any point is made.
+/// Checks that the cloth has loops and copies, underlaps that are not too long in all, and not too
+/// many laps, wales, courses or control points. The number of points is estimated, so that the
+/// check comes before any point is made.
 pub(super) fn size(
     bars: &[Bar],
     repeat: [u32; 2],

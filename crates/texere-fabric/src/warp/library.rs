@@ -2,8 +2,8 @@
 
 use super::{CHAIN_COURSES, Chain, Lap};
 
-/// The names that [`Chain::named`] knows. "open" or "closed" may come before them. Atlas and inlay
-/// take a number.
+/// The names that [`Chain::named`] knows. "open" or "closed" may come before all names but inlay.
+/// Atlas and inlay take a number.
 pub const LAPPINGS: [&str; 7] = ["pillar", "tricot", "cord", "satin", "velvet", "atlas 4", "inlay 3"];
 
 /// The fewest courses in which an atlas goes one way.

@@ -44,8 +44,8 @@ pub(super) struct Loops {
     pub(super) most: u16,
     /// For each bar, whether another bar makes the same loops.
     pub(super) alike: Vec<bool>,
-    /// For each bar, whether it is alone on its needles, and its laps are open and stay on one or
-    /// two needles.
+    /// For each bar, whether all its laps are open and on one needle or on two neighbours, in a
+    /// repeat with at most one loop on each needle.
     pub(super) steep: Vec<bool>,
 }
 
@@ -114,7 +114,8 @@ impl Loops {
     }
 }
 
-/// Whether all laps of a bar are open, and on one needle or on two neighbours.
+/// Whether all laps of a bar are open, and on one needle or on two neighbours. False for a Jacquard
+/// bar.
 fn is_steep(bar: &Bar) -> bool {
     let needles = || bar.chain.laps().iter().map(|lap| lap.needle());
     let near = needles().max().zip(needles().min()).is_some_and(|(high, low)| high - low <= 1);

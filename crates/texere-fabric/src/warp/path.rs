@@ -225,8 +225,8 @@ impl<'a> Cloth<'a> {
         (1..parts as usize).map(move |part| from.lerp(to, part as f64 / parts) - DVec3::Z * behind)
     }
 
-    /// The points of one lap without its underlap, mm. An inlay has a point at each wale that it
-    /// crosses.
+    /// The points of one lap without its underlap, mm. An inlay has a point in its space, and one
+    /// at each wale that it crosses on the way to the next lap.
     fn lap(&self, number: usize) -> Vec<DVec3> {
         let placed = &self.loops.placed[number];
         if placed.kind() == LapKind::Inlay {

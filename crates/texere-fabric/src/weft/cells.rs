@@ -28,13 +28,13 @@ pub(super) struct Cell {
     /// Number of the yarn in a plated stitch: 0 lies in front.
     pub(super) plate: u16,
     pub(super) source: u32,
-    /// Whether a neighbouring cell is only half a wale away. A float then has one point instead of
-    /// two.
+    /// Whether the cell before or after this one is at most half a wale away. A float then has one
+    /// point instead of two.
     pub(super) short: bool,
 }
 
-/// Distance in wales below which the needles of two cells count as half a wale apart. It is half
-/// way between half a wale and a whole one.
+/// Distance in wales below which the needles of two cells count as at most half a wale apart. It is
+/// half way between half a wale and a whole one.
 const SHORT: f32 = 0.75;
 
 /// The cells of a yarn from its beginning to its end, or the cells of one round of a yarn that goes

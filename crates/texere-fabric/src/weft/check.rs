@@ -63,7 +63,8 @@ pub(crate) fn yarns(
     Ok(())
 }
 
-/// Checks that stitches refer only to loops, repeats and carriers that exist.
+/// Checks that stitches refer only to loops, repeats and carriers that exist, that places and moves
+/// are within their limits, and that each held loop is held by a loop of a later course.
 pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), WeftError> {
     let sound = |sound: bool, what| if sound { Ok(()) } else { Err(WeftError::Stitches { what }) };
     let far = |at: f32| at.abs() <= WALES_MAX;
@@ -167,7 +168,7 @@ fn points(stitches: &Stitches) -> u64 {
     loops.sum::<u64>() + strands.sum::<u64>()
 }
 
-/// Number of control points between two needles.
+/// Number of control points between two needles, with those of floats past the needles between.
 fn join(one: &Visit, other: &Visit) -> u64 {
     let turns = one.direction != other.direction;
     let way = f64::from(other.at - one.at) * if one.direction == Direction::Right { 1.0 } else { -1.0 };

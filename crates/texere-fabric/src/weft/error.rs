@@ -98,7 +98,8 @@ pub enum WeftError {
         /// The most control points allowed.
         limit: u64,
     },
-    /// A knit whose repeat has too many control points. It settles as one before it is copied.
+    /// A knit whose repeat has too many control points. A repeat settles as one before it is
+    /// copied.
     #[error("a repeat of {points} control points or more, before it is copied; {limit} are taken at most")]
     KnitRepeat {
         /// About how many control points the repeat has. A knit that does not repeat counts as a

@@ -14,9 +14,9 @@
 //! head           behind the legs of the next loop
 //! ```
 //!
-//! Across, all nodes are at the needle plus or minus the widths of `shape.rs`. The nodes of a loop
-//! that is transferred move towards its new needle: the foot not at all, the leg half way, the head
-//! all the way.
+//! Across, nodes are at the needle plus or minus the widths of `shape.rs`. The two nodes of a leg
+//! that changes sides have widths of their own. The nodes of a loop that is transferred move
+//! towards its new needle: the foot not at all, the leg half way, the head all the way.
 //!
 //! A tuck, and a loop on an empty needle, are drawn through nothing. They are arches, and have no
 //! lower leg. A dropped loop has no upper leg. Its head lies just above the middle of its legs.
@@ -193,7 +193,7 @@ impl<'a> Form<'a> {
         let behind = if is_tuck {
             f64::from(stitch.head.layer.saturating_sub(1)) * shape.diameter
         } else {
-            // Its feet lie behind the legs of every loop that it is drawn through.
+            // The loop's feet lie behind the legs of every loop that it is drawn through.
             let leg = lower.middle + lower.side * UPPER.z * shape.depth;
             let further = stitches.parents_of(number).iter().map(|parent| {
                 let parent = Half::upper(shape, stitches, layers, parent.number);

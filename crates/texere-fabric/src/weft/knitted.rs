@@ -141,10 +141,10 @@ impl Knitted {
         self.placed(&repeat, &repeat.piece.yarns)
     }
 
-    /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. Each
-    /// yarn is cut three control points beyond its last loop, unless the cloth has [`Cells::Even`].
-    /// A leg runs straight at this point. The cut end therefore bends as it does in the repeat, and
-    /// touches nothing.
+    /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. A yarn
+    /// that goes on from repeat to repeat is cut three control points beyond the cloth at both
+    /// ends, unless the cloth has [`Cells::Even`]. A leg runs straight at this point. The cut end
+    /// therefore bends as it does in the repeat, and touches nothing.
     pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         repeat.placed_beyond(yarns, self.beyond())
     }
@@ -170,7 +170,7 @@ impl Knitted {
     ///
     /// A cloth that repeats settles as one repeat that goes on at all its edges. Several small
     /// repeats form one piece. A cloth that does not repeat settles as a whole. The ends of its
-    /// yarns, the feet of its first course and the heads on needles are pinned.
+    /// yarns, the arcs between loops of its first course and the heads on needles are pinned.
     ///
     /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {

@@ -42,7 +42,7 @@ pub(super) struct Cloth<'a> {
     pub(super) stitches: &'a Stitches,
     pub(super) layers: &'a Layers,
     pub(super) shape: &'a Shape,
-    /// Place of the leftmost needle, in wales.
+    /// Place of the needle at the cloth's left edge, in wales.
     pub(super) left: f32,
     pub(super) kind: Cells,
 }

@@ -17,7 +17,7 @@ pub(super) struct YarnPoints {
     /// The source of each point: see [`Operation::source`](super::Operation::source).
     pub(super) sources: Vec<u32>,
     /// Indices of the points that are pinned because only the machine holds them: ends of the yarn,
-    /// feet of the first course, and heads on needles.
+    /// arcs of the first course, and heads on needles.
     pub(super) pinned: Vec<u64>,
 }
 

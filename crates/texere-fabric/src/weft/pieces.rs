@@ -1,5 +1,5 @@
-//! Yarns of a weft knit that hold one another: by loops that are drawn through other loops, and by
-//! floats between two beds.
+//! Yarns of a weft knit that hold one another: by loops that are drawn through other loops, by
+//! yarns that go from bed to bed past one another, and by floats between two beds.
 
 use std::collections::{HashMap, HashSet};
 
@@ -17,7 +17,7 @@ impl Knitted {
     ///
     /// Two yarns hold one another if a loop of one is drawn through a loop of the other, or if both
     /// go from bed to bed past one another. A yarn without loops is held if it passes between loops
-    /// of both beds.
+    /// of both beds. A loop on a needle at the end also holds its yarn.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let stitches = self.stitches();

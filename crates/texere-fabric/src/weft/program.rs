@@ -141,7 +141,7 @@ pub struct Operation {
     /// The instruction.
     pub instruction: Instruction,
     /// The carriers that take part. A set of several plates their yarns: the first one lies in
-    /// front on the face.
+    /// front, on the side to which the loop is drawn.
     pub carriers: CarrierSet,
     /// The line of the file, or the cell of the chart, that the operation comes from. Every control
     /// point of the operation's loops and floats keeps this number.

@@ -19,8 +19,9 @@ impl Knitted {
     /// cloth that does not repeat settles as a whole. See [`settle`].
     ///
     /// If `finish` leaves the lengths open, loops get, in the mean, the length that the program or
-    /// the gauge gives. If a loop has neither, lengths are free. [`Settled::clearance`] is the
-    /// clearance of the whole cloth, with its cut edges.
+    /// the gauge gives, but between half and twice the length that they have. If a loop has
+    /// neither, lengths are free. [`Settled::clearance`] is the clearance of the whole cloth, with
+    /// its cut edges.
     ///
     /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
@@ -83,8 +84,8 @@ impl Knitted {
     }
 
     /// The part of a yarn that counts for the cloth. A yarn that goes on from repeat to repeat
-    /// counts without its parts beyond the cloth. Any other yarn counts without its tails before
-    /// the first stitch and after the last one.
+    /// counts without its parts beyond the cloth. Any other yarn counts without its first and its
+    /// last interval, the outer parts of its tails.
     fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         if !matches!(yarns.layout().yarns()[yarn].origin, Origin::Course(_)) {

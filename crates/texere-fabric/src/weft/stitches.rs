@@ -75,7 +75,8 @@ pub struct Stitch {
     /// cloth then lie face to face.
     pub opposite: bool,
     /// The course of the loop, counted from 0. It is one more than the highest course that a stitch
-    /// of the same pass is drawn through.
+    /// of the same pass is drawn through. A pass that is drawn through nothing lies in the course
+    /// of its carrier's pass before.
     pub course: u32,
     /// Number of the loop's yarn in a plated stitch, counted from 0. Yarn 0 lies in front, on the
     /// side to which the loop is drawn.
@@ -136,7 +137,8 @@ pub struct Visit {
     pub source: u32,
 }
 
-/// A yarn, from the place where it is brought in to the place where it is cut.
+/// A yarn from the place where it is brought in to the place where it is cut, or one round of a
+/// yarn that goes on from repeat to repeat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strand {
     /// The carrier of the yarn: an index into [`Program::carriers`](super::Program::carriers).

@@ -15,7 +15,7 @@ pub struct KnitYarn {
 }
 
 impl KnitYarn {
-    /// A round, untwisted yarn of the first material and the first section.
+    /// An untwisted yarn of the first material and the first section.
     #[must_use]
     pub const fn new(radius_mm: f32) -> Self {
         Self { radius_mm, material: 0, section: 0, twist: 0.0 }

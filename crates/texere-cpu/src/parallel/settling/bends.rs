@@ -145,8 +145,8 @@ impl Own<'_> {
             let tags = self.plan.tags()[place + lane];
             let chords = self.plan.chords()[place + lane + 1] - self.plan.chords()[place + lane];
             if tags & (tag::OPENS | tag::ENDS) != 0 || chords > BEND_PARTS {
-                // The core's own function makes the bends that count differently, or are measured
-                // in more places.
+                // Bends at the ends of an open yarn count differently, and intervals of many chords
+                // are measured in more places. The core's own function makes both.
                 self.alone(place + lane, (tags, chords), pull);
                 continue;
             }
@@ -179,7 +179,8 @@ impl Own<'_> {
     }
 }
 
-/// The slots of as many consecutive intervals as there are lanes.
+/// The slots of as many consecutive intervals as there are lanes. Lanes past the last interval
+/// repeat that interval.
 #[cfg_attr(optimized, inline(always))]
 fn slots<S: Simd>(simd: S, pulls: &[PullRow]) -> Slots<S::Floats> {
     let mut slots = [[simd.splat(0.0); 9]; 4];

@@ -102,8 +102,8 @@ impl<S: Simd> Images<S> {
     }
 
     /// The way to the nearest image, and minus the number of repeats to it. `middles`, mm, is added
-    /// to the way, for points that lie away from its ends: the nearest image is that of these
-    /// points.
+    /// to the way only to choose the image. It leads from the way's ends to the points for which
+    /// the image has to be the nearest.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn nearest(
         &self,

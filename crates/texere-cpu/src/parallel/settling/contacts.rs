@@ -25,7 +25,7 @@ pub(super) struct Source<'a> {
     pub(super) intervals: &'a [IntervalRow],
     pub(super) chords: &'a [ChordRow],
     /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
-    /// all.
+    /// all neighbours.
     pub(super) starts: &'a [u32],
     /// The neighbours of all chords, and [`LANES_MAX`] entries more.
     pub(super) neighbours: &'a [u32],
@@ -34,7 +34,7 @@ pub(super) struct Source<'a> {
 /// Memory of a task.
 #[derive(Debug, Default)]
 pub(super) struct Room {
-    /// The first chords of all pairs.
+    /// The first chord of each pair, and [`LANES_MAX`] entries more.
     ones: Vec<u32>,
     /// The number of pairs that are near one another.
     count: usize,
@@ -57,7 +57,8 @@ impl Source<'_> {
         }
     }
 
-    /// Measures all pairs on their chords, and notes the near ones in `room`.
+    /// Measures all pairs on their chords. Near pairs are noted in `room`, and the distances of all
+    /// other pairs in `pulls`.
     #[cfg_attr(optimized, inline(always))]
     fn look<S: Simd>(&self, simd: S, room: &mut Room, first: usize, pulls: &mut [PullRow]) {
         let nearer = simd.splat(NEAR * MARGIN * self.pass.growth);
@@ -150,7 +151,7 @@ impl Source<'_> {
     }
 
     /// For places on `chords`, as shares of them: the same places as shares of the intervals, and
-    /// the greatest distance from there to the exact places.
+    /// the greatest distance from there to the exact places, also as a share.
     #[cfg_attr(optimized, inline(always))]
     fn places<S: Simd>(&self, simd: S, chords: &[u32], share: S::Floats) -> (S::Floats, S::Floats) {
         let shares: &[[[f32; 4]; 1]] = bytemuck::cast_slice(&self.fixed.shares);
@@ -174,7 +175,7 @@ impl Room {
     }
 }
 
-/// The numbers of lanes.
+/// The number of each lane.
 const ORDER: [f32; LANES_MAX] =
     [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
 

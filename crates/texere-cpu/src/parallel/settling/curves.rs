@@ -106,7 +106,7 @@ pub(super) fn reach<S: Simd>(
     round.select(width, stands.select(flat, width))
 }
 
-/// The core's weights of four control points.
+/// The weights of an interval's four control points at `u`, as in the core.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn weights<S: Simd>(simd: S, u: S::Floats, s: f32) -> [S::Floats; 4] {
     let (square, one) = (u * u, simd.splat(1.0));

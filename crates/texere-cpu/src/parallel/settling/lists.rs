@@ -1,8 +1,8 @@
 //! Neighbours of all chords.
 //!
-//! Chords are sorted by cells, so that the chords of cells side by side also lie side by side in
-//! memory. The distance of their middles excludes most pairs. All other pairs are tested as in the
-//! core.
+//! Chords are sorted by cells, so that the chords of cells side by side in a row also lie side by
+//! side in memory. The distance of their middles excludes most pairs. All other pairs are tested as
+//! in the core.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -26,7 +26,7 @@ const TASK: usize = 1024;
 #[derive(Debug, Default)]
 pub(super) struct Lists {
     /// The position of each chord's first neighbour in `neighbours`, and at the end the number of
-    /// all.
+    /// all neighbours.
     pub(super) starts: Vec<u32>,
     /// The neighbours of all chords, and [`LANES_MAX`] entries more.
     pub(super) neighbours: Vec<u32>,
@@ -37,15 +37,16 @@ pub(super) struct Lists {
     sorted: Vec<u64>,
     /// The columns of `middles` in the order of `sorted`, with [`LANES_MAX`] entries more.
     columns: [Vec<f32>; 4],
-    /// The position of each cell's first chord in `sorted`, and at the end the number of all.
+    /// The position of each cell's first chord in `sorted`, and at the end the number of all
+    /// chords.
     cells: Vec<u32>,
     tasks: Vec<Task>,
 }
 
 /// The memory of a task that lists neighbours.
 #[derive(Debug, Default)]
-/// The neighbours of the task's chords.
 struct Task {
+    /// The neighbours of the task's chords.
     neighbours: Vec<u32>,
     /// Chords that may be neighbours of the present one.
     near: Vec<u32>,
@@ -96,7 +97,7 @@ impl Lists {
         });
         let listed: Result<(), BackendError> = listed.collect();
         if listed.is_err() {
-            // The lists made so far fill the memory that is allowed.
+            // The lists made so far are freed, because they fill the memory that is allowed.
             self.tasks.clear();
         }
         listed?;
@@ -178,8 +179,8 @@ impl Job for MiddleJob<'_> {
             let own = Chords::<S>::new(simd, chords, &numbers);
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
-            // Each chord gets half of the distance that `are_neighbours` allows, and more than
-            // rounding and the units of middles may take away from it.
+            // Each chord gets half of the distance that `are_neighbours` allows, and half its own
+            // length. A thousandth and one unit more are more than rounding may take away.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
             let [x, y, z] = bit_cast(own.middle(simd, unit));

@@ -1,4 +1,5 @@
-//! The rows of intervals and of their chords, made from places before each pass.
+//! The rows of intervals and of their chords, made from places before each pass and before
+//! neighbours are listed.
 
 use texere_core::settling::{Place, SettlingPlan};
 
@@ -14,7 +15,7 @@ pub(super) struct Make<'a> {
     pub(super) fixed: &'a Fixed,
     /// All places. [`FRONT`] entries come before the first.
     pub(super) places: &'a [Place],
-    /// The place of the first of `intervals`.
+    /// The number of the place at which the first of `intervals` begins.
     pub(super) first: usize,
     pub(super) intervals: &'a mut [IntervalRow],
     /// All chords of these intervals.

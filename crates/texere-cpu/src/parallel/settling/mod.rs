@@ -220,7 +220,7 @@ impl Settler for ParallelSettler {
 }
 
 /// Copies pulls to the intervals beyond a yarn's ends, if the yarn goes on in the next repeat. The
-/// points at the yarn's ends follow these intervals, too.
+/// points at the yarn's ends add up the pulls of these intervals, too.
 fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     if strand.shift().is_some() {
         let first = FRONT + strand.first as usize;

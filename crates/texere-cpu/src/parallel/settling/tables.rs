@@ -1,5 +1,5 @@
-//! The tables that the lanes of a settling read. Rows have four floats, so that a vector of rows
-//! takes four loads and a transposition.
+//! The tables that the lanes of a settling read and write. Rows have four floats, so that a vector
+//! of rows is loaded a row at a time and then transposed.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::settling::{SettlingPlan, tag};
@@ -72,9 +72,9 @@ pub(super) struct PullRow {
     /// Half of the interval's surplus length, as a vector along its chord, and the interval's
     /// length, mm.
     pub(super) length: [f32; 4],
-    /// Four measures: the least distance to another yarn, mm; the least of those distances divided
-    /// by the sum of both reaches; the least radius of curvature, in diameters; the share by which
-    /// the length is off.
+    /// Four measures: the least distance to another stretch of yarn, mm; the least ratio of such a
+    /// distance to the sum of both reaches; the least radius of curvature, in diameters; the share
+    /// by which the length is off.
     pub(super) seen: [f32; 4],
 }
 
@@ -96,8 +96,8 @@ impl PullRow {
         bytemuck::cast_slice(pulls)
     }
 
-    /// Takes a distance to another yarn, and its ratio to the sum of both reaches, into the
-    /// measures.
+    /// Takes a distance to another stretch of yarn, and its ratio to the sum of both reaches, into
+    /// the measures.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn see(&mut self, distance: f32, ratio: f32) {
         self.seen[0] = self.seen[0].min(distance);

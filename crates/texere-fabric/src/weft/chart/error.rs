@@ -3,7 +3,8 @@
 use texere_core::{OutOfMemory, counted};
 use thiserror::Error;
 
-/// A chart that is refused. Rows and columns are counted from 1 at the top left.
+/// A chart that is refused. Rows, columns and wales are counted from 1 at the top left, unless a
+/// field says otherwise.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChartError {
@@ -11,9 +12,9 @@ pub enum ChartError {
     #[error(
         "wale {wale}, course {course}, both counted from 0, but the chart has {wales} and {courses}", wales = counted(*.wales, "wale"), courses = counted(*.courses, "course"))]
     NoCell {
-        /// The wale.
+        /// The wale, counted from 0.
         wale: usize,
-        /// The course.
+        /// The course, counted from 0.
         course: usize,
         /// Wales of the chart.
         wales: usize,
@@ -38,7 +39,8 @@ pub enum ChartError {
         /// The most cells allowed.
         limit: usize,
     },
-    /// A row that is longer or shorter than the first.
+    /// A row that is longer or shorter than the first. [`Chart::new`](crate::weft::Chart::new)
+    /// finds this only in the last course, whose row it counts from the bottom.
     #[error("row {row} of the chart has {wales} stitches, the first one {first}")]
     Ragged {
         /// The row.
@@ -98,7 +100,7 @@ pub enum ChartError {
     /// A yarn with too large a number. The machine has fewer carriers.
     #[error("the chart's yarn {yarn}, counted from 0, is none of {limit}")]
     Yarn {
-        /// The yarn.
+        /// The yarn, counted from 0.
         yarn: u32,
         /// The most yarns allowed.
         limit: u32,

@@ -129,7 +129,8 @@ impl Chart {
     }
 
     /// Gives `yarns` to the courses, in turn from the first course on. If the number of courses is
-    /// not a multiple of the number of yarns, the chart is repeated upwards until it is.
+    /// not a multiple of the number of yarns, the chart is repeated upwards until it is. An empty
+    /// list changes nothing.
     ///
     /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] if the repeated chart is too
     /// large, [`ChartError::Yarn`] for a yarn beyond 65534, and [`ChartError::OutOfMemory`].
@@ -204,13 +205,13 @@ impl Chart {
         &self.cells[course * self.wales..][..self.wales]
     }
 
-    /// The chart, if its beds can make all its stitches and every needle that gets loops also
-    /// knits.
+    /// The chart, if its beds can make all its stitches, every needle that gets loops also knits,
+    /// and at least one needle knits.
     fn checked(self) -> Result<Self, ChartError> {
         let on_two = self.beds == Beds::Two;
         let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
         // For the front and the back needle of each wale, whether the needle gets loops without
-        // knitting, and whether it knits.
+        // knitting, and whether it knits. On one bed the first entry counts for the whole wale.
         let mut gets = filled("wales of a chart", self.wales, [false; 2])?;
         let mut knits = filled("wales of a chart", self.wales, [false; 2])?;
         for (number, &cell) in self.cells.iter().enumerate() {

@@ -10,9 +10,9 @@ use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Pr
 const HALF: f64 = 0.5;
 
 impl Chart {
-    /// The program of one repeat of the chart. Its carriers are the yarns of the courses, by
-    /// number. Each carrier goes to the right in its first course, to the left in its next one, and
-    /// so on.
+    /// The program of one repeat of the chart. It has a carrier for each number of a yarn, from 0
+    /// to the largest of the courses. Each carrier goes to the right in its first course, to the
+    /// left in its next one, and so on.
     ///
     /// The source of an operation is row × wales + column of its cell, both counted from 0, with
     /// row 0 at the bottom. In a Jacquard picture these are the row and the column of the pixel.

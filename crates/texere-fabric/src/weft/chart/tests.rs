@@ -1,4 +1,5 @@
-//! Charts against their knitting programs, written out in knitout's notation.
+//! Charts against their knitting programs, written out in knitout's notation, and the errors of
+//! charts.
 
 use super::{Backing, Beds, CHART_MOVED_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError};
 use crate::weft::{Bed, CarrierSet, Instruction, Machine, Program};

@@ -8,7 +8,8 @@ pub(super) struct Above {
     pub(super) pass: u32,
     /// The lower pass, through whose loops the upper one is drawn.
     pub(super) below: u32,
-    /// Rounds of the repeat between both passes; 0 if nothing repeats.
+    /// Number of rounds of the repeat from the lower pass to the upper one; 0 if both are of one
+    /// round.
     pub(super) rounds: u32,
 }
 
@@ -22,8 +23,8 @@ const SWEEPS_MAX: u32 = 64;
 ///
 /// A pass lies one course above the highest pass that it is drawn through. A pass that is drawn
 /// through nothing lies in the course of its carrier's previous pass (`before`), and a carrier's
-/// first pass in course 0. In a repeat, loops of the previous round lie lower by the height of the
-/// repeat. `aboves` are ordered by pass.
+/// first pass in course 0. In a repeat, loops of an earlier round lie lower by the height of the
+/// repeat for each round between. `aboves` are ordered by pass.
 pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -> (Vec<u32>, Option<u32>) {
     let mut courses = vec![0; before.len()];
     sweep(before, aboves, &mut courses, 0);

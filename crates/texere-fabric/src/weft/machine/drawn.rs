@@ -13,7 +13,7 @@ use super::super::{Direction, Fate, LoopRef, Step};
 use super::FaultKind;
 use super::run::Run;
 
-/// Removes yarn that nothing holds. A repeat is `width` needles wide.
+/// Removes yarn that nothing holds, and the loops of that yarn. A repeat is `width` needles wide.
 ///
 /// **Errors**: [`OutOfMemory`].
 pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMemory> {

@@ -17,9 +17,10 @@ pub enum FaultKind {
     /// The hook takes a carrier, in or out, while it still holds the named one. The machine lets it
     /// hold both.
     HookHolds(String),
-    /// The hook releases a carrier that it does not hold.
+    /// The hook releases a carrier that it does not hold. The machine does nothing.
     HookWithout,
-    /// A carrier that is not in is taken out.
+    /// A carrier that is not in is taken out. In a repeat its next stitch begins a new yarn.
+    /// Otherwise the machine does nothing.
     OutWithoutIn,
     /// The beds are racked further than the machine's limit. The program goes on with that rack. A
     /// rack of more than [`NEEDLE_MAX`](super::super::NEEDLE_MAX) needles is left out.
@@ -103,8 +104,8 @@ impl FaultKind {
     }
 }
 
-/// A fault of a knitting program, and its place. No fault stops the machine. Each kind says what
-/// the machine does instead.
+/// A fault of a knitting program, and its place. No fault stops the machine. If a real machine
+/// can't carry out the operation, the kind says what happens instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
     /// The kind of the fault.

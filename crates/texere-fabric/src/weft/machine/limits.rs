@@ -6,10 +6,11 @@ pub const NEEDLE_MAX: i32 = 1 << 16;
 /// The most loops of a program.
 pub(super) const LOOPS_MAX: usize = 1 << 27;
 
-/// The most loops that one needle may hold.
+/// The most loops that one needle may hold. A program that puts more on a needle is refused.
 pub const STACK_MAX: usize = 256;
 
-/// The most faults that [`Knit::faults`](crate::weft::Knit::faults) lists.
+/// The most faults that [`Knit::faults`](crate::weft::Knit::faults) lists, apart from the two kinds
+/// that a program gets only once.
 pub(super) const FAULTS_LISTED: usize = 1000;
 
 /// The most entries of [`Stitches::parents`](crate::weft::Stitches::parents). The number of loops
@@ -19,7 +20,8 @@ pub(super) const PARENTS_MAX: usize = 1 << 28;
 /// The most carriers, and the most sets of carriers.
 pub(in crate::weft) const CARRIERS_MAX: usize = 1 << 16;
 
-/// The limits of a knitting machine. The default has the limits that V-bed machines usually have.
+/// The limits of a knitting machine. A program that goes beyond them has faults, but is not
+/// refused. The default has the limits that V-bed machines usually have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Machine {
     /// The furthest rack to either side, in needles. Default: 4.

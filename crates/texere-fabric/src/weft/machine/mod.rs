@@ -30,8 +30,9 @@ const ROUNDS_MAX: u32 = 8;
 pub struct Knit {
     /// The loops and yarns of the cloth.
     pub stitches: Stitches,
-    /// Faults of the program in the order of its operations, 1000 at most. For a repeat they are
-    /// the faults of its last round, which occur again in every later round.
+    /// Faults of the program in the order of their sources. There are 1000 at most, and one each of
+    /// [`FaultKind::CastOn`] and [`FaultKind::OnlyLoop`]. For a repeat they are the faults of its
+    /// last round, which occur again in every later round.
     pub faults: Vec<Fault>,
     /// Number of faults that are not listed.
     pub unlisted: u64,
@@ -41,8 +42,9 @@ impl Machine {
     /// Runs a program.
     ///
     /// A program that is a repeat runs round after round, until the same loops hang on its needles
-    /// at the end of each round. The last round gives the cloth. Each pass of a carrier is a strand
-    /// that goes on in the repeat beside it, unless the program itself brings the carrier in.
+    /// at the end of each round, or for 8 rounds. The last round gives the cloth. Each pass of a
+    /// carrier is a strand that goes on in the repeat beside it, unless the program itself brings
+    /// the carrier in.
     ///
     /// No fault stops the machine. [`FaultKind`] says what the machine does instead.
     ///
@@ -96,7 +98,8 @@ fn state(run: &Run<'_>) -> (Vec<(usize, Held)>, f64, Option<f32>) {
     (hung.collect(), run.rack, run.length_mm)
 }
 
-/// Checks the carriers of all operations. Returns the number of loops that the program makes.
+/// Checks the carriers of all operations, and the numbers of carriers, sets and loops. Returns the
+/// number of loops that the program makes.
 fn check(program: &Program) -> Result<usize, WeftError> {
     let size = |what, count: usize, limit: usize, operation| {
         let (count, limit) = (count as u64, limit as u64);

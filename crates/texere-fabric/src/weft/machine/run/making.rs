@@ -176,8 +176,8 @@ impl Run<'_> {
         Ok(first)
     }
 
-    /// Records neighbouring needles that are cast on one after the other. In a repeat nothing is
-    /// cast on.
+    /// Records neighbouring needles that are cast on one after the other. A program that is a
+    /// repeat gets no such fault.
     fn cast_on(&mut self, carriers: &[u32], direction: Direction, needle: Needle, is_empty: bool) {
         let mut found = None;
         for &carrier in carriers {

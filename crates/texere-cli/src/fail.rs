@@ -55,7 +55,7 @@ impl Fail {
         Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
     }
 
-    /// A plot of a settling was asked for where nothing settles.
+    /// A plot of settling was asked for, but nothing settles.
     pub(crate) fn nothing_settles() -> Self {
         Self {
             code: USAGE,
@@ -64,7 +64,7 @@ impl Fail {
         }
     }
 
-    /// A plot of a settling was asked for of cloth that comes to rest by its crossings.
+    /// A plot of settling was asked for, but the cloth comes to rest by its crossings.
     pub(crate) fn no_course() -> Self {
         Self {
             code: USAGE,
@@ -87,11 +87,12 @@ impl Fail {
         Self { code: USAGE, source: format!("{option} needs a mesh: {path} takes yarns without one").into() }
     }
 
-    /// A picture of a turntable that is a link to another of them.
+    /// Two pictures of a turntable would be written to one file, because one path is a link to the
+    /// other.
     pub(crate) fn written_twice(path: &Path) -> Self {
         Self {
             code: USAGE,
-            source: format!("{} is a link to another of the pictures", path.display()).into(),
+            source: format!("{} and another of the pictures are one file", path.display()).into(),
         }
     }
 
@@ -128,7 +129,7 @@ fn code_of(error: &(dyn Error + 'static)) -> u8 {
     causes.filter_map(own_code).last().unwrap_or(WORLD)
 }
 
-/// The exit code of an error by itself, where it decides one.
+/// The exit code of an error without its causes, or none if the error alone decides no code.
 fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     // The error of a file that the design names is boxed.
     let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);
@@ -167,7 +168,8 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         WriteError::DraftTooLarge { .. } | WriteError::OutOfRange { .. } => DESIGN,
         _ => WORLD,
     });
-    // To a user it is the error that it holds.
+    // A pipeline's error is shown as the error that it holds, so it has the exit code of that
+    // error.
     let pipeline = error.downcast_ref().and_then(|error| match error {
         PipelineError::Plan(error) => own_code(error),
         PipelineError::Backend(error) => own_code(error),

@@ -15,7 +15,7 @@ const QUIET_FOR: Duration = Duration::from_secs(1);
 /// Number of steps of a bar that [`share`] moves.
 const STEPS: u64 = 1000;
 
-/// A bar that is hidden until [`reporter`] moves it. It is never shown if `terminal` is false.
+/// A bar that is hidden until it is moved or ticked. It is never shown if `terminal` is false.
 pub(crate) fn bar(terminal: bool) -> ProgressBar {
     let bar = ProgressBar::hidden();
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} %, {eta} left") {
@@ -38,8 +38,8 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     bar.set_length(STEPS);
     let (end, ended) = mpsc::channel::<()>();
     let ticking = bar.clone();
-    // The bar's own ticker would panic if no thread can be started. This one then leaves the bar
-    // hidden.
+    // The bar's own ticker would panic if no thread can be started. Without this one, the bar only
+    // changes when `work` moves it.
     let ticker = thread::Builder::new().spawn(move || {
         while ended.recv_timeout(QUIET_FOR) == Err(RecvTimeoutError::Timeout) {
             ticking.tick();

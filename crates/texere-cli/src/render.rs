@@ -92,7 +92,7 @@ fn saved_middles(yarns: &Yarns) -> [Vec<f64>; 2] {
     middles
 }
 
-/// A weft yarn from edge to edge: it turns at a selvedge, and each of its ways is a pick.
+/// The ways of a weft yarn from edge to edge. The yarn turns at a selvedge, and each way is a pick.
 fn ways(points: &[ControlPoint]) -> impl Iterator<Item = &[ControlPoint]> {
     let goes_right = |at: usize| points[at].x <= points[at + 1].x;
     let turns = (1..points.len().saturating_sub(1)).filter(move |&at| goes_right(at - 1) != goes_right(at));
@@ -189,8 +189,8 @@ fn cameras(args: &RenderArgs, middles: [Vec<f64>; 2], extent: &Extent) -> Result
     Ok(vec![camera])
 }
 
-/// The point that was asked for, or else the middle of the cloth. For a cut it is the middle of the
-/// nearest thread, since a cut between two threads shows nothing.
+/// The point that was asked for, or else the middle of the cloth. A cut of woven cloth goes through
+/// the nearest thread instead, since a cut between two threads shows nothing.
 fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent) -> Result<[f32; 2], Fail> {
     let ([left, lower, _], [right, upper, _]) = (extent.low, extent.high);
     if let Some([x, y]) = args.at {

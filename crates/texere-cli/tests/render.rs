@@ -44,7 +44,7 @@ fn a_picture_has_the_size_that_was_asked_for() {
     assert_eq!(png_size(&path), [120, 90]);
 }
 
-/// Saved cloth at rest looks like the cloth from its design, also where the weft is one yarn that
+/// Saved cloth at rest looks like the cloth from its design, also if the weft is one yarn that
 /// turns at the selvedges.
 #[test]
 fn saved_cloth_is_drawn_as_its_design_is() {
@@ -131,7 +131,7 @@ fn a_point_off_the_cloth_is_refused_with_the_cloths_limits() {
 
 #[test]
 fn supersampling_is_blamed_where_it_is_the_cause() {
-    // lavapipe's textures have 16,384 pixels at most.
+    // lavapipe's textures have sides of at most 16,384 pixels.
     let output = render(&[PLAIN, "-o", "x.png", "--size", "16384x1"]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");

@@ -12,8 +12,8 @@ use crate::{Design, Refusal};
 /// The share of the progress that stretching takes. Coming to rest takes the remaining share.
 const STRETCHED: f64 = 0.5;
 
-/// A design and its yarns. The yarns are at rest, or as near to rest as they came. [`Design::rest`]
-/// makes a cloth.
+/// A design and its yarns, which are at rest or as placed: see [`RestReport`]. [`Design::rest`] and
+/// [`Design::placed`] make a cloth.
 #[derive(Debug)]
 pub struct Cloth {
     design: Design,

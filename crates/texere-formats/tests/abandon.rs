@@ -1,5 +1,5 @@
-//! Output that a program abandons before it ends. The test has a process of its own, because
-//! nothing is written after it.
+//! Output that a program abandons before it ends. The test has a process of its own, because no
+//! file can be written after the call of `abandon`.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs;

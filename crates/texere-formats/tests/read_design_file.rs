@@ -66,8 +66,8 @@ fn every_key_arrives() {
     assert!((end.radius_mm * 2.0 - 25.4 / (28.0 * (590.5f32 / 84.0).sqrt())).abs() < 2e-3);
 }
 
-/// Fibres stand off spun staple, which has twist, and not off filament. A design may give their
-/// number.
+/// Fibres stand off spun staple, which has twist, and not off filament. A design may state the
+/// hairiness itself.
 #[test]
 fn yarns_of_every_structure_have_their_hairiness() {
     let jersey = "[knit]\nchart = \"k\"\nrepeat = [4, 4]\nloop_length_mm = 3.2\n";
@@ -277,7 +277,7 @@ fn jammed_threads_are_relieved_as_the_design_says() {
         );
         assert!(relieved.warnings().is_empty());
     }
-    // A share of the crimp that is given stays, so that threads have to flatten.
+    // A share of the crimp that is given stays, so that threads have to become thinner.
     let shrunk = read("jam = \"shrink\"\nwarp_crimp = 0.5\n");
     assert!(jams(&shrunk).scaled < 1.0 && jams(&shrunk).warp_share == [0.5; 2], "{:?}", jams(&shrunk));
     let woven = shrunk.structure.woven().unwrap().cloth();

@@ -25,7 +25,8 @@ fn picture(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The picture in one channel, which readers of TIFF decode in another way.
+/// A black picture of 2 × 3 pixels, as a TIFF of one channel, which is decoded in another way than
+/// colours.
 fn grey() -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     DynamicImage::from(DynamicImage::from(RgbImage::new(2, 3)).to_luma8())

@@ -48,7 +48,7 @@ fn woven(design: Design) -> Woven {
     design.structure.woven().unwrap().cloth().clone()
 }
 
-/// The whole chain of an error. No message may be longer than two lines of a terminal.
+/// The messages of an error and of its causes. Asserts that each is shorter than 400 characters.
 fn message(error: &dyn Error) -> String {
     let mut chain = vec![error.to_string()];
     let mut cause = error.source();
@@ -62,7 +62,8 @@ fn message(error: &dyn Error) -> String {
     chain.join(" because ")
 }
 
-/// Tests of this file count the memory of the whole program, so that only one may run at a time.
+/// The most memory that `work` takes at a time, MiB. The memory of the whole program is counted, so
+/// only one such measurement may run at a time.
 fn peak_mib(work: impl FnOnce()) -> f32 {
     static ALONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -74,7 +75,7 @@ fn peak_mib(work: impl FnOnce()) -> f32 {
 
 #[test]
 fn work_grows_with_the_file_and_memory_with_the_picture() {
-    // A single test, so that no other one takes memory at the same time.
+    // A single test, so that its parts do not take memory at the same time.
     thousands_of_weaves();
     profile_that_inflates();
     short_file_of_many_pixels();
@@ -104,7 +105,8 @@ fn thousands_of_weaves() {
     assert!(peak < 64.0, "{peak} MiB");
 }
 
-/// A PNG of 4 x 4 whose colour profile is 200 MB of zeros, in 200 kB.
+/// A PNG of 4 × 4 pixels with a colour profile, or else a compressed text, of 200 MiB of zeros. It
+/// takes some 200 kB in the file.
 fn profile_that_inflates() {
     let mut zeros = flate2::write::ZlibEncoder::new(b"p\0\0".to_vec(), flate2::Compression::best());
     for _ in 0..200 {
@@ -158,12 +160,12 @@ fn lists_that_repeat() {
 }
 
 fn long_names() {
-    // A name as long as the file, for each of thousands of keys.
+    // A section of 20,000 keys, whose long name must not be kept once for each key.
     let keys: String = (0..20_000).map(|key| format!("{key}=1\n")).collect();
     let text = format!("[{}]\n{keys}", "x".repeat(1 << 18));
     let peak = peak_mib(move || assert!(wif(&text).is_err()));
     assert!(peak < 64.0, "{peak} MiB");
-    // A key that is not similar to any other, which takes the full comparison.
+    // A key of 2 MiB, which must not be compared letter by letter with the known keys.
     let text = format!("{} = 1\n{THREADS}", "x".repeat(1 << 21));
     let peak = peak_mib(move || {
         assert!(message(&toml(&text).unwrap_err()).contains("line 1"));
@@ -213,7 +215,7 @@ fn a_picture_that_repeats_is_worked_out_once() {
     }
 }
 
-/// Values of a megabyte, in every kind of place that errors quote.
+/// Values of a megabyte or more, and long lists, in places that errors quote.
 #[test]
 fn an_error_is_never_longer_than_a_line_or_two() {
     let long = "ä\\u001b\\n".repeat(200_000);
@@ -269,7 +271,7 @@ mod unix {
 
     use super::*;
 
-    /// A pipe without a writer, under each name that a design may have or refer to.
+    /// Pipes without a writer, and links to them, under names that a design may have or refer to.
     fn pipes() -> TempDir {
         let folder = tempfile::tempdir().unwrap();
         for name in ["pipe.toml", "pipe.wif", "pipe.png"] {

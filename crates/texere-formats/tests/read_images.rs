@@ -1,5 +1,5 @@
 //! Cloth is woven as an image looks, with transparency, palettes and orientation. Images that can't
-//! be shown are refused by name. The test makes the bytes of TIFF files itself, by TIFF 6.0.
+//! be shown are refused by name. The test makes the bytes of most TIFF files itself, by TIFF 6.0.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
@@ -381,13 +381,13 @@ fn a_bigtiff_is_a_tiff() {
     assert_eq!(woven("a.tif", file.get_ref()), SHOWN);
 }
 
-/// The picture that a file shows whose rows are `held` and whose orientation is `orientation`. TIFF
+/// The picture that a file shows if its rows are `held` and its orientation is `orientation`. TIFF
 /// 6.0 defines an orientation by the sides at which row 0 and column 0 lie.
 fn turned(held: &[&str], orientation: u32) -> Vec<String> {
     let rows = || held.iter().map(|row| row.chars().collect::<Vec<_>>());
     let columns = || (0..held[0].len()).map(|column| rows().map(|row| row[column]).collect::<Vec<_>>());
     let mut shown: Vec<Vec<char>> = if orientation < 5 { rows().collect() } else { columns().collect() };
-    // Row 0 is at the right side.
+    // Row 0 or column 0 is at the right side.
     if [2, 3, 6, 7].contains(&orientation) {
         shown.iter_mut().for_each(|row| row.reverse());
     }

@@ -149,7 +149,7 @@ fn bmp(
     bytes
 }
 
-/// Bits, number of colours, and a palette number beyond them: the next one and the last one.
+/// Bits, number of colours, and a palette number beyond them: the next one or the last one.
 const BEYOND: [(usize, usize, usize); 8] =
     [(1, 1, 1), (2, 2, 2), (2, 3, 3), (4, 2, 2), (4, 9, 15), (8, 2, 2), (8, 2, 255), (8, 255, 255)];
 

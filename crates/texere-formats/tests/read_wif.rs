@@ -39,7 +39,7 @@ fn drawdown(text: &str) -> String {
     (0..drawdown.picks()).rev().flat_map(|pick| row(pick).chain(['\n'])).collect()
 }
 
-/// The line of the refusal. Its message has to have all of `parts`.
+/// Asserts that the file is refused with a message that has all of `parts`.
 fn refused(text: &str, parts: &[&str]) {
     let error = read_text(text).expect_err(text);
     for part in parts {
@@ -301,7 +301,8 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     near(&diameters(&stated("Spacing=.2\nThickness=.19", "Spacing=.3\nThickness=.19", ""))[0], &[1.9]);
 }
 
-/// Cloths of every kind of draft, with common spacings beside one another, are clear after scaling.
+/// Cloths of four tie-ups, with unequal spacings beside one another, are clear once texere has made
+/// their threads thinner.
 #[test]
 fn what_is_given_room_does_not_pierce() {
     let tie_ups = [
@@ -456,8 +457,7 @@ fn a_file_that_counts_from_0_is_told_so() {
             |warning: &String| warning.contains("[THREADING] 1 is shaft 0") && warning.contains("from 1");
         assert!(design.warnings().iter().any(told), "{weaving:?}: {:?}", design.warnings());
     }
-    // Treadles counted from 0 are refused in both lists, and in the treadling alone if the tie-up
-    // has no row 0.
+    // A file that counts treadles from 0 in the tie-up and in the treadling is refused, too.
     let pressed = treadles.replace("[TREADLING]\n1=1\n2=2\n3=3\n4=4\n", "[TREADLING]\n1=0\n2=1\n3=2\n4=3\n");
     refused(&pressed, &["counts from 0"]);
     // A surplus line without a value is left out.
@@ -475,7 +475,7 @@ fn a_number_with_zeros_or_a_sign_before_it_is_the_same_key() {
     }
     let shafts = TWILL.replace("[TIEUP]\n1=1,2\n2=2,3\n", "[TIEUP]\n01=4\n1=1,2\n2=2,3\n");
     assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
-    // The same holds for colours with several such keys.
+    // A colour with several such keys has the value of the last one.
     let colors = TWILL.to_owned() + "[COLOR TABLE]\n9=9,9,9\n09=1,1,1\n[WARP COLORS]\n1=9\n+1=9\n";
     for _ in 0..10 {
         let cloth = cloth(&colors);

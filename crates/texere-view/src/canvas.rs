@@ -156,7 +156,7 @@ impl Canvas {
         self.orbit = Some(Orbit::whole(&cloth.extent, side, size));
     }
 
-    /// Has another cloth drawn in the next picture, in the same view.
+    /// Makes the next picture anew, because the cloth is another one. The view stays.
     pub(crate) fn redraw(&mut self) {
         self.drawn = None;
         self.under_way = None;

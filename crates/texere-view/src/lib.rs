@@ -7,7 +7,7 @@
 //!
 //! Every triangle is drawn for each picture, from control points on the device. The pointer turns,
 //! moves and zooms the cloth, and the yarn under the pointer is named as a weaver or a knitter
-//! calls it. A click changes a lift. When the design's file changes, the cloth is made again.
+//! calls it. A click can change a lift. When the design's file changes, the cloth is made again.
 
 mod canvas;
 mod device;

@@ -74,7 +74,7 @@ impl Orbit {
 
     /// The camera for pictures of `size`, pixels.
     ///
-    /// **Errors**: the errors of [`Camera::perspective`].
+    /// **Errors**: the errors of [`Camera::orthographic`] and [`Camera::perspective`].
     pub(crate) fn camera(&self, extent: &Extent, size: [u32; 2]) -> Result<Camera, RenderError> {
         let [_, above, toward] = self.axes();
         let eye = self.target + toward * self.distance;

@@ -57,8 +57,8 @@ impl View {
         };
         let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
             let render = context.wgpu_render_state.clone().ok_or("no device")?;
-            // A device does its work in order. If the device is a processor, a cloth takes it
-            // seconds. The window would have to wait, and could not be closed. Then the cloth has a
+            // A device does its work in order. If the device is a CPU, a cloth takes it seconds, in
+            // which the window would wait and could not be closed. In that case the cloth has a
             // device of its own, from which pictures are copied in negligible time.
             let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
             let renderer = if is_apart {

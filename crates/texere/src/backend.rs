@@ -1,4 +1,4 @@
-//! What a backend is written with, and what drives one chunk by chunk.
+//! What a backend is written with, and what drives a backend chunk by chunk.
 //!
 //! [docs/BACKENDS.md](https://github.com/texere/texere/blob/main/docs/BACKENDS.md) writes a backend
 //! step by step. The rest of the names that a backend needs are in [`mesh`](crate::mesh)

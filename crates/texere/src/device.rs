@@ -97,7 +97,7 @@ pub fn devices() -> Devices {
 /// | `cpu-serial` | the serial reference |
 /// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
 /// | `opencl`, `opencl:1`, `opencl:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `opencl`) |
-/// | `opencl:0/per-yarn` | the same device with the paper's mapping, one thread a yarn |
+/// | `opencl:0/per-yarn` | the first device of OpenCL, with the paper's mapping of one thread to each yarn; `wgpu` devices have it, too |
 ///
 /// ```
 /// let device = texere::open("cpu")?;
@@ -162,7 +162,8 @@ fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     }
 }
 
-/// Index of the device of `list` that `which` names: by its number, or by part of its maker's name.
+/// Index in `list` of the device that has the number `which`, or of the first whose
+/// [`DeviceInfo::device`] holds the text `which`.
 fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
     if which.bytes().all(|byte| byte.is_ascii_digit()) {
         // An empty `which` comes here, too, and does not parse as a number.
@@ -262,7 +263,7 @@ mod tests {
         }
     }
 
-    /// Exactly the devices whose capabilities have `draw` open for pictures.
+    /// A device opens for pictures if, and only if, its capabilities have `draw`.
     #[cfg(feature = "render")]
     #[test]
     fn the_devices_that_draw_are_those_that_open_for_pictures() {

@@ -1,4 +1,5 @@
-//! A fabric that is edited: how often its mesh is planned, and whether its sources stay known.
+//! Tests of a fabric that is edited: how often a mesh is begun, and whether sources, materials,
+//! sections and up directions stay known.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::ops::ControlFlow;
@@ -108,7 +109,7 @@ fn sources_stay_when_yarns_are_set() {
         let range = rest.range(end).unwrap();
         assert_eq!(now.sources().unwrap()[range.clone()], rest.sources().unwrap()[range], "end {end}");
     }
-    // The names of places on the moved yarn, with all yarns set and with this yarn alone.
+    // Places on the moved yarn have the same names among all yarns as on this yarn alone.
     let intervals = yarns.yarn_points(number).unwrap().len();
     let mut crossings = 0;
     for interval in 0..intervals {
@@ -241,7 +242,7 @@ fn yarns_that_differ_in_their_ups_alone_are_made_again() {
     }
 }
 
-/// A yarn that is moved keeps its up directions. A yarn with other points, or one that is lifted,
+/// A yarn that is moved keeps its up directions. A yarn with fewer points, or one that is lifted,
 /// stands along z.
 #[test]
 fn ups_stay_when_yarns_are_set() {

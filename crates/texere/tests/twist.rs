@@ -81,8 +81,8 @@ fn turns(mesh: &Mesh, yarn: usize) -> (Vec<f64>, f64) {
     (turns.collect(), length)
 }
 
-/// No ring of the mesh is turned by more than 30 degrees, and all turns together are those of the
-/// twist.
+/// Asserts that no ring of the mesh is turned by more than 30 degrees against the ring before, and
+/// that all turns together are those of the twist.
 fn follows(mesh: &Mesh, what: &str) {
     for (number, yarn) in mesh.plan.layout().yarns().iter().enumerate() {
         let (turns, length) = turns(mesh, number);
@@ -105,7 +105,7 @@ fn rings_follow_the_twist_of_cloth() {
 }
 
 /// Yarns of every section whose outline is no circle, with points near and far apart, bent and
-/// closed, at any tension.
+/// closed, at two tensions.
 #[test]
 fn rings_follow_the_twist_of_every_section_and_way() {
     let sections = [
@@ -140,8 +140,8 @@ fn rings_follow_the_twist_of_every_section_and_way() {
     }
 }
 
-/// The warning names the present subdivisions and a number that helps. That number shows the twist,
-/// one less does not, and the mesh agrees.
+/// The warning names a number of subdivisions that helps. That number shows the twist, and one less
+/// does not. The step in the warning is that of the mesh.
 #[test]
 fn subdivisions_that_are_fixed_are_warned_of() {
     let yarns = yarns_of(TWEED, "fixed");
@@ -182,8 +182,8 @@ fn hostile_twist_makes_no_giant() {
     }
 }
 
-/// Yarns without twist, of any section, and round yarns of usual twist are drawn with the paper's
-/// rings.
+/// Two-ply yarns without twist, and round yarns of little twist, have the rings of one subdivision,
+/// as the paper has.
 #[test]
 fn what_shows_no_twist_has_no_more_rings() {
     let plain = TWEED.replace("twist_per_m = 340\n", "");

@@ -22,13 +22,12 @@ pub(crate) struct RenderArgs {
     /// From where the cloth is seen
     #[arg(long, value_enum, default_value_t = View::Face)]
     pub(crate) view: View,
-    /// The point that a close-up or a cut shows, mm from the cloth's left and lower edges. If left
-    /// out, a close-up shows the middle of the cloth, and a cut the middle of the thread nearest to
-    /// that
+    /// The point that a close-up or a cut shows: its x and y in the cloth, mm. If left out, the
+    /// middle of the cloth; a cut of woven cloth goes through the thread nearest to the middle
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f32; 2]>,
-    /// The width of cloth that a close-up or a cut shows, mm. If left out, forty times a yarn's
-    /// radius
+    /// The width of cloth that a close-up or a cut shows, mm. If left out, forty times the mean
+    /// radius of the yarns
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     pub(crate) width: Option<f32>,
     /// Show face or back at true scale, with this many millimetres to a pixel. The picture is as

@@ -121,8 +121,8 @@ fn a_repeat_that_no_gigabyte_holds_is_refused_before_it_is_laid() {
     assert!(output.status.code() == Some(3) && error.contains("a repeat of "), "{error}");
 }
 
-/// A Jacquard of two yarns on 1,024 needles and rows, one of which floats all the way. It takes
-/// less than a gigabyte beside the memory that threads reserve.
+/// A Jacquard of two yarns on 1,024 needles and rows. One of the yarns knits a single stitch. The
+/// Jacquard takes less than a gigabyte beside the memory that threads reserve.
 #[test]
 fn a_repeat_that_a_gigabyte_holds_is_laid() {
     let folder = picture(1024);

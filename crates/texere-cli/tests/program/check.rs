@@ -89,8 +89,8 @@ fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
     );
 }
 
-/// A 3/1 twill of equal yarns takes 1.5 diameters a thread: 0.45 mm. Ends 0.4 mm apart exceed that
-/// by an eighth.
+/// A 3/1 twill of equal yarns takes 1.5 diameters a thread: 0.45 mm. With ends 0.4 mm apart the
+/// sett is an eighth beyond the greatest.
 #[test]
 fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
     let folder = TempDir::new().unwrap();
@@ -265,8 +265,8 @@ fn a_mesh_that_twist_wrings_is_told() {
     assert!(stdout(&said).contains("wrung") && stderr(&said).contains("is wrung"), "{}", stderr(&said));
 }
 
-/// Tubes of knits are as wide between rings as on them, with the default settings and in either
-/// frame.
+/// Tubes of a tricot are nearly as wide between rings as on them. The tricot's mesh is the same in
+/// either frame.
 #[test]
 fn steep_yarns_are_not_wrung_and_equal_in_either_frame() {
     let folder = TempDir::new().unwrap();

@@ -96,7 +96,7 @@ fn devices_are_listed_by_the_names_that_open_them() {
         let missing = all["missing"].as_array().unwrap().iter().any(|each| each["family"] == family);
         assert!(found != missing, "{all}");
     }
-    // Only GPU interfaces draw pictures; all devices settle.
+    // Only `wgpu` devices draw pictures. All devices settle, and pack vertices.
     for device in all["found"].as_array().unwrap() {
         let (name, can) = (device["name"].as_str().unwrap(), &device["can"]);
         assert_eq!(can["draw"], name.starts_with("wgpu"), "{device}");

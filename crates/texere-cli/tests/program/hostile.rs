@@ -102,7 +102,7 @@ fn one_thread_is_enough() {
     }
 }
 
-/// Refused memory ends in a named error or in success, never in an abort, once the design is read.
+/// The text of a large draft is printed in less memory than the text has bytes.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_drafts_text_needs_no_memory_beside_the_design() {

@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::{design, inspect, stdout, texere};
 
-/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round
-/// at the edges. The cloth is as it is woven.
+/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, three yarns of two colours, and a weft that turns
+/// round at the edges. The cloth is as it is woven.
 const CLOTH: &str = "[weave]\nnotation = \"2/2\"\nends = 30\npicks = 24\n[finish]\nsettle = false\n[cloth]\nselvedge = true\n\
     [yarns.red]\ntex = 40.0\ncolor = \"#c81020\"\n[yarns.rust]\ntex = 50.0\ncolor = \"#C81020\"\n\
     [yarns.ecru]\ntex = 60.0\ncolor = \"#e9dfc7\"\n[warp]\nyarns = [\"2 red\", \"rust\"]\nspacing_mm = 0.8\n\
@@ -58,7 +58,8 @@ fn measures_add_up() {
     assert!((0.29..3.0 * 0.29).contains(&number(&measures["thickness_mm"])));
 }
 
-/// Both at rest and as it is woven, without options for the mesh.
+/// Tubes have as many sides as the polygon has corners, in cloth at rest and as it is woven.
+/// Another number of sides is refused.
 #[test]
 fn a_polygon_has_as_many_sides_as_corners() {
     let folder = tempfile::tempdir().unwrap();

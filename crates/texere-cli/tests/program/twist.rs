@@ -1,4 +1,4 @@
-//! Rings follow the twist of yarns in every command, or there is a warning.
+//! Rings of meshes follow the twist of yarns, or there is a warning.
 
 use std::path::{Path, PathBuf};
 

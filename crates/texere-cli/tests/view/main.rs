@@ -272,7 +272,7 @@ fn cloth_is_shown_before_it_settles_and_after() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// The surface is resized while the workshop gives the device one cloth after the other.
+/// The window is resized again and again while the program makes one cloth after the other.
 #[test]
 fn a_window_is_resized_while_its_cloth_is_read_again() {
     let folder = folder("resized");

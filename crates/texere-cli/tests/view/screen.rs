@@ -46,7 +46,7 @@ impl Screen {
         Self { server, name, connection, root }
     }
 
-    /// Waits for the program's window to have the keyboard, and returns it.
+    /// Waits for the program's window, gives it the keyboard, and returns it.
     pub(crate) fn window(&self) -> Window {
         let window = wait_for("a window", || {
             let all = self.connection.query_tree(self.root).unwrap().reply().unwrap().children;

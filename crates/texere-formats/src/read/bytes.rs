@@ -96,8 +96,8 @@ impl<'a> Bytes<'a> {
         Ok(name)
     }
 
-    /// Reads a number of items of at least `each` bytes. It is refused if the bytes left are too
-    /// few for so many items.
+    /// Reads the number of items of a list, whose items have at least `each` bytes each. The number
+    /// is refused if the bytes left are too few for so many items.
     pub(super) fn count(&mut self, field: &'static str, each: u64) -> Result<usize, ReadError> {
         let at = self.at();
         let count = self.long(field)?;
@@ -133,7 +133,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Checks the CRC-32 in the last four bytes, which is that of all bytes before it. The four
+    /// Checks the last four bytes, which must be the CRC-32 of all bytes before them. The four
     /// bytes are then no longer among the bytes left.
     pub(super) fn check_sum(&mut self, field: &'static str) -> Result<(), ReadError> {
         let Some((left, stated)) = self.left.split_last_chunk() else {

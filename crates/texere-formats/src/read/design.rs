@@ -136,7 +136,9 @@ impl Design {
         }
     }
 
-    /// The line of a knitout file that makes the yarn in the most crowded place.
+    /// The line of a knitout file that makes the yarn in the most crowded place, or at the worst
+    /// contact if no place is crowded. None for other designs, and for cloth with more than
+    /// [`CROWDED_POINTS`] control points.
     fn crowded(&self) -> Option<FilePlace> {
         let (from, yarns) = (self.knitted_from.as_ref()?, self.yarns().ok()?);
         if yarns.points().len() > CROWDED_POINTS {
@@ -186,15 +188,15 @@ impl Design {
         &self.files
     }
 
-    /// The faults of the program of a weft knit. The [`remarks`](Design::remarks) have them as
-    /// well.
+    /// The faults of the program of a weft knit, at most three of each kind. The
+    /// [`remarks`](Design::remarks) have them as well.
     #[must_use]
     pub fn faults(&self) -> &[MachineFault] {
         &self.faults
     }
 
     /// The place in the program of a weft knit that the yarn of a control point comes from.
-    /// `source` is that point's [source](Yarns::sources). None for other structures.
+    /// `source` is that point's [source](Yarns::sources). None if the design has no program.
     #[must_use]
     pub fn program_place(&self, source: u32) -> Option<ProgramPlace> {
         self.knitted_from.as_ref().map(|from| from.program_place(source))

@@ -137,7 +137,8 @@ pub enum ReadError {
         /// The reason.
         source: std::io::Error,
     },
-    /// The path is no regular file, but a folder, a pipe or a device. Nothing was read from it.
+    /// The path is no regular file, but for example a folder, a pipe or a device. Nothing was read
+    /// from it.
     #[error("{} is {kind}, not a file", named(.file))]
     NotAFile {
         /// The path.
@@ -248,12 +249,12 @@ pub enum ReadError {
         /// What the format allows in place of the word.
         expected: String,
     },
-    /// A value that the file's format does not allow for its key.
+    /// A table of the file lacks a key that it needs.
     #[error("{place}: {message}")]
     Value {
-        /// The place in the file.
+        /// The place of the table in the file.
         place: FilePlace,
-        /// The message of the parser.
+        /// What is wrong: the name of the key that is missing.
         message: String,
     },
     /// A key that has no meaning without another one.
@@ -312,7 +313,8 @@ pub enum ReadError {
         /// The reason.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// An image larger than the largest cloth. No memory was reserved for the image.
+    /// An image with more pixels, or a longer side, than images may have. No memory was reserved
+    /// for the image.
     #[error(
         "{} is {width} × {height} pixels; each side may have {side_limit} at most, and both together {limit}",
         named(.file)

@@ -34,13 +34,13 @@ pub(super) fn open(path: &Path, limit: u64) -> Result<Opened, ReadError> {
     Ok(Opened::File(file))
 }
 
-/// Takes the bytes of a file, at most `limit` of them.
+/// Holds the bytes of a file that a program has in memory. More than `limit` bytes are refused.
 pub(super) fn held(path: &Path, bytes: Vec<u8>, limit: u64) -> Result<Opened, ReadError> {
     small(path, bytes.len() as u64, limit)?;
     Ok(Opened::Bytes(bytes))
 }
 
-/// A file's bytes, at most `limit` of them.
+/// All bytes of a file. A file of more than `limit` bytes is refused.
 pub(super) fn bytes_of(files: &Files<'_>, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let file = match files(path, limit)? {
         Opened::Bytes(bytes) => return Ok(bytes),

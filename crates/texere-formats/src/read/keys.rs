@@ -84,8 +84,8 @@ pub(super) struct Keys {
     pub(super) numbered: Vec<(String, Vec<(u32, usize)>)>,
     /// The first operation of each carrier in a knitout file, and its line.
     pub(super) carriers: Vec<(Origin, String, usize)>,
-    /// The last operation of a knitout file that makes a loop, and its line. Errors about the size
-    /// of the cloth name this operation.
+    /// The last operation of a knitout file that makes a loop, or the first with a carrier if none
+    /// does, and its line. Errors about the size or the structure of the cloth name this operation.
     pub(super) last: Option<(String, usize)>,
     /// The keys of the draft that the design names.
     pub(super) named: Option<Box<Self>>,
@@ -97,8 +97,9 @@ impl Keys {
         (!self.file.as_os_str().is_empty()).then_some(&*self.file)
     }
 
-    /// The place in the file that an error is about. `yarn` gives the name of a thread's yarn. None
-    /// if the file has no key for the error's subject.
+    /// The place that an error is about, in the file or in the draft that the file names. `yarn`
+    /// gives the name of a thread's yarn. None if the error has no subject, or if the file has
+    /// neither a key for it nor a table of a structure.
     pub(super) fn place(
         &self,
         error: &FinishError,
@@ -186,7 +187,8 @@ impl Keys {
         self.last.as_ref().map(|(operation, line)| FilePlace::new(&self.file, *line, operation))
     }
 
-    /// The place of the spacing of a thread of `warp` or `weft`.
+    /// The place of the key that spaces the threads of `set`, which is `warp` or `weft`. A draft
+    /// without a spacing has the place of its number of threads.
     fn spacings(&self, set: &str) -> Option<FilePlace> {
         let own = ["spacing_mm", "per_cm", "per_inch"];
         let own = own.iter().find_map(|key| self.line(&format!("{set}.{key}")));
@@ -222,7 +224,8 @@ impl Keys {
         Some(FilePlace::new(&self.file, threads[found].1, &format!("[{section}] {number}")))
     }
 
-    /// The first of `keys` that the thread's yarn has, or else the key that threads the yarn.
+    /// The first of `keys` that the thread's yarn has, or else the yarn's table, or else the key
+    /// that threads the yarn.
     fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<FilePlace> {
         let only = || {
             let own =
@@ -254,7 +257,7 @@ mod tests {
 
     use super::*;
 
-    /// All keys that structures are made from, each on a line of its own.
+    /// Keys of woven cloth, weft knits and warp knits, each on a line of its own.
     fn keys() -> Keys {
         let all = "weave weave.notation weave.ends knit knit.chart knit.repeat knit.yarns knit.wales_per_cm \
                    knit.courses_per_cm knit.loop_length_mm warp_knit warp_knit.wales warp_knit.courses warp_knit.bars \
@@ -482,7 +485,8 @@ mod tests {
             let place = keys.place(&error, |_| Some("a".into()));
             assert_eq!(place, Some(FilePlace::new(&keys.file, line, key)), "{error}");
         }
-        // A call that does not fit a cloth is no fault of its design.
+        // A request to stop, a lack of memory, and a call that does not fit the cloth are no faults
+        // of a design.
         for error in [
             FabricError::Cancelled,
             FabricError::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }),

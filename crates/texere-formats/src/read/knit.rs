@@ -101,8 +101,8 @@ impl Knit {
     }
 }
 
-/// The first few faults of each kind as a designer reads them, and the number of faults that are
-/// left out.
+/// The first [`FAULTS_LISTED`] faults of each kind as a designer reads them, and the number of
+/// faults that are left out.
 fn listed(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
     let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
     let mut faults = Vec::new();

@@ -87,8 +87,8 @@ impl PointPaper {
         self.pixels[row * self.ends + end].into()
     }
 
-    /// The number of the darker one of the paper's two colours. A paper with more or fewer colours
-    /// is refused.
+    /// The number of the darker one of the paper's two colours. A paper with more or fewer colours,
+    /// or with two that are equally light, is refused.
     pub(super) fn darker(&self) -> Result<usize, ReadError> {
         let expected =
             "two colours, the darker of which is warp up; more of them need a table [weave.colors]";

@@ -76,10 +76,10 @@ pub enum WriteError {
         /// The most vertices that the format can have.
         limit: u64,
     },
-    /// The mesh is of a region without yarns.
+    /// The mesh has no triangles, such as that of a region without yarns.
     #[error("the mesh has no triangles: nothing lies in the box that it is of")]
     Empty,
-    /// The mesh has another number of vertices than its plan says.
+    /// The mesh has another number of vertices than its plan says, or they come out of order.
     #[error("mesh has {given} vertices in order; {planned} were planned")]
     VertexCount {
         /// Number of vertices that came in order.
@@ -156,8 +156,8 @@ pub enum WriteError {
         /// The most pixels of a side.
         limit: usize,
     },
-    /// A knit with more stitches than a chart has squares, or a warp knit whose chains are too long
-    /// to be written below its lappings.
+    /// A knit that is too large for a chart, or a warp knit whose chains are too long to be written
+    /// below its lappings.
     #[error(
         "a chart of {wales} and {courses}; {side} of each are drawn at most, and {squares} squares", wales = counted(*.wales, "wale"), courses = counted(*.courses, "course"))]
     ChartTooLarge {

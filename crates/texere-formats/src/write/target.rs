@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use super::unfinished::Unfinished;
 use super::{Output, WriteError};
 
-/// Bytes that are gathered before a call of the system. A larger buffer gains nothing, because
-/// calls take little time beside the copying.
+/// Bytes that are gathered before a call of the system. A larger buffer gains nothing: at this size
+/// the fixed cost of a call is small beside that of copying the bytes.
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// A file that is written piece by piece. It either takes the place of its output when it is

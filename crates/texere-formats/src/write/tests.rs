@@ -1,4 +1,5 @@
-//! Disks that fill up at any byte, and meshes that come in pieces of any size.
+//! Tests of disks that fill up, of meshes that come in pieces of several sizes, and of a piece out
+//! of order.
 
 use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};

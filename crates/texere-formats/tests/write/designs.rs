@@ -13,8 +13,8 @@ pub(crate) fn woven(design: &Design) -> &WovenDesign {
     design.structure.woven().unwrap()
 }
 
-/// The design that is read again after `write` to a file of this name, and the parts that the file
-/// left out.
+/// The design that is read again after `write` to a file of this name, the parts that the file left
+/// out, and the file's text.
 pub(crate) fn again(
     design: &Design,
     name: &str,
@@ -36,7 +36,9 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
     again(design, "a.toml", |design, path| write::toml(design, path))
 }
 
-/// Everything of a thread, except indices into tables, which another order may change.
+/// A thread's sizes, twist and hairiness, its section, colour and tex. They are looked up, because
+/// the tables of two cloths may be in different order. The spacing and the material's name are not
+/// among them.
 fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 5], &'a Section, [u8; 3], Option<f32>) {
     let Thread { radius_mm, flatness, stiffness, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];
@@ -241,8 +243,8 @@ fn our_own_designs_are_read_again() {
         if let Structure::Woven(_) = design.structure {
             println!("{}", path.display());
             check_toml(&design);
-            // The other plain cloths of the paper have the same weave in other sizes, so WIF skips
-            // them.
+            // The other cloths of the paper are all 3/1 twill and differ in size alone, so they are
+            // not written as WIF.
             if path.to_string_lossy().contains("figure") || !path.to_string_lossy().contains("paper") {
                 check_wif(&design);
             }
@@ -256,7 +258,7 @@ fn our_own_designs_are_read_again() {
     assert!(woven > 20, "{woven}");
 }
 
-/// Two ends and two picks. The first end is red.
+/// A cloth with all ends like `warp`, and a red weft.
 fn small(drawdown: Drawdown, warp: Thread) -> Woven {
     let red = Material { name: "red".into(), srgb: [200, 0, 0], ..Material::default() };
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
@@ -294,8 +296,8 @@ fn many_kinds_of_picks_take_a_lift_plan() {
 
 #[test]
 fn threads_as_thick_as_their_spacing_stay_so() {
-    // The same text without texere's name as its source is read as a file of another program, whose
-    // threads are only drawn as thick.
+    // If the same text names another program as its source, texere takes thicknesses that equal
+    // spacings for widths of drawing, and makes the threads thinner.
     let cloth = small(Weave::parse("plain").unwrap().drawdown(4, 4).unwrap(), Thread::new(0.2, 0.1));
     let (read, _, text) = as_wif(&design(cloth));
     assert_eq!(woven(&read).cloth().warp()[0].radius_mm, 0.1);
@@ -307,9 +309,10 @@ fn threads_as_thick_as_their_spacing_stay_so() {
 
 #[test]
 fn sizes_that_no_unit_holds_to_the_bit_have_the_same_text_again() {
-    // Each unit holds two of these sizes only inexactly, and decipoints need the fewest digits.
-    // Sizes that were read from decipoints need as many digits in centimetres, which are tried
-    // first.
+    // No unit writes more than one of these three spacings to the bit, so decipoints are taken,
+    // which need the fewest digits. After they are read, all sizes are exact in centimetres too,
+    // with as many digits. Centimetres are tried first, so a writer that looked at the given sizes
+    // alone would change the unit the second time.
     let sizes = [(819.4922889486355, 214.85893), (10.0 / 12.0, 305.75195), (232.13929242082267, 159.15794)];
     let warp = sizes.map(|(spacing_mm, radius_mm)| Thread::new(spacing_mm, radius_mm)).to_vec();
     let drawdown = Weave::parse("plain").unwrap().drawdown(3, 2).unwrap();
@@ -340,7 +343,7 @@ fn what_no_reader_takes_is_refused_by_name() {
     let thin = design(small(plain(), Thread::new(0.5, 4e-4)));
     let error = write::wif_to(&thin, Vec::new()).unwrap_err();
     assert!(error.to_string().starts_with("[WARP THICKNESS] 1, in "), "{error}");
-    // A cloth without a repeat, with more crossings than a design file has bytes.
+    // A cloth without a repeat, with more crossings than a design file may have bytes.
     let mut bits = 1_u64;
     let noise = Drawdown::from_fn(4200, 4200, |_, _| {
         bits ^= bits << 13;

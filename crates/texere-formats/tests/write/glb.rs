@@ -81,7 +81,8 @@ fn assert_holds(bytes: &[u8], mesh: &Mesh, what: &str) {
     }
 }
 
-/// Writes `yarns` in every variant, and calls `check` with each file and its description.
+/// Writes `yarns` in each of the [`ways`], whole and as a stream, and calls `check` with each file
+/// and its description.
 fn each_way(yarns: &Yarns, caps: bool, check: impl Fn(&[u8], &str)) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fabric.glb");

@@ -79,7 +79,7 @@ fn of_glb(bytes: &[u8]) -> usize {
     pieces.sum()
 }
 
-/// The files of `mesh` and of `stream` in each format.
+/// Calls `check` with the files of `mesh` and of `stream` in each format.
 fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8>)) {
     let folder = tempfile::tempdir().unwrap();
     for format in Format::ALL {
@@ -159,7 +159,8 @@ fn a_region_has_a_piece_for_each_run_of_rings() {
     }
 }
 
-/// Many ends and picks with sixteen sides and six subdivisions. Default limits cut inside a yarn.
+/// Seventy yarns of 400 points with sixteen sides and six subdivisions. Default limits cut inside a
+/// yarn.
 #[test]
 fn the_default_limits_cut_no_yarn_in_two() {
     let mut yarns = Yarns::builder();

@@ -29,7 +29,7 @@ const NAMES: [&str; 12] = [
 ];
 
 /// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
-/// unit. proptest 1.12 may fail an assertion of its own where the lower bound has finer digits than
+/// unit. proptest 1.12 may fail an assertion of its own if the lower bound has finer digits than
 /// the upper one.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))

@@ -6,7 +6,7 @@ use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn,
 use texere_cpu::ParallelBackend;
 use texere_formats::{Design, read_from};
 
-/// A poplin of two-ply yarns, so dense that its threads flatten.
+/// A poplin of two-ply and lenticular yarns, so dense that its threads flatten.
 pub(crate) const POPLIN: &str = "weave = { notation = \"plain\", ends = 6, picks = 5 }\n\
     yarns.white = { diameter_mm = 0.143, plies = 2, twist_per_m = 800, color = \"#f0ede4\" }\n\
     yarns.blue = { tex = 14.0, section = { shape = \"lenticular\", aspect = 1.5 } }\n\

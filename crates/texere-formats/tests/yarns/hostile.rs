@@ -183,7 +183,7 @@ fn every_field_is_checked() {
     }
 }
 
-/// Counts of more items than the file can hold are refused. Memory grows only with the file.
+/// A reader takes little memory for counts of more items than the file can hold.
 #[test]
 fn memory_grows_with_the_file_alone() {
     let file = file();

@@ -40,7 +40,7 @@ pub enum LiveError {
     /// The yarns break a rule of all yarns.
     #[error(transparent)]
     Yarns(#[from] YarnError),
-    /// The yarns at rest have other numbers of yarns or sections than the fabric.
+    /// The yarns at rest are not as many as the fabric's, or have other sections.
     #[error("{given} yarns at rest of {sections} sections are not the fabric's {yarns} of {own}")]
     OtherYarns {
         /// Number of yarns at rest.

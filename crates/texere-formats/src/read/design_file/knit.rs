@@ -190,8 +190,8 @@ impl Reader<'_> {
     ) -> Result<Design, ReadError> {
         let mut program = chart.program().map_err(|error| self.refused("knit", 0..0, error))?;
         let (names, threads): (Vec<_>, Vec<_>) = yarns.into_iter().unzip();
-        // The program's carriers are named by the numbers of their yarns. The last yarns may be
-        // missing in the chart.
+        // The program names its carriers by the numbers of their yarns. Here they get the yarns'
+        // names. Yarns that the chart does not reach have no carrier.
         program.carriers.iter_mut().zip(names).for_each(|(carrier, name)| *carrier = name);
         let knit = self.knit(self.gauge(None)?, threads)?;
         knit.design(self.source.path, name, program, drawn, warnings)

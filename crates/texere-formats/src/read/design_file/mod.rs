@@ -41,7 +41,7 @@
 //! | `drawdown` | a row for each pick, the last one on top: `1` where the warp is up, `0` where it is not; repeated over `ends` and `picks` |
 //! | `image` | point paper, each pixel a crossing: a PNG, BMP or TIFF file beside the design |
 //! | `wif` | a draft, in a WIF file beside the design |
-//! | `ends`, `picks` | the size of a cloth by notation or drawdown; with an image they may be left out, and must otherwise be the image's size times `repeat` |
+//! | `ends`, `picks` | the size of a cloth: needed with a notation; with a drawdown its own size if left out; with an image left out, or the image's size times `repeat` |
 //! | `rows` | which pick the image's top row is: `"last-pick-first"`, as weavers draw, or `"first-pick-first"` |
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` if not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
@@ -105,7 +105,7 @@
 //! | key | value |
 //! |---|---|
 //! | `settle` | whether yarns settle at all; `true` if not given |
-//! | `length` | `"held"`, if not given, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]) |
+//! | `length` | `"held"`, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]); if not given, as loop lengths or run-ins ask for, see [`Finish`] |
 //! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 if not given |
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |
 //! | `warp_tension`, `weft_tension` | how taut the cloth is held, 1 for relaxed cloth, 0 to 10 |

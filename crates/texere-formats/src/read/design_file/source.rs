@@ -175,8 +175,8 @@ fn keys_of(above: &str, table: &DeTable<'_>, found: &mut Vec<(String, usize)>) {
         let key = format!("{above}{}", key.get_ref());
         match value.get_ref() {
             DeValue::Table(table) => keys_of(&format!("{key}."), table, found),
-            // A table in a list is named by the list, the list's singular and its number: `bars,
-            // bar 2: lapping`.
+            // A key of a table in a list is named by the list, the list's singular, the table's
+            // number and the key itself: `bars, bar 2: lapping`.
             DeValue::Array(list) => {
                 let one = key.rsplit('.').next().unwrap_or_default().trim_end_matches('s');
                 for (number, item) in (1..).zip(list.iter()) {

@@ -205,7 +205,7 @@ fn yarn(
 }
 
 /// The diameter of a yarn, mm, as given or worked out from its tex or cotton count. Also its tex,
-/// if one of these is given.
+/// if tex or cotton count is given.
 fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, Option<f64>), ReadError> {
     let field = |key: &str| format!("yarns.{name}.{key}");
     let number_of = |key: &str, value, range| source.optional(&field(key), value, range);

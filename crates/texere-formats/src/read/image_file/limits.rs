@@ -20,7 +20,8 @@ pub(super) const ASIDE_MAX: u64 = 1 << 25;
 /// The largest image file that is read, bytes: one that is not compressed.
 pub(super) const FILE_MAX: u64 = MEMORY_MAX + ASIDE_MAX;
 
-/// Refuses an image of more pixels than a cloth may have crossings.
+/// Refuses an image with more than [`PIXELS_MAX`] pixels, or with a side of more pixels than a warp
+/// or weft may have threads.
 pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), ReadError> {
     let side_limit = THREADS_MAX as u32;
     if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {

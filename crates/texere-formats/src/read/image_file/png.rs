@@ -57,7 +57,8 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
 }
 
 /// The length of a PNG's palette if it is broken: no multiple of three bytes, or not 1 to 256
-/// colours. None for a valid palette, which the decoder takes for granted.
+/// colours. None for a valid palette, or for a file without one. The decoder does not check
+/// palettes.
 fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
     // Behind the signature each chunk has its length, its name, its data and a checksum.
     file.seek(SeekFrom::Start(8))?;

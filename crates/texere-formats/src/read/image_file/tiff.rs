@@ -45,7 +45,8 @@ pub(super) fn is_big(start: &[u8]) -> bool {
     BIG.iter().any(|big| start.starts_with(big))
 }
 
-/// Looks at a TIFF's first page. `None` for a page that the decoder for all images reads correctly.
+/// Looks at a TIFF's first page, and refuses a file that can't be read here. `None` for a page that
+/// the decoder for all images reads correctly.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992.
 pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header>, ReadError> {

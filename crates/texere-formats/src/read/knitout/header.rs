@@ -54,7 +54,7 @@ pub(super) struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// Reads a line without an operation.
+    /// Reads a line without an operation: a header, a comment, or an empty line.
     pub(super) fn read(&mut self, line: &Line<'a>, warnings: &mut Warnings) -> Result<(), ReadError> {
         let Some((name, value)) = name(line.text) else { return Ok(()) };
         match name {

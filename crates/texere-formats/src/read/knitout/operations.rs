@@ -172,8 +172,8 @@ impl<'a> Operations<'a> {
         whole + 0.5
     }
 
-    /// The instruction that gives the loops that follow the length of this stitch size, if that
-    /// size has one.
+    /// The instruction for a stitch size. The loops after it get the length of this size, or no
+    /// length of their own if the size has none.
     fn stitch_size(&mut self, line: &Line<'_>, numbers: &[f64]) -> (Instruction, CarrierSet) {
         let size = size_of_numbers(numbers);
         let length = self.lengths.get(&size).copied();

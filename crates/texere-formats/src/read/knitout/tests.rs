@@ -272,7 +272,7 @@ fn errors_of_the_cloth_have_their_lines() {
         let said = error.to_string();
         assert_eq!(place(text, error), Some(format!("a.k {line}")), "{said}");
     }
-    // If nothing is knitted, the error gets the line of the first operation.
+    // If nothing is knitted, the error gets the line of the first operation with a carrier.
     let empty = place(
         ";!knitout-2\nin 1\nout 1\n",
         FabricError::Weft(WeftError::Stitches { what: "no loops" }).into(),
@@ -331,7 +331,8 @@ fn hostile_bytes_are_read_or_refused() {
         .map(|number| format!("knit + f1 {} {}\nx-{number}\n", number % 250, (number + 1) % 250))
         .collect();
     let knitout = read(format!("{names}{sets}")).unwrap();
-    // A line is compared with a limited number of others, or looked up by name.
+    // Reading them takes time in proportion to their number, because each name and each set is
+    // looked up in a table.
     assert_eq!((knitout.program.carriers.len(), knitout.program.carrier_sets.len()), (250, 251));
     assert_eq!(knitout.warnings.len(), WARNINGS_MAX + 1);
 }

@@ -22,7 +22,7 @@ impl Warnings {
         Self { file: named(file), kinds: HashSet::new(), list: Vec::new(), full: false }
     }
 
-    /// Adds a warning for a line, unless there is one of this `kind` already.
+    /// Adds a warning for a line, unless there is one of this `kind` already or the list is full.
     pub(super) fn once(&mut self, kind: &str, line: usize, said: &str) {
         if self.kinds.contains(kind) {
             return;

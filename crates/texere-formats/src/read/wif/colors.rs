@@ -105,8 +105,8 @@ fn few(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Result<Vec
     numbers.collect()
 }
 
-/// The range of the table's values. If the file states none, it is 0 to 255, or 0 to 999
-/// (Fiberworks) or 0 to 65,535 if values go beyond.
+/// The range of the table's values. If the file states none, it is the first of 0 to 255, 0 to 999
+/// (Fiberworks) and 0 to 65,535 that holds all values, or else 0 to the greatest value.
 fn range(
     ini: &Ini<'_>,
     table: &BTreeMap<u32, [u32; 3]>,

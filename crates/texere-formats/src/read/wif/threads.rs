@@ -167,7 +167,8 @@ impl Set {
         Ok(Self { common: [spacing, thickness], spacing_mm, thickness_mm, material })
     }
 
-    /// Whether threads are as thick as they are spaced, by the values for the whole set or in sum.
+    /// Whether threads are as thick as they are spaced by the values for the whole set, or at least
+    /// as thick in sum.
     fn is_drawn(&self) -> bool {
         let alike = |[spacing, thickness]: [Option<f64>; 2]| {
             spacing.zip(thickness).map(|(spacing, thickness)| thickness / spacing)

@@ -1,4 +1,5 @@
-//! The parts of a woven design that a format leaves out.
+//! Settings of a woven design that differ from the defaults, and the parts that a WIF draft leaves
+//! out.
 
 use texere_core::Section;
 use texere_core::crossings::Set;

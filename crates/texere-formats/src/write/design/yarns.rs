@@ -22,7 +22,7 @@ pub(super) struct Yarns {
     ends: usize,
     /// The table of each yarn.
     tables: Vec<String>,
-    /// A name that was changed, and its new form.
+    /// The first name that was changed, and its new form.
     pub(super) renamed: Option<[String; 2]>,
 }
 
@@ -103,7 +103,8 @@ struct Names {
 }
 
 impl Names {
-    /// Returns `name`, or a similar name if another yarn has that name.
+    /// Returns `name` without space around it, or `yarn` for an empty name. A number follows if
+    /// another yarn has that name.
     fn give(&mut self, name: &str) -> String {
         let name = if name.trim().is_empty() { "yarn" } else { name.trim() };
         let mut own = name.to_owned();

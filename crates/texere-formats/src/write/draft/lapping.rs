@@ -6,9 +6,9 @@
 //!  front bar      all bars
 //! ```
 //!
-//! Each bar has a diagram with one of its guides. The diagram of a Jacquard bar has all of its
-//! guides. The diagram on the right has all guides of all bars. A guide passes behind the needles
-//! between two dots, goes round a dot above it, and moves on to the next course.
+//! Each of the first eight bars has a diagram with one of its guides. The diagram of a Jacquard bar
+//! has all of its guides. The diagram on the right has all guides of all bars. A guide passes
+//! behind the needles between two dots, goes round a dot above it, and moves on to the next course.
 
 use std::io::Write;
 

@@ -29,9 +29,9 @@ const CHUNK_HEADER_BYTES: u64 = 8;
 
 /// A GLB file that is being written.
 ///
-/// The document comes first in the file, but states the bounds of every yarn, which are known last.
-/// It is therefore written twice: at first to reserve its place, and at the end with the bounds.
-/// Its length does not depend on the bounds.
+/// The document comes first in the file, but states the bounds of every tube and cap, which are
+/// known last. It is therefore written twice: at first to reserve its place, and at the end with
+/// the bounds. Its length does not depend on the bounds.
 #[derive(Debug)]
 pub(super) struct GlbWriter<W: Write + Seek> {
     target: Target<W>,

@@ -12,7 +12,8 @@ pub(crate) enum Symbol {
     Purl,
     /// Both needles of the wale knit: `b`.
     Both,
-    /// Knitted on an empty needle above the first course, a knitter's yarn over: `k`.
+    /// Knitted on an empty front needle, in a repeat or above the first course. It is a knitter's
+    /// yarn over: `k`.
     YarnOver,
     /// The yarn is laid on a front needle: `t`.
     Tuck,
@@ -78,7 +79,8 @@ pub(super) struct Grid {
     squares: Vec<Square>,
 }
 
-/// A head that moves further than this many wales is compared only with heads on its way so far.
+/// A limit to the search for heads that cross. A head is compared only with heads less than twice
+/// this many wales away.
 const CROSSING_MAX: i64 = 32;
 
 /// Number of wales and courses of a chart, and its leftmost wale.

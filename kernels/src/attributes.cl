@@ -153,7 +153,7 @@ void attributes(const Params params, const ulong window, __global const uint4 *p
                 __global const YarnRow *yarns, __global const Block *blocks, __global const ulong *lengths,
                 __global uint2 *out) {
     __local ulong sums[ATTRIBUTES_GROUP];
-    // Length, tangent.
+    // For each ring, the length along the yarn, mm, and the tangent.
     __local float4 rings[ATTRIBUTES_GROUP];
     size_t row = get_global_id(0) / ATTRIBUTES_GROUP;
     uint lane = get_local_id(0);

@@ -3,7 +3,8 @@
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
 // spline.rs, sampling.rs, frame.rs, ring.rs), and common.wgsl is the twin of this file. It is
 // OpenCL C 1.2 without extensions. texere-gpu writes two things before this file: the core's
-// constants, such as BLOCK_RINGS, and FLATTENED, which is false if all yarns are round.
+// constants, such as BLOCK_RINGS, and FLATTENED, which is true if the code for yarns that are not
+// round is needed.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -449,8 +450,8 @@ float3 normal_at(const Stance *stance, float4 point) {
     float4 tangent = stance->tangent;
     if (!stance->round) {
         float2 q = rolled(stance, point.xy);
-        // Each component is multiplied by the other half. This is the inverse transpose, times the
-        // product of both halves.
+        // The x component is multiplied by the half height, the y component by the half width. This
+        // is the inverse transpose of the scaling by both, times their product.
         float2 normal = rolled(stance, point.zw) * (float2)(stance->height.x, stance->centre.w);
         float lean = tangent.w * q.x * normal.x + stance->height.y * q.y * normal.y;
         float inverse = 1.0f / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);

@@ -54,7 +54,7 @@ typedef struct {
 #define NOWHERE 0xffffffffu
 
 // The number that is `by` further on than `at`, of `count` numbers. If they repeat, the first
-// follows the last. Otherwise numbers beyond both are NOWHERE.
+// follows the last. Otherwise a number before the first or after the last is NOWHERE.
 uint further(uint at, int by, uint count, bool repeats) {
     int way = (int)at + by;
     int whole = (int)count;
@@ -141,13 +141,15 @@ CrossingBlock turned(const CrossingBlock *block) {
     return other;
 }
 
-// Notes the distance of two threads, divided by the distance that they need.
+// Notes the distance of two threads, divided by the distance that they need, if it is the least so
+// far.
 void see(CrossingBlock *block, float clearance) {
     block->clearance = fmin(block->clearance, clearance);
 }
 
 // Adds a term for each own unknown, whose residual depends on that unknown alone, with slope
-// `slope`.
+// `slope`. In this function and the next two, `share` is the factor by which curvatures grow,
+// because the other crossings of a term step at the same time.
 void add_alone(CrossingBlock *block, float4 weights, float share, float4 residuals, float slope) {
     block->own += weights * residuals * slope;
     float4 more = weights * share * slope * slope;

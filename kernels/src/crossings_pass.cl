@@ -144,7 +144,7 @@ float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global fl
     return (float2)(fmax(warp, weft), block.clearance);
 }
 
-// The longest step and the least clearance of both.
+// The longest step and the least clearance of two rows.
 float2 seen_by_both(float2 one, float2 other) {
     return (float2)(fmax(one.x, other.x), fmin(one.y, other.y));
 }

@@ -150,8 +150,8 @@ void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, con
     add_meeting(cloth, block, of_set, &first, &last, second);
 }
 
-// Adds the term that keeps two ellipses clear of one another. `part` is the share of this
-// crossing's thread in them.
+// Adds the term that keeps two ellipses clear of one another. `part` is the share that the lie at
+// this crossing has in its ellipse: 1, or a half between two crossings.
 void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float rise, float wide, float thick, float sign,
                 float part) {
     float x = apart / wide;

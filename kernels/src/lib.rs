@@ -17,23 +17,25 @@ pub struct EntryPoint {
     /// The kernel function.
     pub name: &'static str,
     /// The number of lanes in a workgroup. The source requires exactly this number, except for
-    /// `mesh` and `mesh_odd`, which also run with 64.
+    /// `mesh` and `mesh_odd`, which run with any number from 64 on.
     pub group: usize,
 }
 
-/// The first half of the scan: the turn of each block. It runs with one workgroup for each block.
+/// The first half of the scan: the turn of each block. It runs with one workgroup for each row of
+/// the chunk's block table.
 pub const BLOCK_TURNS: EntryPoint = EntryPoint { name: "block_turns", group: 64 };
 
 /// The second half of the scan: rolls from turns, in place. It runs with one workgroup for each
 /// yarn.
 pub const YARN_ROLLS: EntryPoint = EntryPoint { name: "yarn_rolls", group: 256 };
 
-/// Stage 1. It runs with one workgroup for each row of the chunk's block table.
+/// Stage 1: the rings of a chunk. It runs with one workgroup for each row of the chunk's block
+/// table.
 pub const TRAJECTORY: EntryPoint = EntryPoint { name: "trajectory", group: 64 };
 
-/// Stage 2 with stage 1 in it, for an even number of sides. It runs with one workgroup for each row
-/// of the chunk's block table. It runs with any workgroup of at least 64 lanes; see
-/// [`UNINDEXED_GROUP`].
+/// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes, for an even number of
+/// sides. It runs with one workgroup for each row of the chunk's block table. It runs with any
+/// workgroup of at least 64 lanes; see [`UNINDEXED_GROUP`].
 pub const MESH: EntryPoint = EntryPoint { name: "mesh", group: 128 };
 
 /// [`MESH`] for an odd number of sides.
@@ -81,7 +83,8 @@ pub const MESH_PER_YARN: EntryPoint = EntryPoint { name: "mesh_per_yarn", group:
 /// The chords of a settling, from places. It runs with one lane for each chord.
 pub const SETTLING_CHORDS: EntryPoint = EntryPoint { name: "settling_chords", group: 64 };
 
-/// The longest chord, and the box round all middles. Any number of workgroups share the chords.
+/// The longest chord, and the box round the middles of all chords. Any number of workgroups share
+/// the chords.
 pub const SETTLING_EXTENT: EntryPoint = EntryPoint { name: "settling_extent", group: 256 };
 
 /// The number of chords in each cell. It runs with one lane for each chord.

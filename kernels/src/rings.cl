@@ -1,5 +1,5 @@
-// The rings of a block in local memory. All stages of the schedule per-ring begin with them. This
-// file follows common.cl.
+// The rings of a block in local memory. Stages 1 and 2 of the schedule per-ring begin with them.
+// This file follows common.cl.
 //
 // rings.wgsl is the twin of this file.
 

@@ -2,8 +2,8 @@
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
 // and settling.wgsl is the twin of this file. It is OpenCL C 1.2 without extensions. texere-gpu
-// writes two things before this file: the core's constants, and FLATTENED, which is false if all
-// yarns are round.
+// writes two things before this file: the core's constants, and FLATTENED, which is true if the
+// code for yarns that are not round is needed.
 
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -155,7 +155,9 @@ bool may_touch(const SettlingParams *params, const Chord *here, __global const u
 #define MOST_AT_ONCE 32u
 
 // A bit for each of the `count` neighbours from entry `begin` on, which is set if the neighbour may
-// touch. Lanes first find these few neighbours, and then work out their contacts together.
+// touch. Each lane first finds these neighbours, and then works out its contacts with them. Lanes
+// that run in step thus work out contacts at the same time, and do not wait for one another at each
+// neighbour.
 uint touching(const SettlingParams *params, ListedChord here, __global const uint4 *chords,
               __global const uint *starts, __global const uint *neighbours, uint begin, uint count, Sight *sight) {
     uint bits = 0u;

@@ -76,8 +76,8 @@ uint chord_cell(const SettlingParams *params, __global const uint4 *chords, size
 
 #define SETTLING_CELL_COUNT_GROUP 64
 
-// Counts the chords of each cell, with one lane for each chord. A cell's count lies one entry
-// behind the cell.
+// Counts the chords of each cell, with one lane for each chord. The count lies in the entry behind
+// the cell's own.
 __kernel __attribute__((reqd_work_group_size(SETTLING_CELL_COUNT_GROUP, 1, 1)))
 void settling_cell_count(const SettlingParams params, __global const uint4 *chords, volatile __global uint *cells) {
     size_t number = get_global_id(0);

@@ -14,7 +14,8 @@
 #define WEIGHTED_SLOT 8u
 #define BLOCK_SLOT 9u
 
-// The measures of both: the least of distances and radii, the largest of lengths and steps.
+// The measures of two rows together: the least of distances and radii, the largest of lengths and
+// steps.
 float4 seen_by_both(float4 one, float4 other) {
     return (float4)(fmin(one.xy, other.xy), fmax(one.zw, other.zw));
 }

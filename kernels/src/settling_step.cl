@@ -21,7 +21,7 @@ uint4 intervals_of(const StrandRow *strand, uint place) {
                    interval_place(strand, point - 1), interval_place(strand, point - 2));
 }
 
-// The number of interval `interval` in plane `plane`, or `nothing` if there is no interval.
+// The value of interval `interval` in plane `plane`, or `nothing` if there is no interval.
 float pulled(const SettlingParams *params, __global const float *pulls, uint plane, uint interval, float nothing) {
     return interval == NOWHERE ? nothing : pulls[plane * (size_t)params->places + interval];
 }

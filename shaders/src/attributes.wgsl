@@ -170,7 +170,7 @@ fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups
     }
 }
 
-// Length, tangent.
+// For each ring, the length along the yarn, mm, and the tangent.
 var<workgroup> attribute_rings: array<vec4<f32>, ATTRIBUTES_GROUP>;
 
 // Writes the attributes of the vertices of a chunk's tubes. It runs with one workgroup of

@@ -3,7 +3,8 @@
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs,
 // spline.rs, sampling.rs, frame.rs, ring.rs), and common.cl is the twin of this file. It is core
 // WGSL, and requires no feature. texere-gpu writes two things before this file: the core's
-// constants, such as BLOCK_RINGS, and FLATTENED, which is false if all yarns are round.
+// constants, such as BLOCK_RINGS, and FLATTENED, which is true if the code for yarns that are not
+// round is needed.
 
 // Rust: texere_core::Block, 32 bytes.
 struct Block {
@@ -447,8 +448,8 @@ fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     let tangent = stance.tangent;
     if !stance.round {
         let q = rolled(stance, point.xy);
-        // Each component is multiplied by the other half. This is the inverse transpose, times the
-        // product of both halves.
+        // The x component is multiplied by the half height, the y component by the half width. This
+        // is the inverse transpose of the scaling by both, times their product.
         let normal = rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);
         let lean = tangent.w * q.x * normal.x + stance.height.y * q.y * normal.y;
         let inverse = 1.0 / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);

@@ -49,7 +49,7 @@ const WEFT = 1u;
 const NOWHERE = 0xffffffffu;
 
 // The number that is `by` further on than `at`, of `count` numbers. If they repeat, the first
-// follows the last. Otherwise numbers beyond both are NOWHERE.
+// follows the last. Otherwise a number before the first or after the last is NOWHERE.
 fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     let way = bitcast<i32>(at) + by;
     let whole = bitcast<i32>(count);
@@ -140,13 +140,15 @@ fn turned(block: CrossingBlock) -> CrossingBlock {
     );
 }
 
-// Notes the distance of two threads, divided by the distance that they need.
+// Notes the distance of two threads, divided by the distance that they need, if it is the least so
+// far.
 fn see(block: ptr<function, CrossingBlock>, clearance: f32) {
     (*block).clearance = min((*block).clearance, clearance);
 }
 
 // Adds a term for each own unknown, whose residual depends on that unknown alone, with slope
-// `slope`.
+// `slope`. In this function and the next two, `share` is the factor by which curvatures grow,
+// because the other crossings of a term step at the same time.
 fn add_alone(block: ptr<function, CrossingBlock>, weights: vec4<f32>, share: f32, residuals: vec4<f32>, slope: f32) {
     (*block).own += weights * residuals * slope;
     let more = weights * share * slope * slope;

@@ -147,7 +147,7 @@ fn move_crossing(number: u32) -> vec2<f32> {
     return vec2(max(warp, weft), block.clearance);
 }
 
-// The longest step and the least clearance of both.
+// The longest step and the least clearance of two rows.
 fn seen_by_both(one: vec2<f32>, other: vec2<f32>) -> vec2<f32> {
     return vec2(max(one.x, other.x), min(one.y, other.y));
 }

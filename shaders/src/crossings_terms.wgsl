@@ -152,8 +152,8 @@ fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Alon
     add_meeting(block, of_set, first, last, second);
 }
 
-// Adds the term that keeps two ellipses clear of one another. `part` is the share of this
-// crossing's thread in them.
+// Adds the term that keeps two ellipses clear of one another. `part` is the share that the lie at
+// this crossing has in its ellipse: 1, or a half between two crossings.
 fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: f32, thick: f32, sign: f32, part: f32) {
     let x = apart / wide;
     let z = rise / thick;

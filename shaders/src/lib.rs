@@ -3,7 +3,7 @@
 //!
 //! | file | entry points | work |
 //! |---|---|---|
-//! | `common.wgsl` | | tables, turn, spline, frame, vertex: stands before each of the files below |
+//! | `common.wgsl` | | tables, turn, spline, frame, vertex: stands before each of the files below but `unpack.wgsl` |
 //! | `rings.wgsl` | | a block's rings in workgroup memory: stands before `trajectory`, `mesh` and `packed` |
 //! | `share.wgsl` | | how lanes share a ring's stores: stands before `mesh` and `packed` |
 //! | `scan.wgsl` | `block_turns`, `yarn_rolls` | the roll at each block's start |
@@ -29,8 +29,8 @@ pub mod picture;
 pub mod settling;
 
 /// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every
-/// device allows. The number of workgroups without work is as small as possible, since they take
-/// time, too.
+/// device allows. There are as few rows as possible, and fewer workgroups without work than rows,
+/// since they take time, too.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));
@@ -73,7 +73,7 @@ pub enum Resource {
     CapPattern = 11,
     /// `SettlingParams` of `texere-gpu`.
     SettlingParams = 12,
-    /// `PlaceRow`s, and one more, in which the last interval's chords end.
+    /// `PlaceRow`s, and one more, whose first chord is the end of the last interval's chords.
     PlaceRows = 13,
     /// `StrandRow`s.
     Strands = 14,
@@ -201,7 +201,8 @@ const PACKED_SOURCE: &str =
 const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
-/// The turn of each block of a chunk. It runs with one workgroup for each row.
+/// The turn of each block of a chunk. It runs with one workgroup for each row of the chunk's block
+/// table.
 pub const BLOCK_TURNS: Shader = Shader {
     entry_point: "block_turns",
     source: SCAN_SOURCE,
@@ -223,7 +224,7 @@ pub const YARN_ROLLS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::Rolls)],
 };
 
-/// Rings of a chunk. It runs with one workgroup for each row.
+/// Rings of a chunk. It runs with one workgroup for each row of the chunk's block table.
 pub const TRAJECTORY: Shader = Shader {
     entry_point: "trajectory",
     source: concat!(include_str!("common.wgsl"), rings!(), include_str!("trajectory.wgsl")),
@@ -251,14 +252,14 @@ const MESH_BINDINGS: &[Binding] = &[
 ];
 
 /// Vertices and indices of a chunk's tubes, for an even number of sides. It runs with one workgroup
-/// for each row.
+/// for each row of the chunk's block table.
 pub const MESH: Shader =
     Shader { entry_point: "mesh", source: MESH_SOURCE, workgroup: 128, bindings: MESH_BINDINGS };
 
 /// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: Shader = Shader { entry_point: "mesh_odd", ..MESH };
 
-/// Vertices and indices of a chunk's caps. It runs with one lane for each vertex.
+/// Vertices and indices of a chunk's caps. It runs with one lane for each cap vertex.
 pub const CAPS: Shader = Shader {
     entry_point: "caps",
     source: concat!(include_str!("common.wgsl"), include_str!("caps.wgsl")),
@@ -274,7 +275,7 @@ pub const CAPS: Shader = Shader {
 };
 
 /// Packed vertices of a chunk's tubes, for an even number of sides. It runs with one workgroup for
-/// each row.
+/// each row of the chunk's block table.
 pub const PACKED: Shader = Shader {
     entry_point: "packed",
     source: PACKED_SOURCE,
@@ -293,7 +294,7 @@ pub const PACKED: Shader = Shader {
 /// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: Shader = Shader { entry_point: "packed_odd", ..PACKED };
 
-/// Packed vertices of a chunk's caps. It runs with one lane for each vertex.
+/// Packed vertices of a chunk's caps. It runs with one lane for each cap vertex.
 pub const PACKED_CAPS: Shader = Shader {
     entry_point: "packed_caps",
     source: PACKED_SOURCE,
@@ -324,7 +325,8 @@ pub const PACKED_CAPS: Shader = Shader {
 /// ```
 pub const UNPACK: &str = include_str!("unpack.wgsl");
 
-/// The length of each block of a chunk. It runs with one workgroup for each row.
+/// The length of each block of a chunk. It runs with one workgroup for each row of the chunk's
+/// block table.
 pub const BLOCK_LENGTHS: Shader = Shader {
     entry_point: "block_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -347,7 +349,8 @@ pub const YARN_LENGTHS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::ArcLengths)],
 };
 
-/// Attributes of a chunk's tubes. It runs with one workgroup for each row.
+/// Attributes of a chunk's tubes. It runs with one workgroup for each row of the chunk's block
+/// table.
 pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     entry_point: "attributes",
     source: ATTRIBUTES_SOURCE,
@@ -362,7 +365,7 @@ pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     ],
 };
 
-/// Attributes of a chunk's caps. It runs with one lane for each vertex.
+/// Attributes of a chunk's caps. It runs with one lane for each cap vertex.
 pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     entry_point: "cap_attributes",
     source: ATTRIBUTES_SOURCE,
@@ -370,7 +373,7 @@ pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::CapRows), write(Resource::Attributes)],
 };
 
-/// The paper's algorithm 2. It runs with one lane for each part.
+/// The paper's algorithm 2. It runs with one lane for each part of the chunk.
 pub const TRAJECTORY_PER_YARN: Shader = Shader {
     entry_point: "trajectory_per_yarn",
     source: PER_YARN_SOURCE,
@@ -384,7 +387,7 @@ pub const TRAJECTORY_PER_YARN: Shader = Shader {
     ],
 };
 
-/// The paper's algorithm 4. It runs with one lane for each part.
+/// The paper's algorithm 4. It runs with one lane for each part of the chunk.
 pub const MESH_PER_YARN: Shader = Shader {
     entry_point: "mesh_per_yarn",
     source: PER_YARN_SOURCE,

@@ -35,7 +35,7 @@ pub const CHORDS: Shader = Shader {
     ],
 };
 
-/// The longest chord, and the box round all middles. Each workgroup writes a row.
+/// The longest chord, and the box round the middles of all chords. Each workgroup writes a row.
 pub const EXTENT: Shader = Shader {
     entry_point: "settling_extent",
     source: LIST_SOURCE,

@@ -1,10 +1,10 @@
 // The code that the shaders of settling share: tables, places, intervals and chords. It stands
-// before each of them.
+// before each of them but the scan.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
 // and settling.cl is the twin of this file. It is core WGSL, and requires no feature. texere-gpu
-// writes two things before this file: the core's constants, and FLATTENED, which is false if all
-// yarns are round.
+// writes two things before this file: the core's constants, and FLATTENED, which is true if the
+// code for yarns that are not round is needed.
 
 // Rust: texere_gpu::PlaceRow, 16 bytes.
 struct PlaceRow {

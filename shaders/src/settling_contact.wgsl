@@ -160,7 +160,9 @@ fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
 const MOST_AT_ONCE = 32u;
 
 // A bit for each of the `count` neighbours from entry `begin` on, which is set if the neighbour may
-// touch. Lanes first find these few neighbours, and then work out their contacts together.
+// touch. Each lane first finds these neighbours, and then works out its contacts with them. Lanes
+// that run in step thus work out contacts at the same time, and do not wait for one another at each
+// neighbour.
 fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sight>) -> u32 {
     var here = start;
     var bits = 0u;

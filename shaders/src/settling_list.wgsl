@@ -89,8 +89,8 @@ fn chord_cell(number: u32) -> u32 {
 
 const SETTLING_CELL_GROUP = 64u;
 
-// Counts the chords of each cell, with one lane for each chord. A cell's count lies one entry
-// behind the cell.
+// Counts the chords of each cell, with one lane for each chord. The count lies in the entry behind
+// the cell's own.
 @compute @workgroup_size(SETTLING_CELL_GROUP)
 fn settling_cell_count(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                        @builtin(local_invocation_index) lane: u32) {

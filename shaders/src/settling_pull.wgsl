@@ -260,7 +260,8 @@ fn pull_block(place: u32) -> SeenRow {
     return write_own(4u * BLOCK_SLOT, place, length, arc, sight);
 }
 
-// The measures of both: the least of distances and radii, the largest of lengths and steps.
+// The measures of two rows together: the least of distances and radii, the largest of lengths and
+// steps.
 fn seen_by_both(one: SeenRow, other: SeenRow) -> SeenRow {
     return SeenRow(
         min(one.clearance, other.clearance),

@@ -42,7 +42,7 @@ fn intervals_of(strand: StrandRow, place: u32) -> vec4<u32> {
     );
 }
 
-// The number of interval `interval` in plane `plane`, or `nothing` if there is no interval.
+// The value of interval `interval` in plane `plane`, or `nothing` if there is no interval.
 fn pulled(plane: u32, interval: u32, nothing: f32) -> f32 {
     if interval == NOWHERE {
         return nothing;
@@ -158,7 +158,7 @@ const SETTLING_STEP_GROUP = 64u;
 
 var<workgroup> lane_longest: array<f32, SETTLING_STEP_GROUP>;
 
-// Makes the step of place `place`, and writes the workgroup's longest step into its row.
+// Makes the step of the lane's place, and writes the workgroup's longest step into its row.
 fn take_step(group: u32, lane: u32, block: bool) {
     let number = group * SETTLING_STEP_GROUP + lane;
     var longest = 0.0;

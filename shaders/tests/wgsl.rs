@@ -70,8 +70,8 @@ fn picture_shaders_have_their_entry_points() {
     }
 }
 
-/// The shaders that draw without a mesh follow the prelude, once for round yarns alone and once for
-/// all yarns.
+/// The shaders that draw without a mesh follow the prelude for round yarns alone and that for all
+/// yarns, each without hairs and with hairs.
 #[test]
 fn drawing_shaders_have_their_entry_points() {
     let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;

@@ -29,7 +29,8 @@ impl Attributes {
     /// Allocates memory, and compiles the kernels unless an engine has done so before.
     ///
     /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn,
-    /// [`BackendError::OutOfMemory`], [`BackendError::Compile`].
+    /// [`BackendError::OutOfMemory`], [`BackendError::Compile`], and [`BackendError::Driver`] or
+    /// [`BackendError::DeviceLost`] if another call of OpenCL fails.
     pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
         if opened.schedule != Schedule::PerRing {
             return Err(BackendError::NoAttributes);
@@ -56,7 +57,8 @@ impl Attributes {
         let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&self.lengths)]].concat();
         // SAFETY: the arguments are those of `block_lengths`. A group reads its row of the chunk's
         // table and what the row names, and writes its block's length. There is a length for each
-        // block of the plan. The block of a repeated ring is the next chunk's first.
+        // block of the plan. A row for a repeated ring writes the length of the next chunk's first
+        // block.
         unsafe { self.block_lengths.run(work.opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 

@@ -52,8 +52,9 @@ impl OpenClBackend {
     /// All devices of all platforms. The place in this list is the number that
     /// [`OpenClBackend::open`] takes. Nothing is opened.
     ///
-    /// **Errors**: [`BackendError::Driver`] with an [`OpenClError`](crate::OpenClError) as its
-    /// source if there is no loader or no platform.
+    /// **Errors**: [`BackendError::Driver`] or [`BackendError::DeviceLost`], with an
+    /// [`OpenClError`](crate::OpenClError) as the source, if there is no loader or no platform, or
+    /// if a call of OpenCL fails.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
         Ok(listed(Schedule::PerRing)?.into_iter().map(|device| device.info).collect())
     }
@@ -85,7 +86,7 @@ impl OpenClBackend {
     /// Opens the device of a caller's queue, and works on that queue and in its context. The
     /// device's name is `opencl` or `opencl/per-yarn`. Queue and context are retained while the
     /// backend or a session of it lives. Kernels and uploads go to the queue in the order of the
-    /// calls; results are read through another queue.
+    /// calls. The tables of chunks are sent, and their results are read, through another queue.
     ///
     /// A queue without profiling does not time its commands. The host then waits for each stage,
     /// and times it by its own clock.
@@ -154,7 +155,7 @@ impl OpenClBackend {
         Ok(Self { info, opened: Arc::new(opened) })
     }
 
-    /// This device with `limits`, if its own are wider.
+    /// This device with each of its limits lowered to that of `limits`, if that is lower.
     #[must_use]
     pub fn with_limits(mut self, limits: Limits) -> Self {
         self.info.limits = self.info.limits.min(&limits);

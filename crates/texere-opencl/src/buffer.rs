@@ -118,7 +118,8 @@ impl Buffer {
         bytes: u64,
     ) -> Result<(), BackendError> {
         if bytes > self.bytes {
-            // The old memory is released first, so that both never need room together.
+            // The old memory is released first. Both need room together only while commands still
+            // use the old memory.
             *self = Self::default();
             *self = Self::new(opened, what, bytes)?;
         }
@@ -153,7 +154,8 @@ impl Buffer {
         Ok(Some(Arc::new(event.map_err(opened.failed("clEnqueueWriteBuffer"))?)))
     }
 
-    /// [`Buffer::write`], but it waits only if `blocking`, and its error is OpenCL's status.
+    /// Sends `data`, which is not empty, as [`Buffer::write`] does, but waits only if `blocking`.
+    /// The error is OpenCL's status.
     ///
     /// # Safety
     ///
@@ -195,8 +197,8 @@ impl Buffer {
         if out.is_empty() {
             return Ok(());
         }
-        // SAFETY: `out` is borrowed during the whole blocking read, may hold any bits, and is
-        // `bytes` long.
+        // SAFETY: `out` is borrowed during the whole blocking read, may hold any bits, and is as
+        // long as what is read.
         let event = unsafe {
             self.enqueue_read(
                 opened,
@@ -212,6 +214,9 @@ impl Buffer {
         Ok(())
     }
 
+    /// Starts a read of `bytes` bytes from byte `offset` into `out`, after `after`, and waits for
+    /// its end only if `blocking`. Returns the event.
+    ///
     /// # Safety
     ///
     /// `out` points at `bytes` bytes of writable memory, which nothing else uses until the command

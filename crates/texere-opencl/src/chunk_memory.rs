@@ -11,7 +11,8 @@ use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// The memory of one chunk at a time. It is used again for the next chunk but one.
+/// The memory of one chunk at a time. A session has two, and uses this memory again for the next
+/// chunk but one. A live mesh has one for each of its chunks.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,

@@ -7,19 +7,21 @@ use std::ptr;
 use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
 
-/// A chunk's mesh in device memory. The handles are valid while this value is borrowed: until the
-/// session's next call.
+/// A chunk's mesh in device memory. The handles are valid until the next call that changes the
+/// session or the engine that lent this value.
 #[derive(Debug)]
 pub struct DeviceMesh<'a> {
     /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
     pub vertices: *mut c_void,
     /// A `cl_mem` with the chunk's `u32` indices from its start, or null if the chunk has none.
     pub indices: *mut c_void,
-    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices, or null if
-    /// none were made.
+    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices, if they were
+    /// made. It is null if no attributes were ever made in this memory, and may else hold those of
+    /// an earlier chunk.
     pub attributes: *mut c_void,
-    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start, or
-    /// null if none were made.
+    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start, if
+    /// they were made. It is null if no packed vertices were ever made in this memory, and may else
+    /// hold those of an earlier chunk.
     pub packed: *mut c_void,
     /// The `cl_event` of the last command that writes these buffers. Wait for it, on the host or in
     /// a queue.

@@ -111,7 +111,8 @@ impl OpenClEngine {
         self.opened.queue.raw()
     }
 
-    /// The device memory of the mesh of the chunk in `slot`. None if nothing was made yet.
+    /// The device memory of the mesh of the chunk in `slot`. None if no chunk was loaded into the
+    /// slot yet. A buffer that was never made is null.
     #[must_use]
     pub fn device_mesh(&self, slot: Slot) -> Option<DeviceMesh<'_>> {
         Some(DeviceMesh::new(self.memory.get(slot.index())?))
@@ -189,7 +190,7 @@ impl OpenClEngine {
 }
 
 impl OpenClEngine {
-    /// Does `work` with each of `chunks`, which is loaded into its slot before.
+    /// Does `work` with each of `chunks`, after loading the chunk into its slot if it is not there.
     fn load_each(
         &mut self,
         chunks: ScanChunks<'_>,

@@ -27,7 +27,7 @@ pub enum OpenClError {
         /// The alignment that the address needs, bytes.
         needed: usize,
     },
-    /// OpenCL returned any other status.
+    /// OpenCL returned another status.
     #[error("{name} ({code})")]
     Status {
         /// OpenCL's name of the status.

@@ -15,7 +15,8 @@ use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// A kernel of a program. OpenCL keeps arguments in it, so each session has kernels of its own.
+/// A kernel of a program. OpenCL keeps arguments in it, so each engine and each settler has kernels
+/// of its own.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     handle: Handle,

@@ -11,7 +11,8 @@ use crate::work::Kernels;
 /// The kernels of `opened`'s schedule for `plan`: for round yarns alone, or with `flattened` for
 /// all yarns.
 ///
-/// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`].
+/// **Errors**: [`BackendError::Compile`], and [`BackendError::Driver`] or
+/// [`BackendError::DeviceLost`] if another call of OpenCL fails.
 pub(crate) fn kernels(
     opened: &Opened,
     plan: &Plan,

@@ -24,12 +24,13 @@ pub(crate) struct Opened {
     pub(crate) name: String,
     pub(crate) schedule: Schedule,
     pub(crate) context: Handle,
-    /// The queue of kernels and of control points, which run in the order of the calls.
+    /// The queue of kernels and of uploads of control points, which it runs in the order of the
+    /// calls.
     pub(crate) queue: Handle,
     /// Whether `queue` times its commands.
     pub(crate) profiled: bool,
-    /// The queue that sends tables to the device and results to the host, while the kernels of
-    /// another chunk run.
+    /// The queue that sends a chunk's tables to the device and its results to the host, while the
+    /// kernels of another chunk run.
     pub(crate) transfers: Handle,
     /// The program for round yarns alone.
     round: Handle,
@@ -76,7 +77,8 @@ impl Opened {
 
     /// The program for round yarns alone, or, with `flattened`, for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn program(&self, flattened: bool) -> Result<&Handle, BackendError> {
         if !flattened {
             return Ok(&self.round);
@@ -86,7 +88,8 @@ impl Opened {
 
     /// The program of attributes.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn attributes(&self) -> Result<&Handle, BackendError> {
         // Attributes do not depend on half widths and half heights.
         self.compiled(&self.attributes, ATTRIBUTES, false)
@@ -94,21 +97,24 @@ impl Opened {
 
     /// The program of packed vertices for round yarns alone, or, with `flattened`, for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn packing(&self, flattened: bool) -> Result<&Handle, BackendError> {
         self.compiled(&self.packing[usize::from(flattened)], PACKING, flattened)
     }
 
     /// The program of settlings for round yarns alone, or, with `flattened`, for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn settling(&self, flattened: bool) -> Result<&Handle, BackendError> {
         self.compiled(&self.settling[usize::from(flattened)], SETTLING, flattened)
     }
 
     /// The program of crossings.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn crossings(&self) -> Result<&Handle, BackendError> {
         // Threads at crossings have half widths and half heights of their own, so the program for
         // flattened yarns is compiled.
@@ -128,7 +134,7 @@ impl Opened {
         let device = get_command_queue_info(self.queue.raw(), CL_QUEUE_DEVICE);
         let device = device.map_err(self.failed("clGetCommandQueueInfo"))?.to_ptr() as *mut c_void;
         let compiled = build(device, &self.context, &self.name, program, flattened)?;
-        // Another session may have compiled the program meanwhile.
+        // Another engine or settler may have compiled the program meanwhile.
         Ok(held.get_or_init(|| compiled))
     }
 

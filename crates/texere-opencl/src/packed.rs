@@ -21,7 +21,9 @@ impl Packed {
     /// Compiles the kernels for round yarns alone, or, with `flattened`, for all yarns, unless an
     /// engine has done so before.
     ///
-    /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`],
+    /// and [`BackendError::Driver`] or [`BackendError::DeviceLost`] if another call of OpenCL
+    /// fails.
     pub(crate) fn new(opened: &Opened, plan: &Plan, flattened: bool) -> Result<Self, BackendError> {
         if opened.schedule != Schedule::PerRing {
             return Err(BackendError::NoPacking);

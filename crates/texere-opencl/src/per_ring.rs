@@ -56,7 +56,7 @@ impl Kernels for PerRing {
         let args = &work.inputs(&params, &window, memory)[..6];
         // SAFETY: the arguments are those of `block_turns`. A group reads its row of the chunk's
         // table and what the row names, and writes its block's turn. There is a turn for each block
-        // of the plan. The block of a repeated ring is the next chunk's first.
+        // of the plan. A row for a repeated ring writes the turn of the next chunk's first block.
         unsafe { self.block_turns.run(opened, args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
@@ -112,8 +112,8 @@ impl Kernels for PerRing {
         ];
         let lanes = params.caps as usize * params.sides as usize;
         // SAFETY: the arguments are those of `caps`. A lane reads its cap's row and what the row
-        // names, and writes a vertex and a triangle, for all of which there is room. Lanes past the
-        // last do nothing.
+        // names, and writes a vertex and at most one triangle, for all of which there is room.
+        // Lanes past the last do nothing.
         let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

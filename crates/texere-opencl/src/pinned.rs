@@ -88,8 +88,8 @@ impl Pinned {
 impl Drop for Pinned {
     fn drop(&mut self) {
         // SAFETY: the memory was mapped once, in `new`, and no slice of it is left. The queue runs
-        // in order, so every read into the memory has ended before. Users wait for writes from it
-        // before they drop it.
+        // in order, so every read into the memory has ended before. Users wait for commands that
+        // read from the memory before they drop it.
         let unmapped = unsafe {
             enqueue_unmap_mem_object(
                 self.opened.transfers.raw(),

@@ -60,8 +60,9 @@ impl OpenClSession {
     }
 
     /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
-    /// of [`device_buffers`](texere_gpu::device_buffers), and the rings if [`Session::trajectory`]
-    /// was called.
+    /// of [`device_buffers`](texere_gpu::device_buffers), and the rings, packed vertices and
+    /// attributes if [`Session::trajectory`], [`Session::packed`] and [`Session::attributes`] were
+    /// called. The pinned host memory that transfers go through is not counted.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

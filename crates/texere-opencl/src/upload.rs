@@ -23,12 +23,13 @@ const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 /// driver's own transfer is as fast.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// The most points that are sent without pinned memory in the first upload. Allocating pinned
-/// memory would take more time than it saves, and it may never be used again.
+/// The most points that are sent without pinned memory the first time that more than [`FEW_POINTS`]
+/// are sent. Allocating pinned memory would take more time than it saves, and it may never be used
+/// again.
 const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 
-/// The points of a piece. A piece is so large that the overhead of a transfer is negligible. The
-/// first pieces are shorter, so that transfers start early.
+/// The number of points of a piece. A piece is so large that the overhead of a transfer is
+/// negligible. The first pieces are shorter, so that transfers start early.
 const PIECE_POINTS: u64 = (8 << 20) / POINT_BYTES;
 const FIRST_PIECE_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
@@ -43,7 +44,7 @@ const SLOTS: usize = 3;
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     slots: Vec<Pinned>,
-    /// Whether more than a few points have been sent.
+    /// Whether more than [`FEW_POINTS`] have been sent at once.
     used: bool,
     /// The last command that reads the slots. Earlier commands end before it.
     last: Option<Arc<Handle>>,
@@ -176,7 +177,7 @@ struct Flight<'a> {
 }
 
 impl Flight<'_> {
-    /// Pads and sends part after part, until none is left.
+    /// Pads and sends part after part, until none is left or a core has failed.
     fn run(&self) {
         loop {
             let first = self.next.fetch_add(PART_POINTS, Ordering::Relaxed);

@@ -27,9 +27,10 @@ pub(crate) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// The first arguments of all kernels that read a chunk's table, in the order of the sources.
-    /// Kernels that read no rolls leave out the last two arguments, and `block_turns` leaves out
-    /// the last.
+    /// The first arguments of the kernels that work on a chunk, apart from `caps`, `cap_attributes`
+    /// and `mesh_per_yarn`, in the order of the sources. Kernels that read no rolls leave out the
+    /// last two arguments, `block_turns` leaves out the last, and `packed_caps` has the first
+    /// three.
     pub(crate) fn inputs(
         &self,
         params: &'a Params,
@@ -51,7 +52,7 @@ impl<'a> Work<'a> {
 /// The kernels of a schedule. The memory that is passed to them holds the chunk's tables, and has
 /// room for what the stage writes.
 pub(crate) trait Kernels: Debug + Send {
-    /// Whether `mesh` reads the rings of `trajectory`, rather than work them out itself.
+    /// Whether `mesh` reads the rings that `trajectory` made, instead of working them out itself.
     fn mesh_reads_rings(&self) -> bool;
 
     /// The first half of the scan: the turn of each block of the chunk.

@@ -14,7 +14,8 @@ const OBLIQUE_HEIGHT: f32 = 0.72;
 /// The angle between the line of sight and the cloth's plane in close-ups, radians.
 const CLOSE_HEIGHT: f32 = 0.95;
 
-/// How far the eye stands to the left of the cloth's middle in close-ups, radians.
+/// The turn of the eye about the point that a close-up shows, radians. It is negative, so the eye
+/// stands to the left.
 const CLOSE_TURN: f32 = -0.35;
 
 /// The threads that a cut goes through.
@@ -85,7 +86,7 @@ pub struct Camera {
 
 impl Camera {
     /// The default field of view, from the picture's lower to its upper edge, radians. It is that
-    /// of a portrait lens, in which parallel threads look parallel.
+    /// of a portrait lens, in which parallel threads look nearly parallel.
     pub const FIELD_OF_VIEW: f32 = 0.42;
 
     /// The whole cloth from straight above its face, its threads along the picture's edges.
@@ -120,8 +121,9 @@ impl Camera {
         }
     }
 
-    /// The whole cloth from above its lower edge, turned by `turn` radians about its middle:
-    /// counter-clockwise as seen from above.
+    /// The whole cloth from above. The eye stands on the side of the cloth's lower edge, and is
+    /// then turned by `turn` radians about the cloth's middle, counter-clockwise as seen from
+    /// above.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn oblique(extent: &Extent, turn: f32, size: [u32; 2]) -> Result<Self, RenderError> {
@@ -172,7 +174,7 @@ impl Camera {
     /// A view in perspective from any point. `field_of_view` is the angle from the picture's lower
     /// to its upper edge, radians.
     ///
-    /// Light comes from above the cloth if the eye is above the target, and else from below.
+    /// Light comes from below the cloth if the eye is below the target, and else from above.
     ///
     /// ```
     /// # use texere_core::{ControlPoint, Yarn, Yarns};
@@ -207,7 +209,8 @@ impl Camera {
     /// picture's height shows, mm. The whole depth of the cloth is in the picture, however near the
     /// eye is.
     ///
-    /// **Errors**: [`RenderError::Camera`], as for [`Camera::perspective`].
+    /// **Errors**: [`RenderError::Camera`] for a height that is not a finite number above zero, and
+    /// for the poses that [`Camera::perspective`] refuses.
     pub fn orthographic(
         extent: &Extent,
         pose: &Pose,

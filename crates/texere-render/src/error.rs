@@ -18,7 +18,8 @@ pub enum RenderError {
         /// The longest side that the device allows.
         limit: u32,
     },
-    /// The picture fits the device's textures, but its supersampled screen does not.
+    /// The picture fits the device's textures, but its supersampled screen does not, or the
+    /// supersampling is 0.
     #[error(
         "supersampled {supersampling} times, a picture of {width} × {height} pixels is not between 1 × 1 and {limit} × {limit}; \
          {most} times is the most"

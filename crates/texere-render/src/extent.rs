@@ -14,8 +14,8 @@ pub struct Extent {
     pub low: [f32; 3],
     /// The greatest x, y and z, mm.
     pub high: [f32; 3],
-    /// The mean radius of the fabric's yarns, mm. A flattened yarn counts with the radius of a
-    /// round yarn of the same area.
+    /// The mean radius of the fabric's yarns over all control points, mm. A flattened yarn counts
+    /// with the radius of a round yarn of the same area.
     pub radius: f32,
 }
 

@@ -8,7 +8,8 @@
 //!
 //! A [`Renderer`] is an open device with its shaders, a [`Scene`] is a fabric on it, and a
 //! [`Camera`] is a view of the fabric. Compute shaders draw every triangle straight from control
-//! points, chunk after chunk, without a mesh. Then each visible pixel is lit once.
+//! points, chunk after chunk, without a mesh. Then the samples of the screen are lit, and pixels
+//! are made from them.
 
 mod axes;
 mod background;

@@ -41,7 +41,7 @@ impl Camera {
     /// The line of sight through a point of the picture, in pixels from the picture's left and
     /// upper edges. The middle of a pixel is at a half. The line begins at the eye or, if lines of
     /// sight are parallel, before the cloth, and its direction has length 1. A picker finds the
-    /// triangle that it hits.
+    /// triangle that the line hits.
     #[must_use]
     pub fn ray(&self, [x, y]: [f32; 2]) -> Ray {
         let [width, height] = self.size().map(f64::from);

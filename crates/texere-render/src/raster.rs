@@ -32,7 +32,7 @@ struct Sweep {
 const _: () = assert!(size_of::<Sweep>() == 32);
 
 /// The most blocks of a chunk on CPUs and on GPUs with memory of their own: 67 million rings, which
-/// these GPUs draw in a hundredth of a second. On other GPUs chunks are smaller, so that the
+/// these GPUs draw in a hundredth of a second. On other devices chunks are smaller, so that the
 /// desktop does not wait for them. Few large chunks are faster than many small ones, because after
 /// each chunk all samples are gone through once.
 const BLOCKS_MOST: u64 = 1 << 20;
@@ -43,7 +43,7 @@ const ROLL_BYTES: u64 = 8;
 /// The bytes of a block in the three lists of `Listed`. The three counts have as many.
 const LISTED_BYTES: u64 = 12;
 
-/// The bytes of the workgroups of one indirect dispatch.
+/// The bytes of the three numbers of workgroups of one indirect dispatch.
 const GROUPS_BYTES: u64 = 12;
 
 /// The number of blocks that a workgroup of `cull` tests: `CULL_GROUP / BLOCK_LANES` of
@@ -57,7 +57,7 @@ const LISTED_BLOCKS: u32 = 64;
 /// chunk so far needed.
 #[derive(Debug)]
 pub(crate) struct Raster {
-    /// What the next picture shows: the scene's.
+    /// The view of the next picture, which the scene writes.
     view: wgpu::Buffer,
     /// The parameters of each round. With 32-bit atomics the first round finds depths and the
     /// second finds triangles. With 64-bit atomics there is one round.

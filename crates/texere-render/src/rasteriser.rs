@@ -88,8 +88,8 @@ impl Rasteriser {
         Self { resolve: Cow::Owned(resolve), ..self }
     }
 
-    /// The shaders for a kind of fabric. `watch` is asked after each that is compiled, for a driver
-    /// takes a tenth of a second for some.
+    /// The shaders for a kind of fabric. The callback of `watch` is called after each shader that
+    /// is compiled, because a driver takes a tenth of a second for some.
     ///
     /// **Errors**: [`RenderError::Backend`], [`RenderError::Cancelled`].
     pub(crate) fn pipelines(
@@ -127,7 +127,7 @@ impl Rasteriser {
             hairs: if hairy { Some(pipeline(&module(self.hairs)?, "hairs")?) } else { None },
             resolve: pipeline(&resolve, "resolve")?,
         };
-        // Another scene may have been faster.
+        // Another scene may have compiled them meanwhile.
         Ok(place.get_or_init(|| Arc::new(compiled)).clone())
     }
 }

@@ -41,7 +41,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Compiles the shaders for `device`.
+    /// Compiles the shaders of visibility and of pixels for `device`. All other shaders are
+    /// compiled at their first use.
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub fn new(device: WgpuBackend) -> Result<Self, BackendError> {
@@ -61,7 +62,7 @@ impl Renderer {
         Ok(Self { device, rasteriser, visibility, shade, gather, screen })
     }
 
-    /// The pipeline that lights samples.
+    /// The pipeline that lights samples, for near views or, with `is_far`, for far views.
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub(crate) fn shade(&self, is_far: bool) -> Result<&wgpu::ComputePipeline, BackendError> {
@@ -101,7 +102,7 @@ impl Renderer {
         &self.device
     }
 
-    /// The longest side of a supersampled picture, pixels.
+    /// The longest side that the device allows a supersampled picture, pixels.
     pub(crate) fn side_limit(&self) -> u32 {
         self.device.device().limits().max_texture_dimension_2d
     }

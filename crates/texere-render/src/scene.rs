@@ -22,10 +22,12 @@ use crate::{Background, Camera, Extent, RenderError, Renderer};
 /// The number of chunks whose tables a session keeps on the device.
 const CHUNKS_KEPT: usize = 2;
 
-/// Control points of an upload: 16 MB, so that a wish to stop is heard in between.
+/// The number of control points that are sent at once: 16 MB. In between, the progress callback can
+/// stop the work.
 const UPLOAD_POINTS: usize = 1 << 20;
 
-/// The share of a picture's progress at which all chunks are drawn, and at which they are lit.
+/// The share of a picture's progress at which all chunks are drawn, and the share at which the
+/// picture is lit.
 const DRAWN: f64 = 0.7;
 const LIT: f64 = 0.9;
 
@@ -55,9 +57,10 @@ const FINE_SIDES: u32 = 16;
 /// larger cloths are hardly wider than pixels.
 const FINE_POINTS: usize = 4_000_000;
 
-/// The default number of sides of tubes in a picture. Polygons have as many sides as corners.
-/// `lies_close` is whether the yarns are flattened threads of woven cloth at rest. These lie so
-/// close that with fewer sides the ground would show past their corners.
+/// The default number of sides of tubes in a picture. If a section is a polygon, it is the number
+/// of its corners. `lies_close` is whether the yarns are flattened threads of woven cloth at rest.
+/// These get more sides than others, unless the cloth is so large that its threads are hardly wider
+/// than pixels. They lie so close that with fewer sides the ground would show past their corners.
 ///
 /// **Units**: sides of a section, as in [`Settings::sides`].
 #[must_use]
@@ -96,7 +99,8 @@ impl Picture {
 /// The time that each stage of a picture took. Stages follow one another.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PictureTimings {
-    /// The time for allocating textures, if the picture before had another size.
+    /// The time before drawing: for allocating textures, if the picture before had another size,
+    /// and for compiling the shader of light, if it was not used before.
     pub screen: Duration,
     /// The time for finding what each sample shows, chunk after chunk.
     pub draw: Duration,
@@ -127,7 +131,7 @@ pub struct Scene {
     is_far: bool,
     /// The camera of the last picture.
     pub(crate) camera: Option<Camera>,
-    /// What a picture that was not finished has left to the device.
+    /// The submission that the device may still work on after a picture was stopped.
     under_way: Option<wgpu::SubmissionIndex>,
 }
 
@@ -139,7 +143,7 @@ pub struct DevicePicture {
     /// picture of the same size is drawn into it. After the scene is dropped, another scene of the
     /// renderer may use it.
     pub texture: wgpu::TextureView,
-    /// The time that each stage of the picture took. Nothing is copied.
+    /// The time that each stage of the picture took. The time for the copy is zero.
     pub timings: PictureTimings,
 }
 
@@ -155,7 +159,7 @@ impl Renderer {
     }
 
     /// Sends a fabric to the device as [`Renderer::scene`] does. `progress` gets the share of the
-    /// control points that are sent, from 0 to 1; `Break` ends it.
+    /// control points that are sent, from 0 to 1. If it returns `Break`, no more are sent.
     ///
     /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Cancelled`].
     pub fn scene_with_progress(
@@ -279,15 +283,15 @@ impl Scene {
     /// Makes a picture.
     ///
     /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for a picture that is
-    /// too large for the device's textures, [`RenderError::Plan`] if not even one block fits the
-    /// limits, [`RenderError::Backend`].
+    /// empty or too large for the device's textures, or supersampled 0 times; [`RenderError::Plan`]
+    /// if not even one block fits the limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
         self.picture_with_progress(camera, quality, |_| ControlFlow::Continue(()))
     }
 
     /// Makes a picture as [`Scene::picture`] does. `progress` gets the share of the work done, from
-    /// 0 to 1, and is asked every ten milliseconds while the device works. `Break` ends the wait;
-    /// what the device has begun goes on, and the next picture comes after it.
+    /// 0 to 1, and is called every ten milliseconds while the device works. `Break` ends the wait.
+    /// The device finishes what it has begun, and the next picture waits for that.
     ///
     /// **Errors**: those of [`Scene::picture`], and [`RenderError::Cancelled`].
     pub fn picture_with_progress(
@@ -325,7 +329,7 @@ impl Scene {
         let start = Instant::now();
         let texture = self.look(camera, quality)?;
         let screened = Instant::now();
-        // A picture that was not finished shows nothing at any point.
+        // After a picture that was not finished, `seen_at` finds nothing at any point.
         let drawn = self.draw(watch).map(|()| Instant::now());
         let lit = drawn.and_then(|drawn| self.shade(watch).map(|()| drawn));
         let drawn = lit.inspect_err(|_| {

@@ -26,7 +26,8 @@ const KEY_BYTES: u64 = 8;
 const KEYS_MOST: u64 = 256 << 20;
 
 /// The memory for pictures of one size. It takes 8 bytes a pixel, and 132 bytes times the square of
-/// the supersampling; less if a binding can't hold the keys of all samples.
+/// the supersampling. It takes less if the keys of all samples would need more than [`KEYS_MOST`]
+/// or than a binding holds.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],

@@ -27,8 +27,9 @@ const MARKS: u32 = 0xc000_0000;
 
 impl Scene {
     /// What the last picture shows at a point, in pixels from its left and upper edges. None if it
-    /// shows no yarn there, if the point lies outside the picture, and before the first picture.
-    /// The result is read from the picture's samples, so its time does not grow with the fabric.
+    /// shows no yarn there, if the point lies outside the picture, before the first picture, and
+    /// after a picture that was stopped. The result is read from the picture's samples, so its time
+    /// does not grow with the fabric.
     ///
     /// ```no_run
     /// # fn example(scene: &texere_render::Scene) -> Result<(), texere_render::RenderError> {

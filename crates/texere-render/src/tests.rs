@@ -48,7 +48,7 @@ fn open(rasteriser: Rasteriser) -> Renderer {
     Renderer::with_rasteriser(device, rasteriser).unwrap()
 }
 
-/// One device for all tests. Pictures are drawn one at a time, so that lavapipe has all cores to
+/// One device for most tests. Pictures are drawn one at a time, so that lavapipe has all cores to
 /// itself.
 fn renderer() -> &'static Mutex<Renderer> {
     static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
@@ -231,7 +231,7 @@ fn chunks_draw_the_same_picture() {
     }
 }
 
-/// The screen has more samples than a binding holds.
+/// The keys of the screen's samples do not fit one binding, so the picture is drawn in bands.
 #[test]
 fn bands_draw_the_same_picture() {
     let yarns = TWILL.yarns();
@@ -247,7 +247,8 @@ fn bands_draw_the_same_picture() {
     }
 }
 
-/// From rest to the picture no byte goes through the host but the report.
+/// Tests that settled yarns are drawn without a byte of them going through the host. The picture is
+/// that of the same yarns sent from the host, and the box round them is hardly larger.
 #[test]
 fn settled_yarns_are_drawn_where_they_rest() {
     let yarns = TWILL.yarns();
@@ -341,7 +342,7 @@ fn flattened(yarns: &Yarns) -> Yarns {
     flat
 }
 
-/// Either kind of atomics, with any chunks, gives the same bytes.
+/// Either kind of atomics gives the same bytes.
 #[test]
 fn either_kind_of_atomics_gives_the_same_picture() {
     let yarns = TWILL.yarns();
@@ -354,7 +355,7 @@ fn either_kind_of_atomics_gives_the_same_picture() {
     }
 }
 
-/// Whether a pixel is yarn and not the grey ground.
+/// Whether a pixel shows red yarn and not the grey ground.
 fn is_red(image: &RgbImage, x: u32, y: u32) -> bool {
     let [red, green, blue] = image.get_pixel(x, y).0.map(i32::from);
     red > green + 25 && red > blue + 25

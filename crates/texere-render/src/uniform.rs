@@ -107,7 +107,7 @@ impl ViewUniform {
 
 /// How far a pixel reaches for its samples, pixels, if threads are `thickness` pixels wide. Below
 /// two pixels the pattern of the threads themselves is finer than pixels can show, and the reach is
-/// a whole pixel. Up to four pixels the reach falls to 0.
+/// a whole pixel. From there to four pixels the reach falls to 0.
 fn spread(thickness: f32) -> f32 {
     (2.0 - 0.5 * thickness).clamp(0.0, 1.0)
 }

@@ -6,11 +6,11 @@ use texere_wgpu::WgpuBackend;
 
 use crate::RenderError;
 
-/// The caller's progress callback, and the share of the work that it was told last.
+/// The caller's progress callback, and the share of the work that was last passed to it.
 pub(crate) struct Watch<'a> {
     progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     done: f64,
-    /// What was waited for when the callback asked to stop.
+    /// The submission that was waited for when the callback asked to stop.
     under_way: Option<wgpu::SubmissionIndex>,
 }
 
@@ -19,7 +19,7 @@ impl<'a> Watch<'a> {
         Self { progress, done: 0.0, under_way: None }
     }
 
-    /// Tells the share of the work that is done, from 0 to 1.
+    /// Passes the share of the work that is done, from 0 to 1, to the callback.
     ///
     /// **Errors**: [`RenderError::Cancelled`].
     pub(crate) fn tell(&mut self, done: f64) -> Result<(), RenderError> {
@@ -34,7 +34,7 @@ impl<'a> Watch<'a> {
         self.tell(self.done)
     }
 
-    /// Waits until `submission` is done, and asks the callback in between.
+    /// Waits until `submission` is done, and asks the callback every ten milliseconds.
     ///
     /// **Errors**: [`RenderError::Cancelled`], [`RenderError::Backend`].
     pub(crate) fn wait(
@@ -50,7 +50,8 @@ impl<'a> Watch<'a> {
         Err(RenderError::Cancelled)
     }
 
-    /// What the device still works on where a wait was ended.
+    /// The submission that the device may still work on, if the callback ended a wait. It is
+    /// returned once.
     pub(crate) const fn take_under_way(&mut self) -> Option<wgpu::SubmissionIndex> {
         self.under_way.take()
     }

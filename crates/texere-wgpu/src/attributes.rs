@@ -16,7 +16,7 @@ pub(crate) struct AttributeKernels {
 }
 
 impl AttributeKernels {
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::DeviceLost`] for a lost device.
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
         // Attributes do not depend on half widths and half heights.
         let kernel = |shader| Kernel::new(gpu, shader, false);

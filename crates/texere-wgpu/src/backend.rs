@@ -79,7 +79,7 @@ impl WgpuBackend {
     ///
     /// **Errors**: [`BackendError::NoDevice`], which lists the devices that exist;
     /// [`BackendError::Driver`] if the device can't be opened; [`BackendError::Compile`];
-    /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
+    /// [`BackendError::DeviceLost`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
         let adapter =
@@ -130,7 +130,7 @@ impl WgpuBackend {
     /// ```
     ///
     /// **Errors**: [`BackendError::Compile`], also if the device's limits are below WebGPU's
-    /// defaults.
+    /// defaults; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn from_device(
         device: wgpu::Device,
         queue: wgpu::Queue,
@@ -145,8 +145,9 @@ impl WgpuBackend {
         Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
     }
 
-    /// This device with `limits`, if its own are wider. Use it for a device with less memory than
-    /// its bindings could hold, or to test with many small chunks.
+    /// This device with each of its limits lowered to that of `limits`, if that is lower. Use it
+    /// for a device with less memory than its bindings could hold, or to test with many small
+    /// chunks.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         let info = DeviceInfo { limits: self.info.limits.min(&limits), ..self.info };
@@ -201,8 +202,9 @@ impl WgpuBackend {
         self.opened.gpu.wait(submission)
     }
 
-    /// Waits until `submission` is done, or until `goes_on` says no, which is asked every ten
-    /// milliseconds. Gives whether it is done. What is not done goes on in the device.
+    /// Waits until `submission` is done, or until `goes_on` returns false. `goes_on` is called
+    /// every ten milliseconds. Returns whether the submission is done. If it is not, the device
+    /// goes on with it.
     ///
     /// **Errors**: those of [`WgpuBackend::wait`].
     pub fn wait_while(

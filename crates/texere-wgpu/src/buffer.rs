@@ -11,7 +11,7 @@ pub(crate) struct Buffer {
     what: &'static str,
     usage: BufferUsages,
     buffer: wgpu::Buffer,
-    /// Whether the buffer has ever held anything. There is a `wgpu::Buffer` even before that,
+    /// Whether room for anything was ever asked for. There is a `wgpu::Buffer` even before that,
     /// because wgpu can't bind an empty buffer.
     used: bool,
 }

@@ -13,7 +13,8 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::tables::Tables;
 
-/// The memory of one chunk at a time. It is used again for the next chunk but one.
+/// The memory of one chunk at a time. A session has two, and uses this memory again for the next
+/// chunk but one. A live mesh has one for each of its chunks.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,
@@ -62,7 +63,7 @@ impl ChunkMemory {
         [blocks, cap_rows, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
-    /// Sends the tables of another chunk.
+    /// Sends the parameters and the tables of `chunk`, whose block table is `rows`.
     pub(crate) fn load(
         &mut self,
         gpu: &Gpu,

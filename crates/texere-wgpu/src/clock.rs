@@ -54,8 +54,8 @@ struct Pending {
 #[derive(Debug)]
 struct Stamps {
     queries: wgpu::QuerySet,
-    /// The ticks that queries are resolved to, with one stamp for each
-    /// [`wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT`].
+    /// The ticks that queries are resolved to. A stamp begins at each multiple of
+    /// [`wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT`] bytes.
     resolved: wgpu::Buffer,
     /// A buffer for each stamp, since a mapped buffer can't be copied to.
     mapped: Vec<wgpu::Buffer>,

@@ -75,7 +75,7 @@ impl WgpuEngine {
         self.memory(slot).resource(&self.tables, resource)
     }
 
-    /// Whether a flattened control point was ever uploaded.
+    /// Whether a flattened control point was ever uploaded or taken from a settler.
     pub(crate) fn is_flattened(&self) -> bool {
         self.ends.flattened()
     }
@@ -123,33 +123,33 @@ impl WgpuEngine {
     }
 
     /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal,
-    /// from the start of the buffer, which may be longer. None if nothing was made yet. Its usages
-    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// from the start of the buffer, which may be longer. None if no chunk was loaded into the slot
+    /// yet. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn vertex_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.vertices.buffer())
     }
 
     /// The indices of the chunk in `slot`: [`Chunk::indices`] of four bytes, from the start of the
-    /// buffer, which may be longer. None if nothing was made yet. A topology other than
-    /// [`Indexed`](texere_core::Topology::Indexed) has none. Its usages are `INDEX`, `STORAGE` and
-    /// `COPY_SRC`.
+    /// buffer, which may be longer. None if no chunk was loaded into the slot yet. A topology other
+    /// than [`Indexed`](texere_core::Topology::Indexed) has none. Its usages are `INDEX`, `STORAGE`
+    /// and `COPY_SRC`.
     #[must_use]
     pub fn index_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.indices.buffer())
     }
 
     /// The attributes of the chunk in `slot`: one of 24 bytes for each vertex, from the start of
-    /// the buffer, which may be longer. None if nothing was made yet. Its usages are `VERTEX`,
-    /// `STORAGE` and `COPY_SRC`.
+    /// the buffer, which may be longer. None if no chunk was loaded into the slot yet. Its usages
+    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn attribute_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.attributes.buffer())
     }
 
     /// The packed vertices of the chunk in `slot`: one of 12 bytes for each vertex, from the start
-    /// of the buffer, which may be longer. None if nothing was made yet. Its usages are `VERTEX`,
-    /// `STORAGE` and `COPY_SRC`.
+    /// of the buffer, which may be longer. None if no chunk was loaded into the slot yet. Its
+    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn packed_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.packed.buffer())
@@ -210,7 +210,8 @@ impl WgpuEngine {
                 self.load(slot, &chunk)?;
             }
             self.check_loaded(slot, &chunk)?;
-            // A repeated ring has no step. The next chunk writes the ring's block later.
+            // The row of a repeated ring has no steps, so 0 is written for a block. That block is
+            // the next chunk's first, which overwrites the 0 later.
             self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
             last = Some((slot, chunk));
         }
@@ -273,7 +274,7 @@ impl Engine for WgpuEngine {
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let kernels = self.kernels.clone();
-        // The other schedule refuses plans with rolls.
+        // The schedule per-yarn refuses plans with rolls.
         let Kernels::PerRing(kernels) = &*kernels else { return Ok(()) };
         self.run_over(chunks, &kernels.block_turns, &kernels.yarn_rolls)
     }

@@ -9,14 +9,14 @@ use texere_core::{BackendError, OutOfMemory};
 use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 
 /// The time after which the wait for a submission ends with an error. A chunk takes milliseconds on
-/// a GPU and seconds on a software device. A chunk that takes two minutes is taken to hang.
+/// a GPU and seconds on a software device. A chunk that takes two minutes is considered to hang.
 pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
 
-/// How long a wait that may be ended goes on before it is asked for again.
+/// The time after which a wait that a caller may end asks the caller whether to go on.
 const ASKED: Duration = Duration::from_millis(10);
 
-/// Every buffer's length is a multiple of this, bytes: that of the widest element of a shader's
-/// array.
+/// Every buffer's length is a multiple of this number of bytes, which is the size of the widest
+/// element of a shader's array.
 const BUFFER_STEP: u64 = 16;
 
 /// A device and its queue.
@@ -114,8 +114,9 @@ impl Gpu {
     /// A buffer of at least `bytes`, rounded up to a multiple of [`BUFFER_STEP`]. It is never
     /// empty, since wgpu can't bind an empty buffer.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for more than the device's largest buffer,
-    /// or, if a storage buffer is bound whole, for more than its largest binding.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for more than the device's largest buffer;
+    /// [`BackendError::Driver`]; [`BackendError::DeviceLost`]. Whether the buffer fits a binding is
+    /// not checked.
     pub(crate) fn buffer(
         &self,
         what: &'static str,
@@ -144,7 +145,7 @@ impl Gpu {
         self.scoped("Queue::write_buffer", || self.queue.write_buffer(buffer, offset, bytes))
     }
 
-    /// Waits until `submission` is done, and runs the callbacks of all submissions that are.
+    /// Waits until `submission` is done, and runs the callbacks of all submissions that are done.
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub(crate) fn wait(&self, submission: SubmissionIndex) -> Result<(), BackendError> {
@@ -154,8 +155,8 @@ impl Gpu {
         Err(BackendError::Driver { call: "Device::poll", source: PollError::Timeout.into() })
     }
 
-    /// Waits until `submission` is done, or until `goes_on` says no, which is asked every ten
-    /// milliseconds. Gives whether it is done.
+    /// Waits until `submission` is done, or until `goes_on` returns false. `goes_on` is called
+    /// every ten milliseconds. Returns whether the submission is done.
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub(crate) fn wait_while(
@@ -175,7 +176,7 @@ impl Gpu {
         self.wait(submission.clone()).map(|()| true)
     }
 
-    /// Waits until `submission` is done, or as long as `limit`. Gives whether it is done.
+    /// Waits until `submission` is done, but no longer than `limit`. Returns whether it is done.
     fn waits(&self, submission: SubmissionIndex, limit: Duration) -> Result<bool, BackendError> {
         self.check_alive()?;
         let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(limit) };

@@ -151,7 +151,8 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Loops run up to a count, to a place in a list, which is below its buffer's length, or over
     //   halves of a workgroup.
     // - Divisors of whole numbers are a cell's size and the counts of cells, which the host makes
-    //   at least 1, and the repeat, if there is one. In the shaders of crossings:
+    //   at least 1, and the repeat, if there is one.
+    // In the shaders of crossings:
     // - A site beside another is one of the plan's, or is not read: its end is less than the number
     //   of ends, and its pick less than the number of picks. The plan's tables are bound whole, as
     //   is every buffer with a value for each crossing. There is a row for each pass number that

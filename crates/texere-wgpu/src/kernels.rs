@@ -13,7 +13,7 @@ use crate::per_yarn::PerYarn;
 pub(crate) enum Kernels {
     /// The schedule in which a lane makes a ring.
     PerRing(Box<PerRing>),
-    /// The paper's schedule, in which a lane makes a yarn.
+    /// The paper's schedule, in which a lane makes a yarn, or a part of a yarn.
     PerYarn(Box<PerYarn>),
 }
 
@@ -21,8 +21,8 @@ impl Kernels {
     /// Compiles the shaders of `schedule` for round yarns alone, or, with `flattened`, for all
     /// yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for
-    /// [`Schedule::Serial`].
+    /// **Errors**: [`BackendError::Compile`]; [`BackendError::DeviceLost`];
+    /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub(crate) fn new(gpu: &Gpu, schedule: Schedule, flattened: bool) -> Result<Self, BackendError> {
         Ok(match schedule {
             Schedule::PerRing => Self::PerRing(Box::new(PerRing::new(gpu, flattened)?)),

@@ -36,8 +36,8 @@ pub(crate) struct Opened {
 impl Opened {
     /// Compiles the shaders for round yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for
-    /// [`Schedule::Serial`].
+    /// **Errors**: [`BackendError::Compile`]; [`BackendError::DeviceLost`];
+    /// [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub(crate) fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
         let round = Arc::new(Kernels::new(&gpu, schedule, false)?);
         Ok(Self {
@@ -54,7 +54,7 @@ impl Opened {
 
     /// The shaders for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::DeviceLost`].
     pub(crate) fn flattened(&self) -> Result<Arc<Kernels>, BackendError> {
         compiled(&self.flattened, || Kernels::new(&self.gpu, self.schedule, true))
     }
@@ -62,7 +62,7 @@ impl Opened {
     /// The shaders that make attributes.
     ///
     /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn,
-    /// [`BackendError::Compile`].
+    /// [`BackendError::Compile`], [`BackendError::DeviceLost`].
     pub(crate) fn attributes(&self) -> Result<Arc<AttributeKernels>, BackendError> {
         if self.schedule != Schedule::PerRing {
             return Err(BackendError::NoAttributes);
@@ -72,7 +72,8 @@ impl Opened {
 
     /// The shaders that pack vertices, for round yarns alone, or, with `flattened`, for all yarns.
     ///
-    /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`],
+    /// [`BackendError::DeviceLost`].
     pub(crate) fn packing(&self, flattened: bool) -> Result<Arc<PackedKernels>, BackendError> {
         if self.schedule != Schedule::PerRing {
             return Err(BackendError::NoPacking);
@@ -84,7 +85,7 @@ impl Opened {
     /// The shaders that bring yarns to rest, for round yarns alone, or, with `flattened`, for all
     /// yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::DeviceLost`].
     pub(crate) fn settling(&self, flattened: bool) -> Result<Arc<SettlingKernels>, BackendError> {
         let place = &self.settling[usize::from(flattened)];
         compiled(place, || SettlingKernels::new(&self.gpu, flattened))
@@ -92,7 +93,7 @@ impl Opened {
 
     /// The shaders that bring crossings to rest.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], [`BackendError::DeviceLost`].
     pub(crate) fn crossings(&self) -> Result<Arc<CrossingsKernels>, BackendError> {
         compiled(&self.crossings, || CrossingsKernels::new(&self.gpu))
     }
@@ -107,6 +108,6 @@ fn compiled<T>(
         return Ok(compiled.clone());
     }
     let compiled = Arc::new(compile()?);
-    // Another session may have compiled the program meanwhile.
+    // Another engine or settler may have compiled the shaders meanwhile.
     Ok(place.get_or_init(|| compiled).clone())
 }

@@ -18,7 +18,7 @@ pub(crate) struct PackedKernels {
 impl PackedKernels {
     /// Compiles the shaders for round yarns alone, or with `flattened` for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::DeviceLost`] for a lost device.
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
         let kernel = |shader| Kernel::new(gpu, shader, flattened);
         Ok(Self { tubes: kernel(&PACKED)?, tubes_odd: kernel(&PACKED_ODD)?, caps: kernel(&PACKED_CAPS)? })

@@ -21,7 +21,7 @@ pub(crate) struct PerRing {
 impl PerRing {
     /// Compiles the shaders for round yarns alone, or with `flattened` for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::DeviceLost`] for a lost device.
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
         let kernel = |shader| Kernel::new(gpu, shader, flattened);
         Ok(Self {

@@ -21,7 +21,7 @@ pub(crate) struct PerYarn {
 impl PerYarn {
     /// Compiles the shaders for round yarns alone, or with `flattened` for all yarns.
     ///
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::DeviceLost`] for a lost device.
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
         Ok(Self {
             trajectory: Kernel::new(gpu, &TRAJECTORY_PER_YARN, flattened)?,

@@ -1,4 +1,5 @@
-//! Sessions on a device: readback, times and refusals. The suite tests misuse and edits.
+//! Sessions on a device: readback, times and refusals. The conformance suite tests misuse and
+//! edits.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 

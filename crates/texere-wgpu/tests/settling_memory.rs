@@ -13,7 +13,8 @@ use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::INSTALL;
 
-/// The number of neighbours, and all places after a list and three passes.
+/// The number of neighbours that are listed at the start, and all places after three passes in the
+/// block form.
 fn course(device: &WgpuBackend, plan: &Arc<SettlingPlan>) -> Result<(u64, Vec<Place>), BackendError> {
     let points = plan.places().iter().zip(plan.tags()).filter(|(_, tags)| *tags & tag::POINT != 0);
     let mut places: Vec<Place> = points.map(|(place, _)| *place).collect();
@@ -45,7 +46,8 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
     };
     let mut device = open();
     let mut each = Vec::new();
-    // From 32 MB to 1 kB; limits only become stricter.
+    // The limit goes from 32 MiB down to 1 KiB, because `with_limits` can only make limits
+    // stricter.
     for power in (10..26).rev() {
         device = device.with_limits(Limits { binding_bytes: 1 << power, ..Limits::NONE });
         each.extend(refused(&device));

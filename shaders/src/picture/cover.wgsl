@@ -35,8 +35,9 @@ fn screen_scale() -> vec4<f32> {
     return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
-// Floats near 3 * 2^22 lie 1 apart, and their last bits count them. A sum with ROUNDER therefore
-// rounds to whole numbers. A GPU takes eight times as long for a conversion.
+// Floats near 3 * 2^22 lie 1 apart. A sum with ROUNDER is therefore rounded to a whole number, and
+// the bits of the float, less ROUNDER_BITS, are that number. A GPU takes eight times as long for a
+// conversion.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
 
@@ -77,9 +78,9 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// The sizes of quads, a bit for each. NONE has no samples. SMALL has samples of at most two by two
-// pixels, FEW those of some pixels more, and MANY any number. A quad with a corner beyond REACHED
-// is MANY.
+// The sizes of quads, a bit for each. A quad is NONE if no pixel lies in its box, SMALL if at most
+// two by two pixels do, FEW if the box has at most about ALONE samples, and else MANY. A quad with
+// a corner beyond REACHED is MANY.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
@@ -179,7 +180,7 @@ fn size_of(box: QuadBox, alone: i32) -> u32 {
 }
 
 // A bit for each sample in the box of a SMALL quad. There are four bits for a pixel, row by row
-// from the pixel of the least x and y on. Most quads lie between samples.
+// from the pixel of the least x and y on. Most SMALL quads lie between samples and have no bit.
 fn samples_of(box: QuadBox) -> u32 {
     let first = box.first;
     let last = box.last;

@@ -156,7 +156,7 @@ fn draw_few(quad: Quad, triangle: u32) {
                     let corner = vec2(x, y) * 256 - middle() - origin;
                     let own = samples_in(vec2(x, y));
                     let places = Four(own.x + corner.x, own.y + corner.y);
-                    // Negative if either sum is.
+                    // Each is negative if either of its two sums is.
                     let in_first = sums_at(pr, places) | sums_at(qp, places);
                     let in_second = sums_at(sq, places) | sums_at(rs, places);
                     let inside = select(in_second, in_first, sums_at(diagonal, places) >= vec4(0)) >= vec4(0);

@@ -6,7 +6,7 @@
 
 // Rust: texere_render's Sweep, 32 bytes. A sweep goes through the chunk's blocks once.
 struct Sweep {
-    // The first row of the screen that has keys, and the number of rows that have.
+    // The first row of the screen that has keys, and the number of such rows.
     first_row: u32,
     rows: u32,
     // If keys have 32 bits, sweep 0 finds depths and sweep 1 finds triangles.

@@ -5,7 +5,7 @@
 // shader.
 
 // The most hairs of a gap, and the number of straight parts of each hair. In Rust these two numbers
-// and the next are in texere_render's hairs.rs.
+// and the next two are in texere_render's hairs.rs.
 const HAIRS_OF_GAP = 16u;
 const HAIR_PARTS = 16u;
 

@@ -2,8 +2,8 @@
 // cover.wgsl and hair.wgsl.
 //
 // A fibre is drawn as a ribbon that faces the eye, at its true width. If the width is less than the
-// distance of samples, the ribbon covers as few samples as its area does. Thin fibres thus come out
-// fainter, not thicker.
+// distance of samples, the ribbon covers only as many samples as correspond to its area. Thin
+// fibres thus come out fainter, not thicker.
 
 const HAIR_GROUP = 128u;
 

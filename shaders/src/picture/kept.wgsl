@@ -8,11 +8,12 @@ fn pair_of(both: vec2<u32>) -> u32 {
 }
 
 // Four numbers: the normal and the direction of fibres, each as an octahedron; the yarn's number;
-// and the place on the yarn. That is the angle round it, 65,536 to a turn, and the distance along
-// it, in eighths of rings.
+// and the place on the yarn. The place is the angle round the yarn, 65,535 to a turn, and the
+// distance along the yarn, in eighths of rings, of which the lowest 16 bits are kept.
 //
 // `fibre` is the direction along the facet, `angle` the angle round the yarn in turns, and `along`
-// the distance along it in rings. `yarn` is the yarn's number, marked CUT on a cap.
+// the distance along it in rings. `yarn` is the yarn's number, marked CUT on a cap and HAIR on a
+// fibre that stands off.
 fn kept_of(normal: vec3<f32>, fibre: vec3<f32>, angle: f32, along: f32, yarn: u32, is_front: bool) -> vec4<u32> {
     var facing = normalize(normal);
     var number = yarn;

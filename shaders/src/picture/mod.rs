@@ -15,13 +15,14 @@
 //! | `raster.wgsl` | `raster`, `raster_few`, `raster_many`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | the encoding of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works out what each sample shows, from the number of its nearest triangle |
-//! | `screen.wgsl` | | reads that back: stands before `visibility.wgsl` and `shade.wgsl` |
+//! | `screen.wgsl` | | reads back what `resolve` has written: stands before `visibility.wgsl` and `shade.wgsl` |
 //! | `visibility.wgsl` | `visibility` | ambient occlusion and shadow, on the screen |
 //! | `shade.wgsl` | `shade` | light and tone mapping, sample by sample |
 //! | `lit.wgsl` | | the encoding of a lit sample |
 //! | `gather.wgsl` | `gather` | the pixels of the picture, from the samples in and about each |
 
-/// The view, and the encoding of samples. This source stands before all shaders that write samples.
+/// The view, and the encoding of samples. A shader that draws a mesh into samples by a device's own
+/// rasteriser follows this source.
 pub const KEPT: &str = concat!(include_str!("view.wgsl"), include_str!("kept.wgsl"));
 
 /// The source that stands before all shaders that draw without a mesh.

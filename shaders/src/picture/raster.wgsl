@@ -4,8 +4,8 @@
 // Compute shaders draw (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute
 // shaders and vertex order optimization"; Karis et al. 2021, "Nanite"), because yarns have several
 // triangles for each sample, and rasterisers are made for large triangles. Here a triangle without
-// samples takes only the time of one test. A triangle with samples takes an atomic maximum for
-// each.
+// samples takes only the time of one test. A triangle with samples takes an atomic maximum for each
+// sample.
 
 // The lanes of a workgroup: one for each ring of a block and for the ring after it, rounded up to a
 // multiple of eight for the scan of rolls. The less memory a workgroup takes, the more workgroups
@@ -24,8 +24,9 @@ const SIDES_LOOKED = 6u;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// The quads of the block to draw: their numbers, and above FOUND_SHIFT the samples that SMALL quads
-// may have. In `raster_many`, the sides of the ring whose quads are to draw.
+// The quads of the block that are to be drawn: their numbers, and from bit FOUND_SHIFT on the
+// samples that SMALL quads may have. In `raster_many`, the sides of the ring whose quads are to be
+// drawn.
 const FOUND_SHIFT = 16u;
 const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
 var<workgroup> found: array<u32, FOUND_MOST>;

@@ -67,8 +67,8 @@ struct Shares {
 fn shares_of(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, place: vec2<i32>) -> Shares {
     let weights = weights_at(p, q, r, place);
     let is_front = dot(weights, vec3(p.w, q.w, r.w)) > 0.0;
-    // The pixel's middle may lie outside. Weights are limited, so that nothing is extrapolated far
-    // beyond a small triangle.
+    // The place may lie outside of the triangle. Weights are limited, so that nothing is
+    // extrapolated far beyond a small triangle.
     let inside = max(select(-weights, weights, is_front), vec3(0.0));
     let sum = inside.x + inside.y + inside.z;
     return Shares(select(vec3(1.0 / 3.0), inside / sum, sum > 0.0), is_front);
@@ -91,8 +91,8 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let own = outlines[outline + side];
     let other = outlines[outline + beside];
     let is_second = (number & 1u) != 0u;
-    // A triangle's first corner, the corner beside it or on the next ring, and the corner over its
-    // own.
+    // The quad's first triangle has two corners on this ring and one on the next. The second has
+    // one corner on this ring and two on the next.
     let first = select(side, beside, is_second);
     let p = vertex_at(stances.here, select(own, other, is_second));
     var q: Vertex;
@@ -219,8 +219,9 @@ fn alike_of(sample: u32, entry: u32) -> u32 {
     return shown & before_next & (15u << sample);
 }
 
-// Works out the samples of a square of pixels. At first each lane takes a pixel, and then each
-// takes a sample that is worked out: many samples show the same as the one before.
+// Works out the samples of a square of pixels. Each lane first takes a pixel, and lists those of
+// its samples that have to be worked out. Then the lanes share the listed samples. Many samples are
+// not listed, because they show the same as the sample before.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if lane == 0u {

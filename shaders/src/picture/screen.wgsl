@@ -26,7 +26,7 @@ fn to_eye(local: vec3<f32>) -> vec3<f32> {
     return normalize(view.eye.xyz - local * view.eye.w);
 }
 
-// What a pixel shows: a yarn, the ground, or neither.
+// What a sample shows: a yarn, the ground, or neither.
 struct Surface {
     local: vec3<f32>,
     normal: vec3<f32>,
@@ -55,8 +55,8 @@ fn surface_at(pixel: vec2<i32>, sample: i32) -> Surface {
     return Surface(local_at(middle, depth), normal, true, false);
 }
 
-// A number from 0 to 15 that differs for all pixels of any square of four by four (Bayer 1973). The
-// mean over any such square has all of them.
+// A number from 0 to 15 that differs for all pixels of any square of four by four (Bayer 1973). A
+// mean over any such square therefore covers all sixteen numbers.
 fn phase(pixel: vec2<u32>) -> u32 {
     let mixed = pixel.x ^ pixel.y;
     return (mixed & 1u) << 3u | (pixel.y & 1u) << 2u | (mixed & 2u) | (pixel.y & 2u) >> 1u;

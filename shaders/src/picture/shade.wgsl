@@ -45,10 +45,11 @@ fn fresnel(cosine: f32) -> f32 {
     return straight + (1.0 - straight) * pow(1.0 - cosine, 5.0);
 }
 
-// The light from `light` that a fibre along `fibre` sends to `eye`, times the cosine of its fall:
-// Sadeghi, Bisker, De Deken and Jensen 2013, "A practical microcylinder appearance model for cloth
-// rendering", the surface and volume terms of its section 3; the highlight along the fibre goes
-// back to Kajiya and Kay 1989, and its two lobes to Marschner et al. 2003.
+// The light from `light` that a fibre along `fibre` sends to `eye`, times the cosine of the light's
+// angle of incidence. It is the sum of the surface and volume terms of section 3 of Sadeghi,
+// Bisker, De Deken and Jensen 2013, "A practical microcylinder appearance model for cloth
+// rendering". The highlight along the fibre goes back to Kajiya and Kay 1989, and its two lobes to
+// Marschner et al. 2003.
 fn microcylinder(look: YarnLook, color: vec3<f32>, fibre: vec3<f32>, light: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
     let sine_in = clamp(dot(fibre, light), -1.0, 1.0);
     let sine_out = clamp(dot(fibre, eye), -1.0, 1.0);
@@ -74,8 +75,8 @@ fn hash(cell: vec2<u32>) -> f32 {
     return f32((x ^ (x >> 16u)) >> 8u) / 16777216.0;
 }
 
-// The share of light that reaches the point between fibres, from their place round and along the
-// yarn.
+// A factor for the light of a point on a yarn, which shows single fibres. It follows from the
+// point's place round the yarn and along it.
 fn grain(look: YarnLook, yarn: u32, angle: f32, along: f32, fade: f32) -> f32 {
     let fibres = 26.0;
     let round = angle * fibres;
@@ -139,8 +140,8 @@ fn shade_ground(normal: vec3<f32>, seen: vec2<f32>) -> vec3<f32> {
     return GROUND_COLOR * (key + surroundings(normal) * seen.x);
 }
 
-// Khronos PBR neutral tone mapper (2024): colours keep their hue and, below four fifths, their very
-// value.
+// Khronos PBR neutral tone mapper (2024): colours keep their hue and, below four fifths, lose at
+// most 0.04.
 fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
     let start = 0.8 - 0.04;
     let least = min(light.r, min(light.g, light.b));
@@ -208,8 +209,9 @@ fn yarn_at(pixel: vec2<i32>, sample: i32) -> u32 {
     return select(textureLoad(places, pixel, sample, 0).x, NO_YARN, depth_at(pixel, sample) >= 1.0);
 }
 
-// Lights the screen, with one lane for each pixel. A lane lights the pixel's four samples, or one
-// for all four if they show one yarn that is wider than pixels.
+// Lights the screen, with one lane for each pixel. A lane lights the pixel's four samples. If they
+// all show one yarn, or none, and threads are at least four pixels wide, it lights one for all
+// four.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn shade(@builtin(global_invocation_id) place: vec3<u32>) {
     let pixel = vec2<i32>(place.xy);

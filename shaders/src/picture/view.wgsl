@@ -7,7 +7,7 @@ struct View {
     local_from_clip: mat4x4<f32>,
     // The camera's target in the fabric's coordinates.
     target_point: vec3<f32>,
-    // How far ambient occlusion looks, mm.
+    // The reach of ambient occlusion, mm.
     reach: f32,
     // The eye's position, or with w = 0 the direction to the eye.
     eye: vec4<f32>,
@@ -38,7 +38,7 @@ struct View {
     has_hairs: u32,
 }
 
-// Kinds of background. In Rust they are texere_render's Background.
+// Kinds of background. In Rust they are texere_render's Background. A third kind, 2, is nothing.
 const GROUND = 0u;
 const COLOR = 1u;
 
@@ -87,8 +87,8 @@ fn clip_of(position: vec3<f32>) -> vec4<f32> {
     return view.clip_from_local * vec4(position - view.target_point, 1.0);
 }
 
-// The bit of a yarn's number that marks the inside of the yarn, which is seen where the yarn is
-// cut.
+// The bit of a yarn's number that marks the inside of the yarn, which is seen where the yarn ends
+// or is cut.
 const CUT = 0x80000000u;
 
 // The bit of a yarn's number that marks a fibre that stands off the yarn.

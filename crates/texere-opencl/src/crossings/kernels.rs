@@ -17,7 +17,8 @@ pub(super) struct CrossingsKernels {
 }
 
 impl CrossingsKernels {
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::Driver`] or
+    /// [`BackendError::DeviceLost`] if another call of OpenCL fails.
     pub(super) fn new(opened: &Opened) -> Result<Self, BackendError> {
         let program = opened.crossings()?;
         Ok(Self {
@@ -36,9 +37,9 @@ impl CrossingsKernels {
         let value = [Arg::Value(bytes_of(params))];
         let Memory { threads, ups, crossings, found, next, group_rows, pass_rows } = memory;
         let args = [&value[..], &in_memory([threads, ups, found, crossings, next, group_rows])].concat();
-        // SAFETY: the arguments are those of `crossings_move`. A lane reads its threads' rows, its
-        // bit of the drawdown and its crossing, and the same of the plan's sites beside it. It
-        // writes its crossing, and a group writes its row.
+        // SAFETY: the arguments are those of `crossings_move`. A lane reads the rows of both its
+        // threads, its bit of the drawdown and its crossing, and the same of the crossings near it
+        // that are in the plan. It writes its crossing, and a group writes its row.
         unsafe { start(&mut self.step, opened, &args, params.crossings) }?;
         let args = [&value[..], &in_memory([group_rows, pass_rows])].concat();
         // SAFETY: the arguments are those of `crossings_seen`. The only group reads the rows of all

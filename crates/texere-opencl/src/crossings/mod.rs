@@ -27,7 +27,8 @@ pub(crate) struct OpenClCrossings {
 impl OpenClCrossings {
     /// Allocates memory, and compiles the kernels unless a settler of crossings has done so before.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`], and
+    /// [`BackendError::Driver`] or [`BackendError::DeviceLost`] if another call of OpenCL fails.
     pub(crate) fn new(
         opened: Arc<Opened>,
         limits: &Limits,
@@ -42,7 +43,7 @@ impl OpenClCrossings {
         })
     }
 
-    /// Makes at most [`CROSSINGS_PASSES`] passes, and waits for their measures.
+    /// Makes `passes`, which are at most [`CROSSINGS_PASSES`], and waits for their measures.
     fn run(&mut self, passes: &[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError> {
         for (number, pass) in (0..CROSSINGS_PASSES).zip(passes) {
             let params = self.params.with_pass(pass, number);

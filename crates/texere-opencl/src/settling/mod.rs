@@ -39,7 +39,8 @@ pub(crate) struct OpenClSettler {
 impl OpenClSettler {
     /// Allocates memory, and compiles the kernels unless a settler has done so before.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`], and
+    /// [`BackendError::Driver`] or [`BackendError::DeviceLost`] if another call of OpenCL fails.
     pub(crate) fn new(
         opened: Arc<Opened>,
         limits: &Limits,
@@ -60,8 +61,8 @@ impl OpenClSettler {
         })
     }
 
-    /// Writes all control points, padded as `plan` says, to `points`, if that buffer lies in the
-    /// same context. Returns whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that buffer belongs to the
+    /// same open device. Returns whether it does.
     pub(crate) fn write_points(
         &mut self,
         opened: &Arc<Opened>,

@@ -24,7 +24,8 @@ pub(super) struct PassKernels {
     seen: Kernel,
 }
 
-// The workgroups of both kernels write the same rows.
+// The kernels of pulls write a row for each workgroup, and the kernels of steps add to the same
+// rows.
 const _: () = assert!(
     SETTLING_PULL_WEIGHTED.group == SETTLING_STEP_WEIGHTED.group
         && SETTLING_PULL_WEIGHTED.group == SETTLING_PULL_BLOCK.group
@@ -75,15 +76,15 @@ impl PassKernels {
         let tables = in_memory([places, place_rows, chords, starts, neighbours, lengths, pulls, rows]);
         let args = [&value[..], &tables].concat();
         let [pull, step] = if form == Form::Block { &mut self.block } else { &mut self.weighted };
-        // SAFETY: the arguments are those of both kernels. A lane reads its interval's places, rows
-        // and chords, the neighbours that were listed for the chords, and the same of each
-        // neighbour. It writes its planes, and a group writes its row.
+        // SAFETY: the arguments are those of the pull kernels of both forms. A lane reads its
+        // interval's places, rows and chords, the neighbours that were listed for the chords, and
+        // the same of each neighbour. It writes its planes, and a group writes its row.
         unsafe { start(pull, opened, &args, params.places) }?;
         let tables = in_memory([places, place_rows, strands, pulls, steps, lengths, next, rows]);
         let args = [&value[..], &tables].concat();
-        // SAFETY: the arguments are those of both kernels. A lane reads the rows of its place and
-        // its yarn, and the planes of its yarn's intervals. It writes its own step, length and next
-        // place, and a group adds to its row.
+        // SAFETY: the arguments are those of the step kernels of both forms. A lane reads the rows
+        // of its place and its yarn, and the planes of its yarn's intervals. It writes its own
+        // step, length and next place, and a group adds to its row.
         unsafe { start(step, opened, &args, params.places) }?;
         let args = [&value[..], &in_memory([strands, next])].concat();
         // SAFETY: the arguments are those of `settling_ends`. A lane reads its yarn's row and

@@ -44,7 +44,7 @@ impl PointKernels {
         unsafe { start(&mut self.points, opened, &args, params.places) }
     }
 
-    /// The least and the greatest coordinates of all control points, units.
+    /// The least and the greatest coordinates of all control points, in the settling's whole units.
     pub(super) fn bounds(
         &mut self,
         opened: &Opened,

@@ -1,5 +1,6 @@
-//! Tests that a kernel reads what Rust writes into a table, under the same name. The kernels are
-//! compiled and run on the device.
+//! Tests that a kernel reads each value that Rust writes into a table by the right name: the name
+//! of the field, or the component or number that stands for the field. The kernels are compiled and
+//! run on the device.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -41,8 +42,8 @@ macro_rules! structure {
     };
 }
 
-/// A structure of Rust that kernels read as vectors: each component, and the field that it stands
-/// for.
+/// A structure of Rust that kernels read as vectors or as single numbers: each component or number,
+/// and the field that it stands for.
 macro_rules! vectors {
     ($element:literal, $type:ident { $($value:literal = $field:ident $(+ $axis:literal)?),+ $(,)? }) => {
         Table {

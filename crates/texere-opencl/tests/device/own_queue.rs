@@ -1,5 +1,5 @@
-//! A caller with a context and a queue of its own. The backend's commands run in that queue, and
-//! the mesh stays in that context.
+//! A caller with a context and a queue of its own. The backend's kernels run in that queue, and the
+//! mesh stays in that context.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,

@@ -44,8 +44,8 @@ fn what_it_does_agrees_with_the_oracle() {
 
 #[test]
 fn a_lane_cut_at_a_yarns_last_ring_takes_that_ring_alone() {
-    // There are 65 rings: a block of 64, and a block of the last ring. Chunks of two rows leave the
-    // last ring to a chunk of its own.
+    // There are 65 rings: a block of 64, and a block of the last ring. Among the chunks that
+    // `check` makes are some of two rows, which leave the last ring to a chunk of its own.
     let yarns = cases::winding(65, Yarn::default());
     let settings = Settings { subdivisions: 0, ..Settings::default() };
     let report = check(&yarns, settings, &device(Schedule::PerYarn), false).unwrap();

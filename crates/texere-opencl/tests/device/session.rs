@@ -1,4 +1,5 @@
-//! Sessions on a device: pieces, memory and refusals. The suite tests misuse, edits and times.
+//! Sessions on a device: pieces, memory and refusals. The conformance suite tests misuse, edits and
+//! times.
 
 use std::ops::ControlFlow;
 use std::process::Command;
@@ -32,7 +33,8 @@ fn chunks(plan: &texere_core::backend::Plan, blocks: u64) -> Vec<Chunk> {
 
 #[test]
 fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
-    // 100,001 rings have 14.4 MB of vertices and as much of indices: two pieces of each.
+    // 100,001 rings with seven sides have 16.8 MB of vertices and as much of indices, slightly more
+    // than a piece, so there are two pieces of each.
     let yarns = cases::winding(12_501, Yarn { twist: 0.3, ..Yarn::default() });
     let settings = Settings { subdivisions: 7, sides: 7, ..TURNING };
     let plan = plan(&yarns, settings);

@@ -1,4 +1,4 @@
-//! Helpers of the tests of sessions.
+//! Helpers of the tests on a device.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -45,7 +45,7 @@ fn only_yarns_with_hairs_have_them_and_only_where_they_are_wanted() {
     }
 }
 
-/// The view is so far that threads are less than four pixels wide.
+/// Hairs are left out if threads are less than four pixels wide, and drawn if they are wider.
 #[test]
 fn hairs_are_not_seen_from_afar() {
     let renderer = renderer().lock().unwrap();
@@ -77,7 +77,7 @@ fn hairs_are_the_same_in_every_picture() {
                 assert!(one == draw(renderer, &yarns, &camera, &Limits::NONE), "{name} {what}");
             }
             // A chunk has one block and the ring that it repeats, so every yarn of more than 64
-            // rings is cut.
+            // rings is cut into several chunks.
             let cut = |limits: &Limits| {
                 let mut scene = whole.scene(&yarns, &long).unwrap().with_limits(limits);
                 assert!(scene.plan().rings(0) > 64);
@@ -88,7 +88,8 @@ fn hairs_are_the_same_in_every_picture() {
     }
 }
 
-/// A picture gives the yarn of a hair, and its place.
+/// Where a hair has come into the picture, the picture gives a yarn, and a place no farther from
+/// that yarn than a hair reaches.
 #[test]
 fn a_hair_is_seen_as_its_yarn() {
     let renderer = renderer().lock().unwrap();
@@ -109,8 +110,8 @@ fn a_hair_is_seen_as_its_yarn() {
             continue;
         };
         assert!(hairy.yarn < ENDS + PICKS);
-        // No hair is longer than two and a half millimetres, and the next point of its yarn is no
-        // farther from its root than one millimetre.
+        // No hair is longer than two and a half millimetres, and the nearest control point of its
+        // yarn is no farther from its root than one millimetre.
         let points = yarns.yarn_points(hairy.yarn).unwrap();
         let off =
             points.iter().map(|point| point.position().distance(hairy.position.map(|at| at as f32).into()));

@@ -56,7 +56,9 @@ fn cameras(extent: &Extent) -> [(&'static str, Camera); 4] {
     ]
 }
 
-/// A picture and a picker share nothing but the camera.
+/// Away from edges, a pixel has the colour of the material that a picker finds along its line of
+/// sight, or shows nothing if the picker finds nothing. The picture and the picker share nothing
+/// but the camera.
 #[test]
 fn a_pixel_shows_the_yarn_that_its_ray_hits() {
     let yarns = cloths();
@@ -140,7 +142,8 @@ fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     }
 }
 
-/// Scenes of one renderer use one another's screens, but not that of a scene that still has it.
+/// A scene may take over the screen that another scene of its renderer has drawn to, but not while
+/// that scene still holds it.
 #[test]
 fn a_scene_keeps_its_picture_while_others_are_drawn() {
     let renderer = renderer().lock().unwrap();
@@ -164,8 +167,8 @@ fn a_scene_keeps_its_picture_while_others_are_drawn() {
     assert_eq!(seen(&last), before);
 }
 
-/// The place of the first sample of a pixel of the screen in a picture of threads finer than
-/// pixels: `sample_in` of `view.wgsl`.
+/// Where a pixel of the screen has its first sample if threads are finer than pixels. The
+/// arithmetic is that of `sample_in` in `view.wgsl`.
 fn shifted_sample(x: u32, y: u32) -> [f32; 2] {
     let mixed = x.wrapping_mul(1_597_334_677) ^ y.wrapping_mul(3_812_015_801);
     let hash = (mixed ^ (mixed >> 16)).wrapping_mul(2_246_822_519);
@@ -173,7 +176,8 @@ fn shifted_sample(x: u32, y: u32) -> [f32; 2] {
     [(x, within[0]), (y, within[1])].map(|(pixel, within)| pixel as f32 + within as f32 / 256.0)
 }
 
-/// No sample is left out if each pixel has its samples at places of its own.
+/// If threads are finer than pixels, each pixel has its samples at places of its own. A sample
+/// there shows the yarn that a ray through it hits.
 #[test]
 fn threads_finer_than_pixels_are_seen_where_rays_hit_them() {
     let yarns = cloths();
@@ -283,7 +287,8 @@ fn eyes_that_see_nothing_are_refused() {
 fn chunks_of_pictures_fit_a_binding() {
     const BYTES: u64 = 1 << 17;
     let info = renderer().lock().unwrap().info().clone();
-    // Yarns of all lengths, and then yarns of one block each that have as many points as possible.
+    // Yarns of all lengths, and then yarns that have as many points as fit one block: 63 closed and
+    // 64 open without subdivisions, 31 closed with one, 8 open with seven.
     let counts = [&[3, 64, 65, 66, 130, 500, 4, 3, 3, 2000][..], &[63], &[64], &[31], &[8]];
     for (counts, closed) in counts.iter().flat_map(|counts| [(counts, false), (counts, true)]) {
         let mut yarns = Yarns::builder();

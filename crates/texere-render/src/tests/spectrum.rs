@@ -11,9 +11,9 @@ use crate::{Camera, Extent, Pose, Quality};
 /// The number of pixels of the pictures each way.
 const SIZE: usize = 96;
 
-/// The most levels of 255 that a wave may have that the cloth does not have. This is half of the
-/// least that an eye can see. Pixels that are plain means of their samples beat by at least five
-/// times as much.
+/// The greatest height, in levels of 255, that is allowed of a wave that the cloth does not have.
+/// It is half of the least height that an eye can see. Pixels that are plain means of their samples
+/// beat by at least five times as much.
 const SEEN: f64 = 4.0;
 
 /// The distance, in waves over the picture, at which waves can be distinguished. The window's main

@@ -32,7 +32,8 @@ pub(crate) struct WgpuCrossings {
 impl WgpuCrossings {
     /// Allocates memory, and compiles the shaders unless a settler of crossings has done so before.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`],
+    /// [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub(crate) fn new(
         opened: Arc<Opened>,
         limits: &Limits,
@@ -52,8 +53,8 @@ impl WgpuCrossings {
         })
     }
 
-    /// Makes at most [`texere_gpu::CROSSINGS_PASSES`] passes in one submission, and waits for their
-    /// measures.
+    /// Makes `passes`, which are at most [`texere_gpu::CROSSINGS_PASSES`], in one submission, and
+    /// waits for their measures.
     fn run(&mut self, passes: &[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError> {
         let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
         let numbers = 0..passes.len() as u32;

@@ -27,7 +27,7 @@ pub(crate) struct SettlingKernels {
 }
 
 impl SettlingKernels {
-    /// **Errors**: [`BackendError::Compile`].
+    /// **Errors**: [`BackendError::Compile`], and [`BackendError::DeviceLost`] for a lost device.
     pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
         let kernel = |shader| Kernel::new(gpu, shader, flattened);
         Ok(Self {

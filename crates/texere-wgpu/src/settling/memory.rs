@@ -63,7 +63,7 @@ impl Memory {
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // There are no more cells than chords, or than 64.
+        // There are at most as many cells as chords, or 64 if there are fewer chords.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;

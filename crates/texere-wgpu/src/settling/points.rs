@@ -13,8 +13,8 @@ use crate::kernel::Kernel;
 use crate::opened::Opened;
 
 impl WgpuSettler {
-    /// Writes all control points, padded as `plan` says, to `points`, if that buffer lies on the
-    /// same device and fits one binding. Returns whether it does.
+    /// Writes all control points, padded as `plan` says, to `points`, if that buffer belongs to the
+    /// same open device and fits one binding. Returns whether both is so.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,
@@ -42,7 +42,7 @@ impl WgpuSettler {
         Ok(true)
     }
 
-    /// The least and the greatest coordinates of all control points, units.
+    /// The least and the greatest coordinates of all control points, in the settling's whole units.
     pub(super) fn find_bounds(&self) -> Result<[[i32; 3]; 2], BackendError> {
         let gpu = &self.opened.gpu;
         let groups = self.kernels.bounds.workgroups(self.params.places).min(EXTENT_GROUPS);

@@ -276,17 +276,17 @@ pub struct ScanChunk {
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
     yarns: Range<usize>,
-    watch: Watch<'a>,
+    watch: ScanWatch<'a>,
 }
 
 /// A callback that is asked, now and then, whether to go on.
-pub type Watch<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
+pub type ScanWatch<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 impl<'a> ScanChunks<'a> {
     pub(crate) fn new(
         chunks: &'a mut dyn Iterator<Item = ScanChunk>,
         yarns: Range<usize>,
-        watch: Watch<'a>,
+        watch: ScanWatch<'a>,
     ) -> Self {
         Self { chunks, yarns, watch }
     }

@@ -30,7 +30,7 @@
 pub use texere_core::backend::{
     AttributeSink, BLOCK_RINGS, Block, Chunk, ChunkDraw, Chunks, Draw, Edits, Engine, LiveMesh, MeshMut,
     MeshSink, NullBackend, PackedSink, PaddedPoints, Part, Plan, RingSink, Run, ScanChunk, ScanChunks,
-    Schedule, Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory, WINDOW_POINTS, Watch,
-    filled, renew_virtual_ends, room, room_for, take_over_host, zeroed,
+    ScanWatch, Schedule, Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory,
+    WINDOW_POINTS, filled, renew_virtual_ends, room, room_for, take_over_host, zeroed,
 };
 pub use texere_core::{OutOfMemory, crossings, definitions, settling};

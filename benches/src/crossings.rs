@@ -35,9 +35,10 @@ fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
     Crossings::new(ups, vec![thread; ends], vec![thread; picks]).repeats(false, false).passes(passes)
 }
 
-/// Prints a row for each device and size: the median of `rounds` of ten passes at once and of one
-/// alone, by the host's clock, with the wait for the passes' measures; and one whole course of at
-/// most `passes`.
+/// Prints a row for each device and size. It has the time of a pass if ten are started at once, and
+/// the time of a pass alone. Both are medians of `rounds` runs by the host's clock, with the wait
+/// for the passes' measures. It also has the time and the result of one whole course of at most
+/// `passes` passes.
 ///
 /// # Errors
 ///
@@ -103,8 +104,8 @@ fn print_row(
     Ok(())
 }
 
-/// The median time of `rounds` runs of the last `passes` passes of a course, after runs that warm
-/// the device up.
+/// The median time of `rounds` runs of `passes` passes each, after a run that warms the device up.
+/// The passes are those late in a course, when threads have grown.
 fn time_of(
     settler: &mut dyn CrossingsSettler,
     passes: usize,

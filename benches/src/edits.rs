@@ -24,8 +24,10 @@ struct Took {
     bytes: u64,
 }
 
-/// Prints for each device the time of editing one yarn of the cloth `yarns`, and one lift of the
-/// cloth `lifts`, beside the time of the whole mesh. Each is the median of `rounds` runs.
+/// Prints for each device the times of editing one yarn, without twist and with it, and one lift,
+/// beside the time of the whole mesh. `yarns` and `lifts` are the numbers of ends and picks of the
+/// two cloths. Times are medians of `rounds` runs, but the whole mesh beside a lift is made only
+/// once.
 ///
 /// # Errors
 ///
@@ -98,8 +100,8 @@ fn a_yarn(
     Ok([whole, edit])
 }
 
-/// Times of the whole mesh of a cloth of round threads, and of a lift in its middle that changes
-/// back and forth, from the drawdown on.
+/// Times of the whole mesh of a cloth, and of a lift in its middle that changes back and forth.
+/// Both times include laying the threads by the drawdown. The cloth has the shape [`Shape::Round`].
 fn a_lift(
     device: &Arc<dyn Backend>,
     (ends, picks): (usize, usize),

@@ -176,7 +176,8 @@ fn print_case(
     Ok(())
 }
 
-/// Medians of the fill, the scan and the mesh with stage 1 in it, in turn.
+/// Median times of the fill, of the scan, and of the mesh with stage 1. Each round runs the fill
+/// first and then the stages.
 fn beside_fill(
     fill: &mut dyn Fill,
     mut bench: Bench,

@@ -56,8 +56,8 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
     Ok(cloth.point_count())
 }
 
-/// Makes a mesh of yarns `flatness` times as wide as high `times` times, and returns the number of
-/// its rings.
+/// Makes a mesh `times` times, and returns the number of its rings. Its yarns are `flatness` times
+/// as wide as high.
 fn mesh(
     (ends, picks): (usize, usize),
     flatness: f32,

@@ -1,4 +1,4 @@
-//! Compares devices with their floor, and with the paper's tables.
+//! Measures devices: beside their floor, stage by stage, and beside the paper's tables and figures.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -125,7 +125,7 @@ enum Args {
         output: PathBuf,
     },
     /// The paper's figure 7: its three cloths at full size, from the design to the picture, with
-    /// its time beside texere's
+    /// the paper's time beside texere's
     #[command(name = "figure-7")]
     Figure7 {
         /// The device that settles, meshes and draws, such as wgpu:1
@@ -232,8 +232,8 @@ fn gpus() -> impl Iterator<Item = String> {
     texere::devices().found.into_iter().filter(move |device| is_gpu(device.kind)).map(|device| device.name)
 }
 
-/// The serial reference, followed by all other devices with both schedules. If there is a GPU,
-/// software devices are left out.
+/// The serial reference, the parallel CPU backend, and each GPU with both schedules. If there is no
+/// GPU, the software devices of OpenCL and wgpu take their place.
 fn all_devices() -> Vec<String> {
     let mut others: Vec<_> = gpus().collect();
     if others.is_empty() {

@@ -16,7 +16,7 @@ use crate::median;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MeasureError {
-    /// The yarns fit no plan.
+    /// The settings are not allowed, or the yarns have too many rings.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The device failed.
@@ -116,8 +116,8 @@ impl Bench {
         Ok(start.elapsed())
     }
 
-    /// Reads the whole mesh, piece by piece, and returns the time by the host's clock. The bytes
-    /// are lent in the memory that the driver writes, and nothing reads them.
+    /// Reads the whole mesh, piece by piece, and returns the time by the host's clock. The session
+    /// lends the bytes where the driver has written them, and the benchmark does not look at them.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn read(&mut self) -> Result<Duration, SessionError> {
@@ -149,6 +149,6 @@ const HOST_SHARE: u64 = 12 << 30;
 /// The median of some times.
 #[must_use]
 pub fn median_time(times: &[Duration]) -> Duration {
-    // The median of no times is NaN.
+    // The median of no times is NaN, which becomes zero here.
     Duration::try_from_secs_f64(median(times.iter().map(Duration::as_secs_f64).collect())).unwrap_or_default()
 }

@@ -10,7 +10,8 @@ use texere::picture::{Camera, Extent, PictureTimings, Pose, Quality, RenderError
 use crate::measure::median_time;
 
 /// Draws each design `rounds` times from straight above and from aside, with four and with sixteen
-/// samples a pixel, from each distance of `nearer`, and prints the medians.
+/// samples a pixel, and prints the medians. `nearer` lists how many times nearer than a view of the
+/// whole cloth.
 ///
 /// # Errors
 ///
@@ -65,7 +66,7 @@ fn above(extent: &Extent, nearer: f32, size: [u32; 2]) -> Result<Camera, RenderE
     Camera::orthographic(extent, &pose, 1.05 * height(extent, size) / nearer, size)
 }
 
-/// The view in perspective from the lower left.
+/// The view in perspective from above the lower left.
 fn aside(extent: &Extent, nearer: f32, size: [u32; 2]) -> Result<Camera, RenderError> {
     let middle = middle(extent);
     let away = 2.0 * height(extent, size) / nearer;
@@ -77,7 +78,7 @@ fn middle(extent: &Extent) -> [f32; 3] {
     std::array::from_fn(|axis| 0.5 * (extent.low[axis] + extent.high[axis]))
 }
 
-/// The height of the cloth that a picture has to show, mm.
+/// The height that a picture shows if the whole cloth just fits it, mm.
 fn height(extent: &Extent, size: [u32; 2]) -> f32 {
     let across = |axis: usize| extent.high[axis] - extent.low[axis];
     across(1).max(across(0) * size[1] as f32 / size[0] as f32)

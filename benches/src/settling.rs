@@ -21,12 +21,14 @@ const FILL: u64 = 1 << 30;
 pub struct Cloths {
     /// Knits with about every fifth stitch missed at random, which repeat nowhere.
     pub random: Vec<usize>,
-    /// Knits with eyelets. Their numbers are multiples of four.
+    /// Knits with eyelets. Their numbers of wales and courses are rounded down to multiples of
+    /// four.
     pub lace: Vec<usize>,
 }
 
-/// Prints a row for each device and cloth: medians of `rounds` warm passes and lists by the host's
-/// clock, with the wait for a pass's measures; and one whole settling from the start.
+/// Prints a row for each device and cloth. It has medians of `rounds` warm passes and lists by the
+/// host's clock, with the wait for a pass's measures. It also has the time and the result of one
+/// whole settling.
 ///
 /// # Errors
 ///

@@ -3,10 +3,11 @@
 //!
 //! `cargo run --release -p texere-bench --bin shares -- [ENDS PICKS [ROUNDS]]`
 //!
-//! For each kind of mesh, on one thread and on two, it prints the medians of the rounds: triangles
-//! per second into buffers that are used again, and the share of the fill's bandwidth (the median
-//! of the rounds' own ratios, and the best). It prints both also for a first mesh in memory of its
-//! own, with set-up and allocation.
+//! For each kind of mesh, on one thread and on two, it prints the median triangles per second into
+//! buffers that are used again, and the fill's bandwidth. It prints the mesh's share of that
+//! bandwidth: the median and the best of the rounds' own ratios. It prints the scan's time as a
+//! share of the mesh's. For the upright mesh it also prints the triangles per second of meshes in
+//! fresh memory, with set-up and allocation.
 
 use std::error::Error;
 use std::sync::Arc;

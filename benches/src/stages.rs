@@ -31,7 +31,7 @@ pub struct Stages {
     /// Placing the yarns, and letting them come to rest if the design asks for it:
     /// [`texere::Design::rest`].
     pub rest: Duration,
-    /// The measures of the yarns at rest, if they settled.
+    /// The measures of the yarns after settling. None if the design does not settle.
     pub rests: Option<Rests>,
     /// Working out the tables of the mesh, and sending them.
     pub plan: Duration,
@@ -41,14 +41,14 @@ pub struct Stages {
     pub mesh: Duration,
 }
 
-/// The measures of yarns at rest.
+/// The measures of yarns after settling, by their contacts or by their crossings.
 #[derive(Debug, Clone, Copy)]
 pub struct Rests {
     /// Whether the yarns are at rest.
     pub at_rest: bool,
     /// The least distance of two yarns, divided by the sum of both reaches.
     pub clearance: f64,
-    /// The least radius of curvature of a knit, in diameters.
+    /// The least radius of curvature of a knit, in diameters. None for woven cloth.
     pub radius: Option<f32>,
 }
 
@@ -176,7 +176,7 @@ pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), 
     Ok(())
 }
 
-/// The bytes that the chunks of a mesh may take.
+/// The bytes of memory of a device that a plan with two chunks may take.
 const CHUNKS: u64 = 32 << 30;
 
 /// A clock that measures the time from lap to lap.

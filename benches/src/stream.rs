@@ -6,8 +6,8 @@ use rayon::prelude::*;
 /// The number of floats that one task fills: a megabyte.
 const TASK: usize = 1 << 18;
 
-/// Fills `out` past the caches, on all threads of the present rayon pool, with the widest stores
-/// that the processor has.
+/// Fills `out` on all threads of the present rayon pool. A processor with AVX or AVX-512F writes
+/// past the caches, with the wider of the two.
 ///
 /// No mesh of as many bytes can be written faster, so benchmarks state a mesh's share of this
 /// speed.

@@ -40,13 +40,13 @@ fn main() -> ExitCode {
     if agree { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The largest differences found.
+/// The counts and the largest differences of a comparison.
 #[derive(Debug, Default)]
 struct Worst {
     chunks: u64,
     vertices: u64,
-    /// Largest difference of a coordinate, in units of the tolerance: 1e-4 of the radius plus 4
-    /// units in the last place.
+    /// Largest difference of a coordinate, in units of the tolerance: 1e-4 of the least half height
+    /// of the cloth's yarns plus 4 units in the last place.
     position: f32,
     /// Largest difference of a normal's component, in units of 1e-4.
     normal: f32,

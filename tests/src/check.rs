@@ -14,9 +14,10 @@ use crate::drive::{DriveError, Way, drive};
 use crate::limits::Tight;
 use crate::oracle::Oracle;
 
-/// Runs `yarns` with `settings` on `device` in every way through a session, and compares the
-/// output. It is compared with the oracle and with the gold reference (to the bit where `exact` is
-/// set). The whole is compared with chunks of a few blocks, and a closed yarn's end with its start.
+/// Runs `yarns` with `settings` on `device` in every way through a session. Compares the output
+/// with the oracle and with the gold reference: to the bit if `exact` is set, and otherwise within
+/// the bounds of [`compare`](crate::compare). Also compares the whole with chunks of a few blocks,
+/// and a closed yarn's end with its start, both to the bit.
 ///
 /// ```
 /// use texere_conformance::{DeferredBackend, cases, check};

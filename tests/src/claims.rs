@@ -57,7 +57,7 @@ mod tests {
 
     use super::*;
 
-    /// A device whose claims differ from what it does. It settles nothing.
+    /// A device whose claims may differ from what it does. It settles nothing.
     #[derive(Debug)]
     struct Boasting(DeviceInfo, Box<dyn Backend>);
 

@@ -69,8 +69,8 @@ impl ChunkOutput {
     }
 }
 
-/// Control points in one piece of a piecewise upload. Even a small fabric takes many pieces, and no
-/// piece is a whole yarn.
+/// The least number of control points in a piece of a piecewise upload, except the last piece. It
+/// is so small that a small fabric takes many pieces, most of which begin and end within a yarn.
 const PIECE_POINTS: usize = 7;
 
 /// The most pieces of a piecewise upload.

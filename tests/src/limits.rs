@@ -3,8 +3,8 @@
 use texere_core::backend::Plan;
 use texere_core::{Limits, PlanError};
 
-/// The suite's own chunks hold at most this share of a plan's blocks. Every case of more than one
-/// block is cut, but no case into so many chunks that it takes a long time.
+/// A limit of blocks cuts a plan into about this many chunks at most, because more chunks would
+/// take a long time.
 const CUTS: u64 = 40;
 
 /// The limit that chunks are cut to.
@@ -22,7 +22,7 @@ pub enum Tight {
 
 impl Tight {
     /// Limits with room for `room` times the largest block of `plan`, and for the ring that a cut
-    /// repeats.
+    /// repeats. A limit of blocks has more room if `plan` has very many blocks.
     #[must_use]
     pub fn limits(self, plan: &Plan, room: u64) -> Limits {
         let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };

@@ -58,9 +58,11 @@ pub enum PackedError {
 /// Packs the vertices of `yarns` on `device`, in chunks of `limits` and in chunks of the device's
 /// own limits, and checks them.
 ///
-/// Each has to lie within half a quantum of the mesh's vertex, or within one quantum unless `exact`
-/// is set, with a normal as near. A corner of a ring has to be packed alike wherever it occurs: in
-/// a cap, in a ring that a chunk or a closed yarn repeats, and in both cuts.
+/// Each packed vertex has to lie within half a quantum of the mesh's vertex in each coordinate,
+/// with a normal that differs by the rounding of packing alone. Unless `exact` is set, a whole
+/// quantum and a little more for the rounding of f32 are allowed. A corner of a ring has to be
+/// packed alike wherever it occurs: in a cap, in a ring that a chunk or a closed yarn repeats, and
+/// in both cuts.
 ///
 /// ```
 /// use texere_conformance::{cases, check_packed};
@@ -89,7 +91,8 @@ pub fn check_packed(
             let near = control_point(yarns, &plan, &place);
             let (actual, expected) =
                 (position(packed, near, settings.quantum), DVec3::from(vertex.position.map(f64::from)));
-            // Two kernels may differ in the last digit of f32, where that is coarser.
+            // Two kernels may differ in the last digits of f32, which far from the origin are
+            // coarser than a quantum.
             let digits =
                 if exact { 0.0 } else { 4.0 * f64::from(f32::EPSILON) * expected.abs().max_element() };
             if !(actual - expected).abs().cmple(DVec3::splat(most + digits)).all() {

@@ -97,8 +97,9 @@ pub const REGISTRY: &[Entry] = &[
     Entry::near("wgpu", || open_each(WgpuBackend::devices(), WgpuBackend::open)),
 ];
 
-/// All devices of [`REGISTRY`] that need not equal the bits of `cpu-serial`. Each is opened once,
-/// with one schedule, for stages without a schedule.
+/// All devices of [`REGISTRY`] that need not equal the bits of `cpu-serial`. They are opened on the
+/// first call. Each is there once, in its schedule per ring, because the schedules differ only in
+/// how meshes are made.
 ///
 /// **Panics** if a backend in `TEXERE_REQUIRE` has a device that does not open.
 #[must_use]

@@ -44,7 +44,8 @@ pub enum Sabotage {
     RolledSection,
     /// Outlines do not lean. It is a fault only for yarns with up directions.
     LevelOutlines,
-    /// Two yarns of the same length have changed places, in the first chunk.
+    /// The first two parts of a chunk have changed places, in each chunk in which they have equally
+    /// many rings.
     SwappedYarns,
     /// One ring is a thousandth too wide.
     WideRing,
@@ -73,7 +74,7 @@ pub enum Sabotage {
     ShiftedPacked,
     /// One packed normal points inward.
     InwardPacked,
-    /// The ring that a cut repeats is packed a quantum off.
+    /// One vertex of each ring that a cut repeats is packed a quantum off.
     CrackedPacked,
     /// The backend calls itself per-yarn, and refuses nothing.
     Eager,
@@ -82,7 +83,7 @@ pub enum Sabotage {
 }
 
 impl Sabotage {
-    /// All faults of output.
+    /// The faults of output that are faults for every backend, also without up directions.
     pub const ALL: [Self; 16] = [
         Self::ShiftedVertex,
         Self::SwappedIndices,
@@ -139,7 +140,8 @@ impl Sabotage {
     }
 }
 
-/// The serial backend with a fault built in. Its chunks are one block each.
+/// The serial backend with a fault built in. Its chunks have at most two blocks, of which the ring
+/// that a cut repeats is one.
 #[derive(Debug)]
 pub struct SabotagedBackend {
     info: DeviceInfo,
@@ -280,7 +282,8 @@ fn roll(ring: &mut [Vertex]) {
     }
 }
 
-/// Exchanges the first two parts of a chunk that are equally long. Each ring has `per_ring` values.
+/// Exchanges the first two parts of a chunk if they are equally long. Each ring has `per_ring`
+/// values.
 fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
     if let [first, second, ..] = chunk.parts()
         && first.rings == second.rings

@@ -1,5 +1,5 @@
-//! Guarantees of every session besides its output: plausible times, and edits that move only their
-//! own bytes.
+//! Guarantees of every device and session besides meshes: plausible times, edits that move only
+//! their own bytes, claims that hold, packed vertices, and settled yarns that stay on their device.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
@@ -90,7 +90,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// A second scan without an upload between does nothing.
+/// A second scan takes no time without an upload between, and takes time after one.
 fn a_second_scan_is_no_work(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);
@@ -118,14 +118,16 @@ fn cloth() -> &'static Yarns {
     CLOTH.get_or_init(|| cases::design("paper/815x750.toml").yarns().unwrap())
 }
 
-/// Blocks per chunk of that cloth. A chunk has a few yarns, and some yarns lie in two chunks.
+/// Blocks per chunk of the cloth of 815 ends. A chunk has a few yarns, and some yarns lie in two
+/// chunks.
 const EDIT_LIMITS: Limits = Limits { blocks: 64, ..Limits::NONE };
 
 /// The edited yarn, a pick in the middle.
 const EDITED: usize = 815 + 375;
 
 /// A yarn that is uploaded again moves its own bytes and no others. Reading its chunks moves their
-/// bytes and no others. The chunks equal those of a new session with the edited cloth.
+/// bytes and no others. The chunks equal those of a new session with the edited cloth. They differ
+/// from those before the edit in exactly the yarn's own vertices.
 fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
     let mut yarns = cloth().clone();
     let plan = Arc::new(Plan::new(yarns.layout().clone(), all_of(device).0)?);
@@ -206,8 +208,8 @@ fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
 }
 
 /// Yarns that a settler has moved are meshed where they lie after settling. The mesh equals that of
-/// yarns that are read and sent again. No byte goes through the host, unless the host's memory is
-/// the device's own.
+/// yarns that are read and sent again, up to rounding, also after one of their points is edited. No
+/// byte goes through the host, unless the host's memory is the device's own.
 fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
     if !device.info().can.settle {
         return Ok(());

@@ -10,8 +10,8 @@ use texere_core::backend::{Chunk, Plan, Session, SessionError};
 use texere_core::{Attribute, Backend, End, Frame, Settings, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// Parts of each control interval by which the test measures lengths. It also measures with half as
-/// many.
+/// The test measures lengths along about this many parts of each control interval, and also along
+/// half as many.
 const PARTS: u32 = 256;
 
 /// The length of each yarn from its start to each of its rings, mm. It is the sum of the chords of
@@ -42,8 +42,8 @@ fn lengths(yarns: &Yarns, settings: &Settings) -> Vec<Vec<f64>> {
     oracle.yarns.iter().map(of_yarn).collect()
 }
 
-/// The cases, without the few whose yarns are too long for the fine spline. Attributes do not
-/// depend on the frame.
+/// The cases with upright frames, because attributes do not depend on the frame. The few with too
+/// many points for the fine spline are left out.
 fn small() -> Vec<Case> {
     let is_small = |case: &Case| case.settings.frame == Frame::Upright && case.yarns().points().len() <= 500;
     cases::all().into_iter().filter(is_small).collect()

@@ -19,7 +19,7 @@ fn one_yarn(yarn: Yarn, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
     yarns.build()
 }
 
-/// A good yarn, then one with `point` in the middle.
+/// The error of two yarns, of which the first is good and the second has `point` in its middle.
 fn with_point(point: ControlPoint) -> YarnError {
     let mut yarns = Yarns::builder();
     let mut spoilt = straight(5);

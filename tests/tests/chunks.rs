@@ -18,8 +18,8 @@ use texere_cpu::SerialBackend;
 
 const TOPOLOGIES: [Topology; 3] = [Topology::Indexed, Topology::Shared, Topology::None];
 
-/// Open and closed, short and long yarns of many sections; a long yarn of each kind; and yarns of
-/// about a block.
+/// Open and closed, short and long yarns of many sections in one fabric; and single yarns, open and
+/// closed, of 64 to 400 points.
 fn fabrics() -> Vec<(String, Yarns)> {
     let mut fabrics = vec![("mixed".into(), mixed())];
     for closed in [false, true] {
@@ -45,7 +45,8 @@ fn settings() -> Vec<Settings> {
     all
 }
 
-/// Limits down to one block. Each kind of limit is tight once: for one block, and for a few blocks.
+/// Limits down to one block. Each kind of limit is tight by itself, for one block and for a few
+/// blocks. The last limits are all tight.
 fn limits(plan: &Plan) -> Vec<Limits> {
     let by_blocks = |blocks| Limits { blocks, ..Limits::NONE };
     let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
@@ -270,8 +271,8 @@ fn bits<T: bytemuck::Pod>(values: &[T]) -> &[u8] {
     bytemuck::cast_slice(values)
 }
 
-/// A corner of a triangle: the yarn, its ring or (beyond all rings) its cap, and the point of the
-/// section.
+/// A corner of a triangle: the yarn, the number of the ring, and the point of the section. Corners
+/// of caps have numbers beyond those of all rings.
 type Corner = (u32, u64, u64);
 
 /// All triangles, by corners that do not depend on chunks.
@@ -327,7 +328,8 @@ fn draws_make_the_triangles_of_the_whole() {
     });
 }
 
-/// A shared pattern is only as long as it has to be, even if a yarn is longer than the pattern.
+/// A yarn with more gaps than the shared pattern takes several draws. Its triangles are those of an
+/// indexed mesh, which has more than twice as many indices.
 #[test]
 fn a_yarn_longer_than_the_shared_pattern_is_drawn_in_several_goes() {
     let yarns = winding(1_000, Yarn::default());

@@ -1,4 +1,4 @@
-//! Tubes that are known in closed form: a torus and a helix. They check the oracle and the
+//! Tubes that are known in closed form: a torus and a helix. They check the oracle and both CPU
 //! backends.
 
 use std::f64::consts::TAU;
@@ -187,10 +187,10 @@ fn flattened_yarn(
 /// Relative error of a half float, and of the spline between two of them.
 const HALF_FLOAT: f64 = 1e-3;
 
-/// On a level circle of radius R the upright side points at the centre, and the up along z. With
-/// half width a, half height b and distance ρ from the axis, the surface is ((ρ - R)/a)² + (z/b)² =
-/// 1 at each angle. The normal has the direction of that function's gradient, in which a and b grow
-/// along the yarn's arc.
+/// On a level circle of radius R the upright side points at the centre, and the up points along z.
+/// With half width a, half height b and distance ρ from the axis, the surface is ((ρ - R)/a)² +
+/// (z/b)² = 1 at each angle. The normal has the direction of that function's gradient, in which a
+/// and b grow along the yarn's arc.
 #[test]
 fn a_flattened_circle_makes_a_torus_of_ellipses() {
     let turned = |k: f64| TAU * k / f64::from(POINTS);

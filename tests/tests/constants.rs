@@ -4,7 +4,7 @@ use texere_gpu::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, SETTLING_CONSTANTS};
 use texere_kernels::{ATTRIBUTES, CROSSINGS, KernelProgram, PACKING, PER_RING, PER_YARN, SETTLING};
 
 /// The sources that are compiled for meshes, for settling and for crossings, without their
-/// preludes; and the constants that they may use.
+/// preludes, and the constants that they have to use.
 fn sources() -> [(&'static str, String, &'static [Constant]); 6] {
     let kernels =
         |programs: &[KernelProgram]| programs.iter().flat_map(|program| program.sources).copied().collect();

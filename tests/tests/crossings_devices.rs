@@ -15,7 +15,8 @@ use texere_cpu::SerialBackend;
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
 
-/// Threads of one diameter at this pitch, in diameters.
+/// Cloth whose ends are all alike, and whose picks are all alike. Pitches and diameters, mm, are
+/// those of the ends and those of the picks.
 fn even(
     pitch: [f32; 2],
     diameter: [f32; 2],
@@ -128,7 +129,8 @@ fn apart(one: &[CrossingState], other: &[CrossingState]) -> f32 {
     one.iter().zip(other).map(|(one, other)| one.difference(other)).fold(0.0, f32::max)
 }
 
-/// Runs eight passes from number `first` of the course on: some together, some alone.
+/// Runs eight passes from number `first` of the course on: three together, one alone, and four
+/// together.
 fn eight_passes(
     settler: &mut dyn CrossingsSettler,
     begin: &[CrossingState],
@@ -153,8 +155,8 @@ const OFF: f32 = 1e-4;
 /// The rounding of an unknown, in mean diameters.
 const ROUNDING: f32 = 5e-7;
 
-/// First passes: at the start of the course, where threads are thin, and where they have almost
-/// grown.
+/// The number of a pass, and the crossings before it: at the start of the course, when threads are
+/// thin, and when they have almost grown.
 fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<CrossingState>); 2] {
     let thin = plan.start().expect("crossings");
     let mut serial = SerialBackend::new().crossings_settler(Arc::clone(plan)).expect("a settler");
@@ -252,7 +254,8 @@ fn broken_settlers_are_caught() {
     }
 }
 
-/// For each set, the mean of half widths, of half heights and of areas.
+/// For each set, the means of half widths, of half heights, of areas as shares of the round
+/// thread's, and of distances from the middle height.
 fn means(plan: &CrossingsPlan, crossings: &[CrossingState]) -> Vec<f32> {
     let mean = |of: &dyn Fn(usize) -> f32| (0..crossings.len()).map(of).sum::<f32>() / crossings.len() as f32;
     let each = Set::BOTH.into_iter().flat_map(|set| {
@@ -288,7 +291,8 @@ fn rest(device: &dyn Backend, plan: &Arc<CrossingsPlan>) -> (CrossingsRest, Vec<
     (rest, read(settler.as_mut()).expect("crossings"))
 }
 
-/// Whole courses: cloth at rest has the same measures.
+/// Whole courses end alike on every device: at rest or not, after about as many passes, with the
+/// same clearance and mean sizes. Threads of cloth at rest also lie in the same places.
 #[test]
 fn cloths_come_to_the_same_rest_on_every_device() {
     let (mut failed, mut at_rest) = (Vec::new(), 0);
@@ -321,7 +325,8 @@ fn cloths_come_to_the_same_rest_on_every_device() {
     assert!(at_rest >= 4, "{at_rest} come to rest");
 }
 
-/// A device stops at rest, or after as many passes as the problem allows.
+/// A device makes as many passes as the problem allows, and only one if the caller breaks off after
+/// the first.
 #[test]
 fn passes_end_where_they_should() {
     let problem = even([0.4; 2], [0.2; 2], [2, 2], |end, pick| (end + pick).is_multiple_of(2));

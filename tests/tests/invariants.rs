@@ -54,7 +54,7 @@ fn euler_number(triangles: &[[usize; 3]]) -> i64 {
     vertices.len() as i64 - edges.len() as i64 / 2 + triangles.len() as i64
 }
 
-/// Settings that together have every topology, both frames, few and many sides.
+/// Settings that together have both topologies with indices, both frames, few and many sides.
 fn settings() -> Vec<Settings> {
     let mut all = Vec::new();
     for frame in FRAMES {
@@ -158,7 +158,8 @@ fn a_straight_tube_holds_its_sections_area_times_its_length() {
     }
 }
 
-/// Twist turns the section about the yarn, and changes nothing else.
+/// Twist turns the section about the yarn by its angle. It leaves the first ring as it is, and all
+/// vertices at the same distance from the yarn's axis.
 #[test]
 fn twist_keeps_volume_and_rings() {
     let straight: Vec<_> = (0..40).map(|k| ControlPoint::new(k as f32 * 0.25, 0.0, 0.0, 0.25)).collect();
@@ -178,7 +179,7 @@ fn twist_keeps_volume_and_rings() {
     assert!((turned - 0.5).abs() < 1e-5, "{turned}");
 }
 
-/// An edit that sends the points of one yarn gives the output of a fresh session with the same
+/// Edits that each send the points of one yarn give the output of a fresh session with the same
 /// points.
 #[test]
 fn an_edited_yarn_is_as_good_as_a_new_one() {

@@ -244,7 +244,8 @@ fn all_cores_make_the_bits_of_one() {
     }
 }
 
-/// A ribbon of `count` points beside a twisted yarn. It rises by `slope`, radians, in its middle.
+/// Three yarns: a twisted one; a ribbon of `count` points, which rises by `slope`, radians, in its
+/// middle; and an untwisted yarn in the place of the first.
 fn rising(slope: f32, count: u8) -> Yarns {
     let mut at = [0.0_f32, 1.0, 0.0];
     let ribbon: Vec<_> = (0..count)
@@ -265,8 +266,8 @@ fn rising(slope: f32, count: u8) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A ribbon in a live mesh is raised, raised further, made longer and laid flat again. Each time it
-/// equals that of a fresh mesh, on every device.
+/// A ribbon in a live mesh is raised, raised further, made longer, laid flat and raised again. Each
+/// time the mesh equals a fresh one, on every device.
 #[test]
 fn flat_yarns_that_are_raised_are_live() {
     let (flat, settings) = (rising(0.2, 40), Settings { sides: 8, ..Settings::default() });
@@ -319,7 +320,7 @@ fn kept(live: &mut LiveMesh) -> Mesh {
     kept
 }
 
-/// A closed ribbon that stands on its edge, and turns over once on its way round.
+/// A closed ribbon along an upright circle, which makes one turn about itself on its way round.
 fn ring() -> Yarns {
     let at = |step: usize| std::f64::consts::TAU * step as f64 / 16.0;
     let points: Vec<_> = (0..16)

@@ -1,5 +1,6 @@
 //! An edited fabric equals one that is made anew, on every backend. Edits are of lifts, yarns,
-//! stitches and colours, and all are taken back.
+//! colours, stitches and tension, and of yarns that come to rest. Edits of woven cloth are also
+//! taken back.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
@@ -151,7 +152,9 @@ fn apply(live: &mut Live, model: &mut Model, edit: &Edit) {
             let (what, points) = &mut model.yarns[yarn];
             what.twist = twist;
             points.iter_mut().for_each(|point| point.z -= lower);
-            // Every n-th point is left out. For n = 1 there are twice as many points instead.
+            // 0 keeps all points, and 1 makes them twice as many. Any larger number n leaves out
+            // each point whose number, counted from 1, is a multiple of n + 1, if there are more
+            // than six.
             match left_out {
                 0 => {}
                 1 => {
@@ -186,7 +189,7 @@ fn apply(live: &mut Live, model: &mut Model, edit: &Edit) {
     }
 }
 
-/// Sets everything in which the fabric differs from a model.
+/// Sets all lifts, yarns and colours to those of a model.
 fn go_back(live: &mut Live, now: &mut Model, to: &Model) {
     let drawdown = to.cloth.drawdown();
     live.set_drawdown(0..ENDS, 0..PICKS, |end, pick| drawdown.up(end, pick)).unwrap();
@@ -259,7 +262,7 @@ fn devices() -> &'static [Arc<dyn Backend>] {
     })
 }
 
-/// A ray down onto the cloth: a different one for each number up to 100.
+/// A ray down onto the cloth: a different one for each number below 100.
 fn above(number: u32) -> Ray {
     let [x, y] = [number % 10, number / 10].map(|step| f64::from(step) * 2.3 + 0.4);
     Ray { origin: [x, y, 9.0], direction: [0.0, 0.05, -1.0] }

@@ -23,7 +23,7 @@ fn yarns() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Plans with room and without, in chunks of a few blocks and in one chunk.
+/// Calls `check` for plans with room and without, in chunks of a few blocks and in one chunk.
 fn each(check: impl Fn(&Plan, &Limits)) {
     for (subdivisions, sides, caps) in [(0, 3, true), (1, 6, false), (4, 5, true)] {
         let settings = Settings { subdivisions, sides, caps, ..Settings::default() };

@@ -193,7 +193,7 @@ proptest! {
         let quantum = Quantum::reaching(reach);
         let packed = PackedVertex::pack(&Vertex { position, normal: [0.0, 0.0, 1.0] }, quantum);
         prop_assert_eq!(packed.position[1] >> 31, 0);
-        // The largest distance that is allowed, with room for the rounding to f32, which may go
+        // A place within the quantum's reach of the position. None if rounding to f32 takes it
         // beyond the reach.
         let near = |shares: [f64; 3]| {
             let near: [f32; 3] = std::array::from_fn(|axis| {

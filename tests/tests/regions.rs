@@ -11,8 +11,8 @@ use texere_core::{
     Yarn, Yarns,
 };
 
-/// A corner of a triangle: the yarn, its ring or (beyond all rings) its cap, and the point of the
-/// section.
+/// A corner of a triangle: the yarn, the number of the ring, and the point of the section. Corners
+/// of caps have numbers beyond those of all rings.
 type Corner = (u32, u64, u32);
 
 /// Fabrics whose blocks are scattered over a box: many yarns, and single yarns that wind through

@@ -3,7 +3,8 @@
 use texere_conformance::REGISTRY;
 use texere_core::backend::Schedule;
 
-/// The suite does not try devices that this machine lacks.
+/// If a GPU backend has devices on this machine, one of them has a clock, and each schedule is
+/// opened.
 #[test]
 fn every_gpu_backend_has_a_device_with_a_clock_and_both_schedules() {
     for name in ["opencl", "wgpu"] {

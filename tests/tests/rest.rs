@@ -36,7 +36,7 @@ fn straight(x: f64, z: f64, radius: f64) -> StartYarn {
     StartYarn { points, radius, ends: Ends::Repeats([0, 1]) }
 }
 
-/// Pseudo-random numbers in \[-1, 1\], the same on every run.
+/// `points`, each moved by `size` in a pseudo-random direction, which is the same on every run.
 fn noise(points: &[Vec<DVec3>], size: f64) -> Vec<Vec<DVec3>> {
     let mut seed = 1u64;
     let mut next = || {
@@ -298,7 +298,8 @@ fn lace_hangs_together() {
     }
 }
 
-/// In every warp knit, also of thin yarn, a loop of each bar is drawn through others.
+/// In every warp knit of the list whose yarn is 0.1 mm thick or more, a loop of each bar is drawn
+/// through others.
 #[test]
 fn warp_loops_are_drawn_through() {
     let is_tested = |start: &Start| start.repeat == [4.0, 3.0] && start.yarns[0].radius > 0.045;

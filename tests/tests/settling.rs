@@ -153,7 +153,8 @@ fn all_schedules_of_the_cpu_give_the_same_bits() {
     }
 }
 
-/// The whole course of passes is the same, too.
+/// A whole settling on `cpu` ends in the bits of one on `cpu-serial`: the same report and the same
+/// points.
 #[test]
 fn whole_settlings_end_in_the_same_bits() {
     let start = weft_knit("jersey", &Chart::new(&["kk"; 2]), Gauge::new(4.2), Length::Held);
@@ -257,8 +258,8 @@ fn who_watches_may_break_off() {
     }
 }
 
-/// Lists hold all neighbours that a comparison of all pairs finds: in small repeats, in open pieces
-/// of few cells, and in pieces of many cells.
+/// Lists hold as many neighbours as a comparison of all pairs finds: in small repeats, in open
+/// pieces of few cells, and in pieces of many cells.
 #[test]
 fn lists_are_complete() {
     let mut plans = plans();

@@ -107,7 +107,7 @@ fn a_stop_is_heard_at_the_next_chunk() {
     assert!(last > total / 2 && last <= total / 2 + STEP_RINGS, "{last} of {total}");
 }
 
-/// Yarns with twist, each of a few steps of the scan's.
+/// Six yarns with twist, each so long that a scan and the measurement of lengths report before it.
 fn twisted() -> Yarns {
     let mut yarns = Yarns::builder();
     for y in 0..6 {
@@ -117,7 +117,8 @@ fn twisted() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// The reports that come before the first ring is delivered, until `last` answers true.
+/// The number of reports that come before the first ring is delivered. The run is stopped at the
+/// report for whose number `last` answers true.
 fn early(device: &dyn Backend, yarns: &Yarns, last: impl Fn(usize) -> bool + Send + Sync) -> usize {
     let mut reports = 0;
     let pipeline = Pipeline::new(yarns).subdivisions(1).progress(|progress| {

@@ -12,7 +12,7 @@ use texere_gpu::YarnEnds;
 /// Yarns, each as its number of points and whether it is closed.
 type Counts = Vec<(usize, bool)>;
 
-/// The range of points that are written, and the points.
+/// The number of the first point that is written, and the points.
 type Upload = (usize, Vec<ControlPoint>);
 
 /// Most yarns are tiny.

@@ -19,7 +19,7 @@ pub(crate) fn run(steps: &mut Steps, args: &[String]) {
     }
 }
 
-/// The commit that is checked out, or "unknown".
+/// The commit that is checked out, marked as dirty if files are changed; or "unknown".
 pub(crate) fn commit(steps: &Steps) -> String {
     let described = steps.output("git", &["describe", "--always", "--dirty"], &[]);
     described.map_or_else(|| "unknown".into(), |commit| commit.trim().to_owned())

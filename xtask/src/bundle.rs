@@ -1,7 +1,8 @@
 //! `cargo xtask bundle`: the programs that test and measure texere, in a folder for a machine that
 //! has a GPU and no toolchain.
 //!
-//! The task needs Debian's packages. The bundle is for the kind of processor on which it is made.
+//! The task downloads Debian's packages, so it needs `apt-get` and `dpkg`. The bundle is for the
+//! kind of processor on which it is made.
 
 use std::fs;
 use std::io;

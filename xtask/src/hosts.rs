@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::install::install;
 use crate::steps::Steps;
 
-/// Debian's packages that build and run them.
+/// Debian's packages that build and run these programs.
 pub(crate) const PACKAGES: [&str; 7] =
     ["cmake", "g++", "make", "mono-mcs", "mono-runtime", "pkg-config", "valgrind"];
 
@@ -32,7 +32,8 @@ pub(crate) fn check(steps: &mut Steps) {
     let _ = fs::remove_dir_all(folder);
 }
 
-/// Compares what is no PLY file: the OBJ file of C++, and the arrays of C and C#.
+/// Compares the OBJ file of C++ and the arrays of C and C# with PLY files of the `texere` program.
+/// `run.sh` compares the PLY files of C.
 fn compare(folder: &Path) -> Result<(), String> {
     let read = |name: &str| fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let ply = |name: &str| Mesh::of_ply(&read(name)?).ok_or_else(|| format!("{name} is no mesh"));
@@ -103,14 +104,15 @@ impl Mesh {
         Self { vertices: vertices.map(words).collect(), triangles: triangles.map(words).collect() }
     }
 
-    /// The corners of all triangles in turn. A mesh that is made in parts has vertices twice where
-    /// two of them meet, and its triangles have the same corners.
+    /// The corners of all triangles in turn. A mesh that is made in parts has some vertices twice,
+    /// where two parts meet. Its triangles have the same corners as those of a whole mesh.
     fn corners(&self) -> impl Iterator<Item = Option<&[u32; 6]>> {
         self.triangles.as_flattened().iter().map(|corner| self.vertices.get(*corner as usize))
     }
 }
 
-/// Numbers of four bytes each, the lowest first; 0 where there are too few.
+/// Numbers of four bytes each, the lowest byte first. Numbers for which there are too few bytes are
+/// 0.
 fn words<const COUNT: usize>(bytes: &[u8]) -> [u32; COUNT] {
     let mut words = bytes.chunks(4).map(|word| word.try_into().map_or(0, u32::from_le_bytes));
     std::array::from_fn(|_| words.next().unwrap_or(0))

@@ -29,8 +29,8 @@ pub(crate) fn run(steps: &mut Steps, arguments: &[String]) {
 
 /// Builds the library and lays it under `prefix`.
 pub(crate) fn install(steps: &mut Steps, prefix: &Path) {
-    // The program comes along, for its crates have other features than the library's: built apart,
-    // either would build wgpu anew after the other.
+    // The `texere` program is built in the same call. If each were built by itself, wgpu would have
+    // other features, and each build would compile it again after the other.
     let packages = ["--package", "texere-capi", "--package", "texere-cli"];
     let features = ["--no-default-features", "--features", "texere-capi/default"];
     let build = [&["build", "--release", "--locked"][..], &packages, &features].concat();
@@ -48,7 +48,7 @@ pub(crate) fn install(steps: &mut Steps, prefix: &Path) {
 /// The assembly for C# and its docs, from the repository's root.
 const ASSEMBLY: [&str; 2] = ["target/csharp/Texere.dll", "target/csharp/Texere.xml"];
 
-/// Builds the assembly for C#. Gives its files: none where there is no Mono to compile it.
+/// Builds the assembly for C#. Returns its files, or none if there is no Mono to compile it.
 fn assembly(steps: &mut Steps) -> &'static [&'static str] {
     if !steps.succeeds("mcs", &["--version"]) {
         println!("\nTexere.dll: left out, there is no mcs to build it");
@@ -77,7 +77,7 @@ const EXAMPLES: [(&str, &str); 9] = [
     ("designs", "herringbone.wif"),
 ];
 
-/// The number of the binary interface, which the header says.
+/// The number of the binary interface, as the header states it.
 fn abi(header: &str) -> io::Result<&str> {
     let number = header.lines().find_map(|line| line.strip_prefix("#define TEXERE_ABI "));
     number.ok_or_else(|| io::Error::other("the header has no TEXERE_ABI"))
@@ -109,7 +109,7 @@ fn lay(prefix: &Path, assembly: &[&str]) -> io::Result<()> {
         copied(root().join(example.0).join(example.1), prefix.join("share/texere/examples").join(example.1))?;
     }
     copied(built.join("libtexere_c.a"), lib.join("libtexere_c.a"))?;
-    // Programs ask for this name, and linkers for the one without a number.
+    // Programs load the library by this name. Linkers look for the name without a number.
     let numbered = format!("libtexere_c.so.{abi}");
     copied(built.join("libtexere_c.so"), lib.join(&numbered))?;
     put(&lib.join("libtexere_c.so"), |beside| link(&numbered, beside))?;
@@ -134,8 +134,9 @@ fn link(to: &str, path: &Path) -> io::Result<()> {
     if made.success() { Ok(()) } else { Err(io::Error::other("ln makes no link")) }
 }
 
-/// Makes the file at `path`, and the folders that it lies in. `write` writes it beside: a program
-/// that runs keeps the library that it has loaded, and no file is ever half written.
+/// Makes the file at `path`, and the folders that it lies in. `write` gets a path beside it, and
+/// the finished file is renamed. A program that runs thus keeps the library that it has loaded, and
+/// no file is ever half written.
 fn put(path: &Path, write: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
@@ -145,7 +146,7 @@ fn put(path: &Path, write: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<(
     let beside = PathBuf::from(beside);
     let put = write(&beside).and_then(|()| fs::rename(&beside, path));
     if put.is_err() {
-        // What went wrong before is what the caller has to know.
+        // The caller gets the first error, not one of the removal.
         let _ = fs::remove_file(&beside);
     }
     put

@@ -15,11 +15,11 @@ const MESHES: [&str; 5] = ["upright", "flattened", "minimizing", "bare", "stream
 /// The kinds of control points of `benches/src/instructions.rs`.
 const POINTS: [&str; 2] = ["crossing", "round"];
 
-/// The number of times that the longer run does the work of the shorter one.
+/// The shorter run does its work once, and the longer run this many times more.
 const TIMES: u32 = 10;
 
 /// The factor by which a count may exceed the baseline. Another compiler changes counts by some per
-/// cent, and a loop that is no longer vectorised by several times as much.
+/// cent. A loop that is no longer vectorised changes them by several times as much.
 const TOLERANCE: f64 = 1.05;
 
 /// The file of the baseline. It has a line for each path and kind: path, kind, and the instructions

@@ -132,8 +132,8 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
 /// included.
 const LINKED_MOST: usize = 36;
 
-/// Compiles and tests the facade with each feature alone, and counts its packages with the default
-/// features.
+/// Compiles and tests the facade without features and with each feature of a format or of pictures
+/// alone. Counts its packages with the default features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "pictures", "ply", "toml", "wif"] {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
@@ -171,7 +171,7 @@ fn check(steps: &mut Steps) {
     features(steps);
     let documented = ["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"];
     steps.cargo("docs", &documented, &[("RUSTDOCFLAGS", "-D warnings -A rustdoc::private_intra_doc_links")]);
-    // The docs of the facade with all features, and those without any.
+    // The docs of the facade with all features, and with the default ones.
     for features in [&["--all-features"][..], &[]] {
         let facade = [&["doc", "--package", "texere", "--no-deps", "--locked"], features].concat();
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);

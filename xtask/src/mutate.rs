@@ -77,7 +77,7 @@ fn try_run(only: Option<&str>) -> io::Result<usize> {
     Ok(missed)
 }
 
-/// The working tree's files, tracked or new, below `target/`.
+/// Copies the working tree's files, tracked or new, to `target/mutate`. Returns that folder.
 fn copy_of_the_repository() -> io::Result<PathBuf> {
     let copy = root().join("target/mutate");
     let list = ["ls-files", "-z", "--cached", "--others", "--exclude-standard"];

@@ -45,7 +45,7 @@ impl Gpu {
 
     /// A fill of buffers of `bytes` each on the same device.
     ///
-    /// **Errors**: [`BackendError`] if there is no room for them.
+    /// **Errors**: [`BackendError`] if OpenCL has no room for the buffers, or its driver fails.
     pub fn fill(&self, bytes: &[u64]) -> Result<Box<dyn Fill>, BackendError> {
         Ok(match self {
             Self::OpenCl(_, index) => Box::new(OpenClFill::new(*index, bytes)?),
@@ -55,7 +55,7 @@ impl Gpu {
 }
 
 /// Makes an empty context of a GPU, and returns the time by the host's clock. The first context of
-/// a process also loads the driver. None for a device that is no GPU.
+/// a process also loads the driver. None for a device of neither OpenCL nor wgpu.
 ///
 /// **Errors**: [`BackendError`] if there is no such device.
 pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {

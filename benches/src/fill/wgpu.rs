@@ -139,7 +139,8 @@ impl super::Fill for WgpuFill {
         pass.set_pipeline(&self.pipeline);
         for (group, workgroups) in &self.bound {
             pass.set_bind_group(0, group, &[]);
-            // The rows are as even as possible, because a workgroup without work takes time, too.
+            // The rows of the grid are no longer than needed, because a workgroup without work
+            // takes time, too.
             let rows = workgroups.div_ceil(65_535);
             pass.dispatch_workgroups(workgroups.div_ceil(rows), rows, 1);
         }

@@ -19,8 +19,8 @@ use crate::phases::{PhaseTimer, Phases};
 use results::{Cloth, Column, PICTURE, Run};
 
 /// Measures `devices` on the paper's cloth in `sizes` (ends, picks), with the medians of `rounds`
-/// runs, and writes `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` goes
-/// into the report, and says how the report was made.
+/// runs, and writes `BENCHMARKS.md`, `figure-6.svg` and, if one of the devices draws,
+/// `figure-5.svg` to `folder`. `heading` goes into the report, and says how the report was made.
 ///
 /// # Errors
 ///

@@ -39,8 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Makes meshes of every topology and frame, called from a thread with little stack, with worker
-/// threads that have as little.
+/// Makes meshes and trajectories of every topology and frame, called from a thread with little
+/// stack, with worker threads that have as little.
 fn on_little_stack(yarns: &Yarns, device: &dyn Backend) -> Result<(), Box<dyn Error>> {
     let name = &device.info().name;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).stack_size(STACK).build()?;

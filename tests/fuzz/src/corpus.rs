@@ -14,7 +14,7 @@ pub(crate) const WIF: &[&str] = &[
      Threads=3\n[PRIVATE X Y]\n1=2\n",
 ];
 
-/// Design files by notation.
+/// Design files whose weave is a notation.
 pub(crate) const DESIGNS: &[&str] = &[
     "name = \"Denim\"\n[weave]\nnotation = \"3/1\"\nends = 7\npicks = 5\n[yarns.indigo]\ntex = 84.0\ncolor = \"#2b3f6b\"\n\
      twist_per_m = -500.0\n[yarns.ecru]\ndiameter_mm = 0.25\nplies = 2\n[warp]\nyarns = [\"2 indigo\", \"ecru\"]\nper_cm = 12.5\n\

@@ -35,8 +35,10 @@ pub enum Outcome {
 ///
 /// # Panics
 ///
-/// If an error is long or would steer a terminal, if a draft does not give its cloth, or if a mesh
-/// has numbers that are not finite.
+/// If a fault of texere shows: a message is long or would steer a terminal, an error of settling
+/// does not name the file, a draft does not give its cloth, saved yarns are written otherwise than
+/// they were read, the number of points was counted wrongly, a mesh can't be made or has numbers
+/// that are not finite, or a clearance can't be measured.
 #[must_use]
 pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
@@ -75,7 +77,7 @@ pub fn drive(path: &Path) -> Outcome {
     outcome
 }
 
-/// Writes all that `convert` and `draft` write of a design, to nowhere.
+/// Writes all that `convert` and `draft` write of a design, and drops what is written.
 fn sinks(design: &Design) {
     let told = |outcome: Result<(), WriteError>| {
         if let Err(error) = outcome {
@@ -213,7 +215,8 @@ fn meshed(yarns: &Yarns) -> Outcome {
     Outcome::Taken
 }
 
-/// An error and its causes. Checks that each fits a line or two.
+/// An error and its causes, on one line. Checks that each cause has fewer than 400 characters, and
+/// that no text holds codes that control a terminal.
 fn chain(error: &dyn Error) -> String {
     let mut chain = error.to_string();
     let mut cause = error.source();

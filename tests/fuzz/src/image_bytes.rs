@@ -110,7 +110,7 @@ pub(crate) fn field(bytes: &mut [u8], random: &mut Rng) {
     if bytes.len() < wide {
         return;
     }
-    // Fields lie in headers.
+    // Most fields lie in headers, which come first.
     let most = if random.bool() { bytes.len().min(64) } else { bytes.len() };
     let at = random.usize(..=most.max(wide) - wide);
     let written = if random.bool() { value.to_le_bytes() } else { value.to_be_bytes() };
@@ -118,7 +118,8 @@ pub(crate) fn field(bytes: &mut [u8], random: &mut Rng) {
     bytes[at..at + wide].copy_from_slice(part);
 }
 
-/// Takes a PNG apart, changes its chunks, and gives each a fitting checksum.
+/// Takes a PNG apart, changes, adds, removes or moves one of its chunks, and gives each chunk a
+/// fitting checksum.
 fn chunks(bytes: &mut Vec<u8>, random: &mut Rng) {
     let Some((magic, mut rest)) = bytes.split_at_checked(8) else { return };
     let mut chunks: Vec<([u8; 4], Vec<u8>)> = Vec::new();

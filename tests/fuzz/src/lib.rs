@@ -31,13 +31,14 @@ pub enum Reader {
     Notation,
     /// Point paper, in an otherwise valid design.
     Image,
-    /// Design files with an image or a WIF draft, both mutated.
+    /// Design files with an image or a WIF draft. All files are mutated.
     Paper,
     /// Knitout files.
     Knitout,
-    /// Design files of knits: charts, and an image or a knitout file. Both files are mutated.
+    /// Design files of knits, with a chart, an image or a knitout file. The image is mutated only
+    /// one time in four, all other files always.
     Knit,
-    /// Design files of warp knits, with an image. Both files are mutated.
+    /// Design files of warp knits, some with an image, which is mutated only one time in four.
     WarpKnit,
     /// Files of saved yarns.
     Yarns,

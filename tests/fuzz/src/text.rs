@@ -111,7 +111,8 @@ const WORDS: &[&str] = &[
     "1,1,1,1",
 ];
 
-/// Applies a few mutations to one of `seeds`. Some mutations take parts of another seed.
+/// Applies up to five mutations to the lines of one of `seeds`. Some mutations take parts of
+/// another seed. In a few of 256 cases the bytes are scrambled, or the text is encoded as UTF-16.
 pub(crate) fn mutated(seeds: &[&str], random: &mut Rng) -> Vec<u8> {
     let seed = |random: &mut Rng| random.choice(seeds).copied().unwrap_or_default();
     let mut lines: Vec<String> = seed(random).lines().map(Into::into).collect();
@@ -171,7 +172,7 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
     }
 }
 
-/// Replaces one of the numbers and words of a line, or inserts one if there is none.
+/// Changes or replaces one of the numbers and words of a line. Appends a number if there is none.
 fn with_token(line: &str, random: &mut Rng) -> String {
     let is_part = |letter: char| letter.is_ascii_alphanumeric() || ".-#_".contains(letter);
     let mut tokens: Vec<(usize, usize)> = Vec::new();
@@ -205,7 +206,8 @@ fn with_token(line: &str, random: &mut Rng) -> String {
     format!("{}{new}{}", &line[..from], &line[to..])
 }
 
-/// Joins the key of one line with the value of another.
+/// Joins the key of one line with the value of another. If either has no key, the other line is
+/// returned.
 fn with_key(line: &str, other: &str) -> String {
     match (line.split_once('='), other.split_once('=')) {
         (Some((key, _)), Some((_, value))) => format!("{key}={value}"),

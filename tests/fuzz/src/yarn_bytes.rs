@@ -42,7 +42,7 @@ fn seal(bytes: &mut [u8]) {
     }
 }
 
-/// A few yarns of every kind, as they are saved.
+/// One to four yarns of random kinds, as they are saved.
 fn seed(random: &mut Rng) -> Vec<u8> {
     let mut yarns = Yarns::builder();
     yarns.material(Material { name: "ecru".into(), tex: Some(30.0), hairiness: 5.0, ..Material::default() });

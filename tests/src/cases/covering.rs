@@ -57,8 +57,9 @@ fn pairs(sizes: &[usize]) -> BTreeSet<(Level, Level)> {
 mod tests {
     use super::*;
 
-    /// Three factors of two values need exactly four rows. Nine factors of very different sizes
-    /// need about as many as the two largest ask for.
+    /// Three factors of two values need exactly four rows, and a single factor, which has no pairs,
+    /// needs none. Nine factors of very different sizes need about as many rows as the two largest
+    /// have pairs.
     #[test]
     fn few_rows_are_enough() {
         assert_eq!(covering(&[2, 2, 2]).len(), 4);

@@ -8,7 +8,7 @@ use texere_formats::{Design, read};
 
 use super::{Case, USUAL};
 
-/// The most ends, and the most picks, of a cut cloth.
+/// The most ends, and the most picks, of a cut cloth, and the most yarns of a cut knit.
 const THREADS: usize = 20;
 
 /// The most control points of a yarn in a cut knit.

@@ -1,4 +1,4 @@
-//! Many yarns, and very long ones.
+//! Fabrics of many yarns, of yarns with sections of every kind, and of long yarns.
 
 use texere_core::{ControlPoint, Material, Origin, Section, Yarn, Yarns};
 
@@ -57,7 +57,8 @@ pub(super) fn menagerie(section: Section) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// All shapes that are open, untwisted and upright along their whole length, in one fabric.
+/// All shapes that are open, untwisted and nowhere steep, and whose outlines do not lean, in one
+/// fabric.
 pub(super) fn standing() -> Yarns {
     let mut yarns = Yarns::builder();
     for shape in shapes::all().into_iter().filter(|shape| !shape.yarn.closed && shape.yarn.twist == 0.0) {
@@ -69,8 +70,9 @@ pub(super) fn standing() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Two yarns like `yarn` with another section: a thick one of more than a block, and a thin one of
-/// less. `flatten` gives the width of each control point, by its number, divided by its height.
+/// Two yarns like `yarn` with another section, whose thickness varies along them: one of 66 points,
+/// which are more than a block has rings, and one of nine. `flatten` gives the width of each
+/// control point, by its number, divided by its height.
 pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Yarns {
     let mut yarns = Yarns::builder();
     let yarn = Yarn { section: yarns.section(section), ..yarn };
@@ -88,7 +90,8 @@ pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Ya
 }
 
 /// Flattened yarns with up directions that turn along them: open and closed, long and short,
-/// twisted and untwisted. Some turn so slowly that an upright frame follows, and some fast.
+/// twisted and untwisted. Some up directions turn so slowly that an upright frame follows them, and
+/// some turn fast.
 pub(super) fn leaning() -> Yarns {
     let mut yarns = Yarns::builder();
     let section = yarns.section(Section::Lenticular { aspect: 1.5, distortion: 0.2 });

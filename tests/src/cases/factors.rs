@@ -52,7 +52,8 @@ impl Counts {
         Self { subdivisions: (0..=8).collect(), sides: (3..=64).collect() }
     }
 
-    /// The least and the most, odd and even numbers, and powers of two with their neighbours.
+    /// The least and the most, odd and even numbers, and powers of two, some of them with their
+    /// neighbours.
     fn thinned() -> Self {
         Self { subdivisions: vec![0, 1, 2, 4, 8], sides: vec![3, 4, 5, 6, 7, 8, 16, 33, 64] }
     }

@@ -39,7 +39,7 @@ impl fmt::Debug for Case {
     }
 }
 
-/// Both frames, as trial names have them.
+/// Both frames, with the words for them in the names of cases.
 const FRAMES: [(&str, Frame); 2] =
     [("upright", Frame::Upright), ("rotation-minimizing", Frame::RotationMinimizing)];
 
@@ -73,7 +73,7 @@ impl Case {
         })
     }
 
-    /// The yarns. They are built on each call, so that listing cases takes no time.
+    /// The yarns. They are built on each call, so that listing cases takes little time.
     #[must_use]
     pub fn yarns(&self) -> Yarns {
         (self.build)()
@@ -94,8 +94,8 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Fabrics of a few hundred rings. Together they have open and closed, twisted and upright, long
-/// and short yarns.
+/// Every shape in one fabric of round sections: yarns that are open and closed, twisted and
+/// untwisted, long and short.
 #[must_use]
 pub fn menagerie() -> Yarns {
     fabrics::menagerie(Section::Circle)
@@ -159,7 +159,7 @@ fn settings_swept() -> Vec<Case> {
     cases
 }
 
-/// Yarns with up directions, through all settings that rings depend on.
+/// Yarns with up directions in both frames, with three pairs of subdivisions and tension.
 fn ups_swept() -> Vec<Case> {
     let mut cases = Vec::new();
     for (subdivisions, tension) in [(0, 0.0), (3, 0.0), (8, 0.4)] {
@@ -205,7 +205,8 @@ fn papers() -> Vec<Case> {
         let build = move || fabrics::winding(points, Yarn::default());
         cases.push(Case::new(format!("paper-rings-{points}::upright"), settings, build));
     }
-    // More than 65,535 rounds of a lane's loops, for a few blocks and for a single block.
+    // In the paper's schedule one lane makes all vertices of a yarn. Here these are more than
+    // 65,535, by many rings (`long`) and by many sides (`wide`).
     for (name, sides, points) in [("long", 24, 1_000), ("wide", SIDES_MAX, 66)] {
         let settings = Settings { sides, caps: false, ..USUAL };
         let build = move || fabrics::winding(points, Yarn::default());
@@ -216,7 +217,7 @@ fn papers() -> Vec<Case> {
 
 fn long_and_many() -> Vec<Case> {
     let mut cases = Vec::new();
-    // Yarns of about a block, with a ring more or less.
+    // Yarns of about one, two or three blocks, with a ring more or less.
     for points in [63, 64, 65, 66, 128, 129, 193] {
         let settings = Settings { subdivisions: 0, ..USUAL };
         let open = move || fabrics::winding(points, Yarn { twist: 0.3, ..Yarn::default() });

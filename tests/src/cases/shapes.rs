@@ -51,7 +51,7 @@ fn thick_and_thin(name: &'static str, radii: &[f64]) -> Shape {
     open(name, points.collect())
 }
 
-/// Half widths and half heights of a winding yarn's points.
+/// A winding yarn whose points have these half widths and half heights.
 fn flattened(name: &'static str, halves: &[[f32; 2]]) -> Shape {
     let points = halves.iter().enumerate().map(|(k, &[half_width, half_height])| {
         let k = k as f64;
@@ -220,7 +220,8 @@ fn uneven() -> Vec<Shape> {
 
 fn flat() -> Vec<Shape> {
     let ribbon = |name| flattened(name, &[[0.5, 0.125]; 8]);
-    // The yarn is flat at crossings, nearly round in floats, and at one place as high as wide.
+    // The yarn is wider than high at four points, as high as wide at three, and higher than wide at
+    // one.
     let changing = [
         [0.3, 0.2],
         [0.35, 0.15],

@@ -116,7 +116,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// A part has its quads in order, and nothing else.
+    /// Checks that the indices of a part are those of its quads, in order.
     fn check_quads(&self, part: &Part, mesh: &ChunkOutput, report: &mut Report) {
         let (sides, base) = (self.sides as u64, u64::from(part.first_vertex));
         for gap in 0..u64::from(part.rings) - 1 {
@@ -205,7 +205,7 @@ impl Assembled {
     }
 }
 
-/// Appends `from` to `to`. The first `shared` values of `from` are in `to` already, and have to be
+/// Copies `from` to `to`. The first `shared` values of `from` are in `to` already, and have to be
 /// equal.
 fn merge<T: bytemuck::Pod + std::fmt::Debug>(
     to: &mut [T],

@@ -39,7 +39,8 @@ impl Allowance {
             roll: ROLL_FLOOR
                 + ROLL_DRIFT * (number as f64 + ring.twist)
                 + INTERVAL_TWIST * ring.interval_twist
-                // A lean sets the roll at the start, or turns along with it.
+                // The roll of a yarn that leans begins with the lean in a rotation-minimising
+                // frame, and follows it all along in an upright one.
                 + if ring.leans { DIRECTION } else { 0.0 },
             framed: !(SURELY_VERTICAL..NEAR_VERTICAL).contains(&tilt),
         }
@@ -62,7 +63,7 @@ fn wide(value: [f32; 3]) -> DVec3 {
     DVec3::from_array(value.map(f64::from))
 }
 
-/// Compares the counts of an output with those that its plan promises.
+/// Compares the counts that a plan promises with those of the oracle.
 pub fn compare_counts(oracle: &Oracle, plan: &Plan, report: &mut Report) {
     let (expected, actual) = (oracle.counts(), plan.counts());
     for (what, expected, actual) in [
@@ -293,7 +294,7 @@ fn compare_vertex(
     }
 }
 
-/// A cap lies on its yarn's end, and its normals point straight out.
+/// Checks that a cap lies on its yarn's end, and that its normals point straight out.
 fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, report: &mut Report) {
     let last = oracle.yarns[cap.yarn].rings.len() - 1;
     let (number, sign) = if cap.end == End::Start { (0, -1.0) } else { (last, 1.0) };
@@ -306,8 +307,8 @@ fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, re
     }
 }
 
-/// Whether two caps have the same triangles. A cap that was never written has been reported as
-/// missing.
+/// Whether two caps have the same triangles. True if `new` has none, because a cap that was never
+/// written has been reported as missing.
 fn same_triangles(old: &AssembledCap, new: &AssembledCap) -> bool {
     new.triangles.is_empty() || old.triangles == new.triangles
 }

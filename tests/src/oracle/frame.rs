@@ -69,8 +69,8 @@ mod tests {
         }
     }
 
-    /// Two ups of the same height keep that height around an arc. Half way between two ups at a
-    /// right angle the direction is their middle.
+    /// Two ups that are equally steep stay so around an arc. Half way between two ups at a right
+    /// angle the direction is their middle. Opposite ups are one direction.
     #[test]
     fn ups_go_over_into_one_another() {
         let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);

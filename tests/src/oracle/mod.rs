@@ -99,7 +99,7 @@ pub struct OracleYarn {
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 2.0, 4.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.5)));
 /// let oracle = Oracle::new(&yarns.build()?, &Settings::default());
-/// // Five rings; the fourth one's side points to +y, half a radius off the yarn's axis.
+/// // Five rings. The first vertex of the fourth one lies towards +y, a radius off the yarn's axis.
 /// assert_eq!(oracle.counts().rings, 5);
 /// assert_eq!(oracle.vertex(0, 3, 0).0.to_array(), [3.0, 0.5, 0.0]);
 /// # Ok::<(), texere_core::YarnError>(())
@@ -167,8 +167,8 @@ impl Oracle {
         }
         counts.indices = match self.settings.topology {
             Topology::Indexed => 3 * counts.triangles,
-            // The pattern has the quads of the longest yarn, as many as it may have, and both caps
-            // of each section.
+            // The pattern has the quads of the longest yarn, but of 8,192 gaps at most, and both
+            // caps of each section.
             Topology::Shared => {
                 let caps = if self.settings.caps { 2 * self.outlines.len() as u64 } else { 0 };
                 most_gaps.min(8192) * sides * 6 + caps * (sides - 2) * 3
@@ -268,8 +268,8 @@ fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     }
 }
 
-/// Spreads what a closed yarn turns beyond whole turns along the yarn. Closes the yarn with a copy
-/// of its first ring.
+/// Spreads what a closed yarn turns beyond the nearest whole number of turns evenly along the yarn,
+/// and returns it. Closes the yarn with a copy of its first ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
     let whole = rings[gaps].roll - rings[0].roll;

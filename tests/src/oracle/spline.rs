@@ -87,7 +87,7 @@ impl Interval {
     }
 
     /// The square up to which a derivative counts as zero, mm²: that of a millionth of the
-    /// interval's size, and at least the least that f32 can square.
+    /// interval's size, but at least 1e-30, because f32 loses the squares of much shorter lengths.
     fn at_rest(&self) -> f64 {
         let size: f64 = self.positions.iter().map(|point| point.length_squared()).sum();
         (1e-12 * size).max(1e-30)

@@ -51,7 +51,8 @@ impl Chart {
     ///
     /// # Panics
     ///
-    /// If courses differ in length, for other letters, and if a needle never knits.
+    /// Without courses, if courses differ in length, for other letters, and if a needle never
+    /// knits.
     #[must_use]
     pub fn new<Course: AsRef<str>>(courses: &[Course]) -> Self {
         let cell = |letter| match letter {

@@ -1,5 +1,5 @@
-//! Passages of yarns through one another, by Gauss's linking integral of windows of yarn before and
-//! after.
+//! Finds passages of yarns through one another, by Gauss's linking integral of windows of yarn
+//! before and after settling.
 //!
 //! Windows are shorter than loops. When a head is pulled out of the loop above it, one leg may gain
 //! what another leg loses, so that the integral of a whole loop would not change.

@@ -32,8 +32,8 @@ fn weft_knits() -> Vec<Start> {
 }
 
 /// A knit with eyelets, in repeats of four wales and four courses. In every other course, the loop
-/// of every fourth needle is moved to a neighbour, to the right and to the left by turns. The yarn
-/// goes over the empty needle.
+/// of every fourth needle is moved to the next needle on the right. From one of these courses to
+/// the next, the needles are two wales further on. The yarn goes over the empty needle.
 #[must_use]
 pub fn lace(repeats: usize) -> Start {
     let courses = vec![[">kkk", "kkkk", "kk>k", "kkkk"].map(|course| course.repeat(repeats)); repeats];

@@ -51,7 +51,8 @@ pub fn settling_plan(start: &Start) -> Arc<SettlingPlan> {
     Arc::new(SettlingPlan::new(&settling).expect("a start's plan"))
 }
 
-/// Settles a start on a device.
+/// Settles a start on a device, and calls `watch` after each pass. Returns the result and the
+/// points of each yarn.
 ///
 /// # Panics
 ///

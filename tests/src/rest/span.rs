@@ -75,7 +75,7 @@ impl<'a> Span<'a> {
     ///
     /// # Panics
     ///
-    /// For a chain of less than four intervals.
+    /// For a chain of less than two intervals.
     #[must_use]
     pub fn new(ring: &'a [DVec3], parts: usize) -> Self {
         let fold = |fold: fn(DVec3, DVec3) -> DVec3| ring.iter().copied().reduce(fold).expect("points");

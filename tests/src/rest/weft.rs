@@ -7,8 +7,8 @@
 //!   and its own legs pass in front of their heads. The lower half of a loop therefore lies on the
 //!   side to which it is drawn itself, and the upper half on the side to which the next loop is
 //!   drawn.
-//! - A needle that does not knit keeps its loop, whose upper half lies higher by these courses. The
-//!   yarn of a missed course floats past behind it.
+//! - A needle that does not knit keeps its loop, whose upper half lies higher by the courses that
+//!   the needle leaves out. The yarn of a missed course floats past behind it.
 //! - A tuck is an arch that hangs on the needle behind the held loop. The next loop is drawn
 //!   through both, and its feet pass behind the tuck. The legs of the tuck lie behind those of the
 //!   held loop.

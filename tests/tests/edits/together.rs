@@ -8,8 +8,8 @@ use texere_core::{ControlPoint, Frame, Settings, Yarn};
 
 use super::{Edit, Fabric, ROOM, editing, edits_of, ends_as_fresh, read, yarns_of};
 
-/// `count` points at `y` along x. With `climbs` they rise in a helix: the yarn is steep where it is
-/// round, and leans where it is flattened.
+/// `count` points at `y` along x. With `climbs` they rise in a helix: the yarn is steep if it is
+/// round, and leans if it is flattened.
 fn laid(y: f32, count: usize, climbs: bool, halves: (f32, f32)) -> Vec<ControlPoint> {
     let place = |k: usize| {
         let t = k as f32 * 0.4;
@@ -19,7 +19,7 @@ fn laid(y: f32, count: usize, climbs: bool, halves: (f32, f32)) -> Vec<ControlPo
     (0..count).map(place).map(point).collect()
 }
 
-/// Some yarns get fewer points, some get more, some become upright, and some lean. The yarns
+/// Some yarns get fewer points, some get more, some become steep, and some begin to lean. The yarns
 /// between them stay.
 #[test]
 fn yarns_that_are_edited_together_end_as_a_fresh_mesh() {
@@ -32,7 +32,7 @@ fn yarns_that_are_edited_together_end_as_a_fresh_mesh() {
     let back = [1, 2, 3, 9, 13].map(|yarn| (yarn, 0.0, 1, laid(yarn as f32, 12 + yarn, false, round)));
     let layout = yarns_of(&together.iter().map(|other| (Yarn::default(), other.3.clone())).collect());
     let stand = |at: usize| (layout.layout().is_steep(at), layout.layout().ups(at).is_some());
-    // How yarns 0, 1 and 9 stand.
+    // Whether yarns 0, 1 and 9 are steep, and whether they lean.
     assert_eq!([0, 1, 5].map(stand), [(false, false), (true, false), (false, true)]);
     for device in editing() {
         for frame in [Frame::Upright, Frame::RotationMinimizing] {

@@ -65,7 +65,8 @@ fn gauge(wale: f64) -> Gauge {
     Gauge::new(wale * D, COURSE * wale * D)
 }
 
-/// Settles a piece, and checks clearance, bends, and whether yarns have passed through one another.
+/// Settles a piece. Returns the result, its measures by the test's own check, and the largest
+/// change of linking.
 fn settled(name: &str, piece: &Piece, length: settling::Length) -> (Settled, Report, f64) {
     let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
@@ -99,7 +100,8 @@ fn loops_are_drawn_through_what_the_chart_says() {
     }
 }
 
-/// The check of topology reports a head that has slipped off the loop which it holds.
+/// The check of topology reports a head that is no longer held by the loop which was drawn through
+/// it.
 #[test]
 fn a_dropped_stitch_is_seen() {
     let chart = Chart::parse("kkkk\nkkkk\nkkkk\nkkkk", Beds::One).expect("a chart");

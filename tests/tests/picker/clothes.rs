@@ -27,7 +27,7 @@ pub(crate) struct Cloth {
     pub(crate) name: &'static str,
     pub(crate) yarns: Yarns,
     pub(crate) settings: Settings,
-    /// Number of rays that are compared with all of its triangles.
+    /// Number of rays that are compared with all triangles of the cloth.
     pub(crate) rays: usize,
 }
 

@@ -65,8 +65,8 @@ pub(crate) fn mesh_of(yarns: &Yarns, settings: Settings) -> Mesh {
     Pipeline::new(yarns).settings(settings).mesh(&SerialBackend::new()).unwrap()
 }
 
-/// The intersection of a ray with a triangle whose edges are moved out by `slack`, a share of its
-/// size (Möller and Trumbore 1997).
+/// The distance, in lengths of the ray's direction, at which the ray meets a triangle (Möller and
+/// Trumbore 1997). The triangle's edges are moved out by `slack`, a share of its size.
 pub(crate) fn meets(ray: &Ray, [a, b, c]: &[[f64; 3]; 3], slack: f64) -> Option<f64> {
     let (one, other) = (sum(*b, *a, -1.0), sum(*c, *a, -1.0));
     let across = cross(ray.direction, other);
@@ -82,7 +82,8 @@ pub(crate) fn meets(ray: &Ray, [a, b, c]: &[[f64; 3]; 3], slack: f64) -> Option<
     (u >= -slack && v >= -slack && u + v <= 1.0 + slack && along >= 0.0).then_some(along)
 }
 
-/// The nearest of all triangles, and its size in lengths of the direction.
+/// The distance and the place of the nearest of all triangles, and the length of its longest edge.
+/// Both lengths are in lengths of the ray's direction.
 pub(crate) fn nearest(ray: &Ray, all: &[Triangle], slack: f64) -> Option<(f64, MeshPlace, f64)> {
     let hits = all.iter().filter_map(|(corners, place)| Some((meets(ray, corners, slack)?, *place, corners)));
     let (distance, place, [a, b, c]) = hits.min_by(|one, other| one.0.total_cmp(&other.0))?;

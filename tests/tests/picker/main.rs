@@ -216,7 +216,7 @@ fn the_way_along_the_yarn_is_exact() {
     }
 }
 
-/// Triangles without stored indices are hit, too.
+/// Hits without stored indices equal those with them.
 #[test]
 fn hits_do_not_depend_on_the_topology() {
     let yarns = twisted();

@@ -7,7 +7,8 @@ use texere_formats::Design;
 
 use super::judge::{mesh_of, picker_of};
 
-/// The design, and the first hit of a ray from above at a point, mm.
+/// The thread and the name of what a ray from above hits first at each of `points`, mm. None if it
+/// hits nothing.
 fn named(design: &Design, points: &[[f64; 2]]) -> Vec<Option<(ThreadPlace, String)>> {
     let yarns = design.yarns().unwrap();
     let picker = picker_of(&mesh_of(&yarns, Settings::default()), &yarns);
@@ -77,8 +78,8 @@ fn stitches_are_where_their_yarns_go() {
     }
 }
 
-/// A ray from above hits the head of a stitch. The stitch is named by wale and course and by the
-/// chart's cell. In a warp knit it is named by its guide.
+/// A stitch that a ray from above hits is named by wale and course and by the chart's cell. In a
+/// warp knit it is named by its guide and its wale.
 #[test]
 fn stitches_are_told_with_what_made_them() {
     let design = cases::design("rib.toml");

@@ -37,8 +37,8 @@ fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> W
     WarpKnitted::new(bars, gauge, wales, courses, yarns, materials, sections, [1, 1]).expect("a cloth")
 }
 
-/// Every edge that a figure can have: each colour beside every two others in one row, and then
-/// equal and unequal rows.
+/// Every edge that a figure can have: each colour of a row between every two colours, beside equal
+/// and unequal colours in the rows above and below.
 #[test]
 fn every_colour_rests_between_all_others() {
     // The sequence is cyclic, and has every run of three colours once (de Bruijn, 1946).
@@ -58,8 +58,8 @@ fn clear(cloth: &WarpKnitted) -> f64 {
     settled.expect("a settling").clearance.min
 }
 
-/// Thick places in every second column. Neighbours share needles up to the cut edge, where they
-/// must not touch.
+/// Several figures are clear up to their cut edges, although loops of neighbouring guides share
+/// needles there.
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
     // The one of 100 random figures whose legs differ most in their bends above the cloth.

@@ -70,6 +70,7 @@ fn all() -> impl Iterator<Item = (&'static Design, f64)> {
 }
 
 /// Yarns that are cut at the upper and the lower edge lack the points that bend them in the repeat.
+/// They have to be clear of one another there, too.
 #[test]
 fn cut_edges_are_as_clear_as_the_repeat() {
     let device = ParallelBackend::open().expect("the CPU");
@@ -81,7 +82,8 @@ fn cut_edges_are_as_clear_as_the_repeat() {
     }
 }
 
-/// The check of topology reports a head that has slipped off the loop which it holds.
+/// The check of topology reports a head that is no longer held by the loop which was drawn through
+/// it.
 #[test]
 fn a_dropped_stitch_is_seen() {
     let cloth = cloth(DESIGNS[0].bars(), 0.1);

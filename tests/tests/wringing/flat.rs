@@ -178,7 +178,8 @@ fn a_flat_yarn_stands_upright_where_it_lies_flat() {
     assert!(ribbon.ups().is_none(), "nobody gave it any");
 }
 
-/// Woven cloth of flat threads follows the upright frame to the bit.
+/// Flat threads of woven cloth are not steep and do not lean. Meshes of up to six untwisted threads
+/// of each cloth follow the upright frame to the bit.
 #[test]
 fn flat_threads_of_woven_cloth_have_no_ups() {
     let device = ParallelBackend::open().unwrap();

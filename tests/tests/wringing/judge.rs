@@ -4,15 +4,15 @@
 use glam::DVec3;
 use texere_core::{Backend, Pipeline, Settings, Topology, Yarns};
 
-/// Rings that are closer than this share of the radius count as cutting one another: the yarn folds
-/// there.
+/// Rings that are closer than this share of the radius count as cutting one another. The yarn folds
+/// there, so the triangles between them do not count.
 const CLEAR: f64 = 0.02;
 
 /// The worst values of a mesh between neighbouring rings.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drawn {
-    /// The largest turn of a ring against the previous ring, carried to it, beyond the yarn's
-    /// twist, degrees.
+    /// The largest turn from a ring to the next, beyond the yarn's twist, degrees. The first ring
+    /// is carried along the yarn to the second one, and compared with it there.
     pub(crate) turn: f64,
     /// The least distance of the tube from the axis half way between two rings, over its distance
     /// on the rings. Bends count as straightened. Twisted yarns do not count.

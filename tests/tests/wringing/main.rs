@@ -1,4 +1,5 @@
-//! Tubes are not wrung: no ring is turned against the previous one by more than the yarn's twist.
+//! Tubes are not wrung: beyond the yarn's twist, no ring is turned against the previous one by more
+//! than 30 degrees.
 
 mod flat;
 mod judge;
@@ -11,10 +12,11 @@ use texere_conformance::cases::small_designs;
 use texere_core::{ControlPoint, Frame, Settings, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
-/// The largest turn of a ring against the previous one, degrees.
+/// The largest turn of a ring against the previous one that is allowed, degrees.
 const TURN: f64 = 30.0;
 
-/// Width of a tube half way between two rings that are turned by this angle.
+/// Width of a tube half way between two rings that are turned by [`TURN`], as a share of its width
+/// on the rings.
 const WIDTH: f64 = 0.965_925;
 
 const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
@@ -22,8 +24,8 @@ const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
 /// Pairs of subdivisions and sides: few rings with few sides, and many.
 const DRAWN: [(u32, u32); 5] = [(0, 6), (1, 6), (1, 3), (3, 8), (7, 13)];
 
-/// Checks a mesh of `yarns` with either frame. Returns the larger number of triangles that face
-/// inwards.
+/// Checks meshes of `yarns` with all pairs of [`DRAWN`] and with either frame. Returns the largest
+/// number of triangles of a mesh that face inwards.
 fn check(name: &str, yarns: &Yarns) -> usize {
     let device = ParallelBackend::open().unwrap();
     let mut inwards = 0;
@@ -118,7 +120,7 @@ fn closed_yarns_that_stand_on_end_are_not_wrung() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Any yarn at any tension.
+    /// Any open yarn, at tensions from 0 to below 0.9.
     #[test]
     fn no_yarn_is_wrung(
         steps in prop::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 3..30),

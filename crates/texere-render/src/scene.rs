@@ -155,7 +155,7 @@ impl Renderer {
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
-        self.scene_with_progress(yarns, settings, |_| ControlFlow::Continue(()))
+        self.watched_scene(yarns, settings, &mut Watch::none())
     }
 
     /// Sends a fabric to the device as [`Renderer::scene`] does. `progress` gets the share of the
@@ -168,9 +168,17 @@ impl Renderer {
         settings: &Settings,
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Scene, RenderError> {
-        let (points, mut watch) = (yarns.points(), Watch::new(&mut progress));
-        let extent = Extent::of(yarns);
-        self.scene_of(yarns, settings, extent, &mut watch, |session, watch| {
+        self.watched_scene(yarns, settings, &mut Watch::new(&mut progress))
+    }
+
+    fn watched_scene(
+        &self,
+        yarns: &Yarns,
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Result<Scene, RenderError> {
+        let (points, extent) = (yarns.points(), Extent::of(yarns));
+        self.scene_of(yarns, settings, extent, watch, |session, watch| {
             let mut first = 0;
             for piece in points.chunks(UPLOAD_POINTS) {
                 session.upload(first, piece)?;
@@ -195,8 +203,7 @@ impl Renderer {
         settler: &mut dyn Settler,
     ) -> Result<Scene, RenderError> {
         let extent = Extent::settled(yarns, settler)?;
-        let mut unheard = |_| ControlFlow::Continue(());
-        let watch = &mut Watch::new(&mut unheard);
+        let watch = &mut Watch::none();
         self.scene_of(yarns, settings, extent, watch, |session, _| Ok(session.take_settled(settler)?))
     }
 
@@ -286,7 +293,7 @@ impl Scene {
     /// empty or too large for the device's textures, or supersampled 0 times; [`RenderError::Plan`]
     /// if not even one block fits the limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
-        self.picture_with_progress(camera, quality, |_| ControlFlow::Continue(()))
+        self.watched_picture(camera, quality, &mut Watch::none())
     }
 
     /// Makes a picture as [`Scene::picture`] does. `progress` gets the share of the work done, from
@@ -300,7 +307,16 @@ impl Scene {
         quality: Quality,
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Picture, RenderError> {
-        let timings = self.watched_frame(camera, quality, &mut Watch::new(&mut progress))?.timings;
+        self.watched_picture(camera, quality, &mut Watch::new(&mut progress))
+    }
+
+    fn watched_picture(
+        &mut self,
+        camera: &Camera,
+        quality: Quality,
+        watch: &mut Watch<'_>,
+    ) -> Result<Picture, RenderError> {
+        let timings = self.watched_frame(camera, quality, watch)?.timings;
         let start = Instant::now();
         let [rgb, alpha] = self.copy()?;
         let timings = PictureTimings { copy: start.elapsed(), ..timings };
@@ -312,7 +328,7 @@ impl Scene {
     ///
     /// **Errors**: those of [`Scene::picture`].
     pub fn frame(&mut self, camera: &Camera, quality: Quality) -> Result<DevicePicture, RenderError> {
-        self.watched_frame(camera, quality, &mut Watch::new(&mut |_| ControlFlow::Continue(())))
+        self.watched_frame(camera, quality, &mut Watch::none())
     }
 
     fn watched_frame(

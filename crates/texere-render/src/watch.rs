@@ -6,9 +6,10 @@ use texere_wgpu::WgpuBackend;
 
 use crate::RenderError;
 
-/// The caller's progress callback, and the share of the work that was last passed to it.
+/// The caller's progress callback, if there is one, and the share of the work that was last passed
+/// to it.
 pub(crate) struct Watch<'a> {
-    progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
+    progress: Option<&'a mut dyn FnMut(f64) -> ControlFlow<()>>,
     done: f64,
     /// The submission that was waited for when the callback asked to stop.
     under_way: Option<wgpu::SubmissionIndex>,
@@ -16,7 +17,12 @@ pub(crate) struct Watch<'a> {
 
 impl<'a> Watch<'a> {
     pub(crate) fn new(progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>) -> Self {
-        Self { progress, done: 0.0, under_way: None }
+        Self { progress: Some(progress), done: 0.0, under_way: None }
+    }
+
+    /// The watch of a caller without a callback.
+    pub(crate) const fn none() -> Self {
+        Self { progress: None, done: 0.0, under_way: None }
     }
 
     /// Passes the share of the work that is done, from 0 to 1, to the callback.
@@ -24,7 +30,10 @@ impl<'a> Watch<'a> {
     /// **Errors**: [`RenderError::Cancelled`].
     pub(crate) fn tell(&mut self, done: f64) -> Result<(), RenderError> {
         self.done = done;
-        if (self.progress)(done).is_break() { Err(RenderError::Cancelled) } else { Ok(()) }
+        match self.progress.as_mut().map(|progress| progress(done)) {
+            Some(ControlFlow::Break(())) => Err(RenderError::Cancelled),
+            _ => Ok(()),
+        }
     }
 
     /// Asks the callback whether the work goes on.
@@ -43,6 +52,9 @@ impl<'a> Watch<'a> {
         submission: &wgpu::SubmissionIndex,
     ) -> Result<(), RenderError> {
         let Self { progress, done, under_way } = self;
+        let Some(progress) = progress else {
+            return Ok(device.wait(submission.clone())?);
+        };
         if device.wait_while(submission, || progress(*done).is_continue())? {
             return Ok(());
         }

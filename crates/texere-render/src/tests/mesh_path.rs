@@ -1,8 +1,6 @@
 //! The judge of pictures: it draws a session's mesh by the device's own rasteriser, and lights the
 //! samples as for any picture.
 
-use std::ops::ControlFlow;
-
 use bytemuck::{Pod, Zeroable};
 use image::RgbImage;
 use texere_core::Limits;
@@ -127,7 +125,7 @@ pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     let mut view = ViewUniform::new(camera, Background::Ground, 1, false);
     view.spread = 0.0;
     scene.renderer.write(&scene.view, bytemuck::bytes_of(&view)).unwrap();
-    scene.draw(&mut Watch::new(&mut |_| ControlFlow::Continue(()))).unwrap();
+    scene.draw(&mut Watch::none()).unwrap();
     let drawn = lit(scene, camera);
     let plan = scene.plan.clone();
     let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();
@@ -139,7 +137,7 @@ pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
 
 /// The lit picture of what is on the screen.
 fn lit(scene: &Scene, camera: &Camera) -> RgbImage {
-    scene.shade(&mut Watch::new(&mut |_| ControlFlow::Continue(()))).unwrap();
+    scene.shade(&mut Watch::none()).unwrap();
     let [rgb, _] = scene.copy().unwrap();
     image_of(camera.size(), rgb)
 }

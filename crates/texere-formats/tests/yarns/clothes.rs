@@ -38,9 +38,11 @@ pub(crate) fn repeat(text: &str) -> (Yarns, Boundary) {
 /// ring, a ribbon with its own outline, and a loop that goes on in the next repeat.
 pub(crate) fn odd() -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
-    for (name, tex, hairiness) in
-        [("", None, 0.0), ("Wolle \u{1f411}\n\"x\"", Some(30.5), 6.25), ("nul\0", Some(-0.0), 30.0)]
-    {
+    for (name, tex, hairiness) in [
+        ("", None, 0.0),
+        ("Wolle \u{1f411}\n\"x\"", Some(30.5), 6.25),
+        ("nul\0", Some(f32::from_bits(1)), 30.0),
+    ] {
         yarns.material(Material { name: name.into(), srgb: [0, 127, 255], tex, hairiness });
     }
     for section in [

@@ -144,6 +144,8 @@ fn every_field_is_checked() {
         (HEADER, &long(1 << 63), "byte 60: the length of a material's name is 9223372036854775808, expected"),
         (HEADER + 11, &[2], "byte 71: whether a material has tex is 2, expected 0 or 1"),
         (HEADER + 12, &float(1.0), "the tex of a material without tex is"),
+        (HEADER + 20 + 26, &float(-30.5), "material 1 has -30.5 tex, which is no positive number"),
+        (HEADER + 20 + 26, &nan, "material 1 has NaN tex"),
         (HEADER + 16, &float(31.0), "a hairiness of 31"),
         (HEADER + 16, &nan, "a hairiness of NaN"),
         (HEADER + 20 + 8, &[0xff], "a material's name is \\xffolle"),

@@ -37,8 +37,14 @@ fn made() -> impl Strategy<Value = Made> {
 }
 
 fn material() -> impl Strategy<Value = Material> {
-    (any::<String>(), any::<[u8; 3]>(), any::<Option<f32>>(), 0f32..=30.0)
-        .prop_map(|(name, srgb, tex, hairiness)| Material { name, srgb, tex, hairiness })
+    use prop::num::f32::{NORMAL, POSITIVE, SUBNORMAL};
+    let tex = prop::option::of(POSITIVE | NORMAL | SUBNORMAL);
+    (any::<String>(), any::<[u8; 3]>(), tex, 0f32..=30.0).prop_map(|(name, srgb, tex, hairiness)| Material {
+        name,
+        srgb,
+        tex,
+        hairiness,
+    })
 }
 
 fn section() -> impl Strategy<Value = Section> {

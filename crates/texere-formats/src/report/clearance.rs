@@ -73,8 +73,8 @@ pub(crate) struct ContactReport {
     pub(crate) yarns: [String; 2],
     /// Half way between the two centrelines, mm.
     pub(crate) place_mm: [f64; 3],
-    /// The crossing next to which each of the two lies; null at a yarn's end and in a turn of the
-    /// weft.
+    /// The crossing next to which each of the two lies. Null in knits, at a yarn's end, and in a
+    /// turn of the weft.
     crossings: [Option<Crossing>; 2],
 }
 

@@ -56,7 +56,7 @@ impl From<KnitMeasures> for LoopsReport {
     }
 }
 
-/// The part of a design's yarn that is in the cloth.
+/// The yarn of one material in the cloth.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnReport {
     pub(crate) yarn: String,

@@ -28,7 +28,7 @@ pub(crate) struct WovenRestReport {
     pub(super) clearance: f64,
     /// How many times threads were made thinner.
     rounds: u32,
-    /// The share of its area that each set keeps.
+    /// The area that the threads of each set keep, as a share of their full area.
     area: Sets<AreaReport>,
 }
 

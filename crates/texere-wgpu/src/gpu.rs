@@ -169,8 +169,8 @@ impl Gpu {
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<bool, BackendError> {
         let (start, mut asked) = (Instant::now(), Duration::ZERO);
-        // The driver is only asked, and this thread sleeps in between: lavapipe (Mesa 22.3) reported
-        // a lost device now and then where it was to wait for ten milliseconds at most.
+        // The driver is only asked, and this thread sleeps in between. Asked to wait for ten
+        // milliseconds at most, lavapipe (Mesa 22.3) now and then reported a lost device.
         while !self.waits(submission.clone(), Duration::ZERO)? {
             let waited = start.elapsed();
             if waited > WAIT_LIMIT {

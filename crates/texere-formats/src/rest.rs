@@ -151,11 +151,11 @@ impl Design {
     /// // Threads so dense that they flatten.
     /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
     /// let (warp, weft) = (vec![Thread::new(0.7, 0.2); 4], vec![Thread::new(0.7, 0.2); 4]);
-    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()],
-    /// vec![Section::Circle])?; let design = Design::of("Sheeting",
-    /// Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?)); let cloth =
-    /// design.rest(&SerialBackend::new()).run()?; assert_eq!(cloth.report().to_string(), "at
-    /// rest"); assert_eq!(cloth.yarns().layout().yarns().len(), 8);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let design = Design::of("Sheeting", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
+    /// let cloth = design.rest(&SerialBackend::new()).run()?;
+    /// assert_eq!(cloth.report().to_string(), "at rest");
+    /// assert_eq!(cloth.yarns().layout().yarns().len(), 8);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn rest(self, device: &dyn Backend) -> Resting<'_> {

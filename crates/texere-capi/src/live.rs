@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::handle::{Handle, alone, clear, free, get, get_any, give};
 use crate::mesh::{memory, texere_vertex};
 use crate::plan::{shape, texere_counts, texere_draw};
-use crate::run::{reporter, texere_run};
+use crate::run::{Run, reporter, texere_run};
 use crate::settings::{chosen, texere_settings};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
@@ -133,6 +133,23 @@ impl Editing {
             .first()
             .map(|cap| stretch(cap.first_vertex, count * settings.sides, cap.first_index, count * each));
         iter::once(tubes).chain(caps)
+    }
+
+    /// Reads a stretch of the mesh into the caller's memory.
+    ///
+    /// # Safety
+    ///
+    /// As for [`memory`].
+    unsafe fn read_into(
+        &mut self,
+        wanted: &texere_change,
+        vertices: (*mut texere_vertex, u64),
+        indices: (*mut u32, u64),
+        run: Option<Arc<Run>>,
+    ) -> Result<(), Failure> {
+        // SAFETY: the caller vouches for both.
+        let into = unsafe { memory(vertices, indices, [wanted.vertex_count, wanted.index_count]) }?;
+        self.read(wanted, into, reporter(run))
     }
 
     /// Reads a stretch of the mesh. The slices have the lengths that it says.
@@ -334,10 +351,8 @@ pub unsafe extern "C" fn texere_live_mesh(
                 first_index: 0,
                 index_count: editing.counts.indices,
             };
-            let sizes = [all.vertex_count, all.index_count];
-            // SAFETY: the caller vouches for both.
-            let into = unsafe { memory((vertices, vertex_count), (indices, index_count), sizes) }?;
-            editing.read(&all, into, reporter(run))
+            // SAFETY: the caller vouches for vertices and indices.
+            unsafe { editing.read_into(&all, (vertices, vertex_count), (indices, index_count), run) }
         })
     })
 }
@@ -370,10 +385,8 @@ pub unsafe extern "C" fn texere_live_read(
             };
             within("vertices", wanted.first_vertex, wanted.vertex_count, editing.counts.vertices)?;
             within("indices", wanted.first_index, wanted.index_count, editing.counts.indices)?;
-            let sizes = [wanted.vertex_count, wanted.index_count];
-            // SAFETY: the caller vouches for both.
-            let into = unsafe { memory((vertices, vertex_count), (indices, index_count), sizes) }?;
-            editing.read(&wanted, into, reporter(None))
+            // SAFETY: the caller vouches for vertices and indices.
+            unsafe { editing.read_into(&wanted, (vertices, vertex_count), (indices, index_count), None) }
         })
     })
 }

@@ -77,7 +77,7 @@ impl Planned {
 
     /// Makes the mesh piece by piece, and lays each where it belongs.
     fn scatter(&self, run: Option<Arc<Run>>, mut places: Places<'_>) -> Result<(), Failure> {
-        if self.settings.topology == Topology::Shared {
+        if self.plan.settings().topology == Topology::Shared {
             places.write_indices(0, &self.plan.shared_indices());
         }
         let _ = self.start(run)?.stream(&self.chunks, |chunk, piece| {

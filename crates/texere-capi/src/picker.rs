@@ -116,6 +116,26 @@ impl Place {
     }
 }
 
+/// Reads a ray of the caller's, and writes what `pick` finds along it.
+///
+/// # Safety
+///
+/// `ray` is valid for a read, `hit` for a write.
+unsafe fn picked(
+    ray: *const texere_ray,
+    hit: *mut texere_hit,
+    pick: impl FnOnce(&Ray) -> Result<Option<Hit>, Failure>,
+) -> Result<(), Failure> {
+    check("ray", ray)?;
+    check("hit", hit)?;
+    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    let ray = unsafe { ray.read() };
+    let found = pick(&ray.into())?;
+    // SAFETY: as for `ray`.
+    unsafe { hit.write(found.into()) };
+    Ok(())
+}
+
 /// Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
 ///
 /// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
@@ -147,14 +167,8 @@ pub unsafe extern "C" fn texere_picker_pick(
     hit: *mut texere_hit,
 ) -> texere_status {
     guard(|| {
-        check("ray", ray)?;
-        check("hit", hit)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
-        let ray = unsafe { ray.read() };
-        let found = get(picker)?.pick(&ray.into());
-        // SAFETY: as above.
-        unsafe { hit.write(found.into()) };
-        Ok(())
+        // SAFETY: the caller vouches for `ray` and `hit`.
+        unsafe { picked(ray, hit, |ray| Ok(get(picker)?.pick(ray))) }
     })
 }
 
@@ -198,14 +212,8 @@ pub unsafe extern "C" fn texere_live_pick(
     hit: *mut texere_hit,
 ) -> texere_status {
     guard(|| {
-        check("ray", ray)?;
-        check("hit", hit)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
-        let ray = unsafe { ray.read() };
-        let found = alone(live, |editing| Ok(editing.live.pick(&ray.into())?))?;
-        // SAFETY: as above.
-        unsafe { hit.write(found.into()) };
-        Ok(())
+        // SAFETY: the caller vouches for `ray` and `hit`.
+        unsafe { picked(ray, hit, |ray| alone(live, |editing| Ok(editing.live.pick(ray)?))) }
     })
 }
 

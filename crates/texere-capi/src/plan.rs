@@ -27,7 +27,6 @@ pub struct texere_plan;
 pub(crate) struct Planned {
     pub(crate) yarns: Arc<Yarns>,
     pub(crate) device: Arc<Device>,
-    pub(crate) settings: Settings,
     pub(crate) plan: Arc<Plan>,
     pub(crate) chunks: Vec<Chunk>,
     draws: Vec<texere_draw>,
@@ -120,7 +119,7 @@ impl Planned {
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let chunks: Vec<Chunk> = plan.chunks(&LIMITS.min(&device.backend.info().limits))?.collect();
         let (counts, draws, draw_offsets) = shape(&plan, &chunks);
-        Ok(Self { yarns, device, settings, plan, chunks, draws, draw_offsets, counts })
+        Ok(Self { yarns, device, plan, chunks, draws, draw_offsets, counts })
     }
 
     /// The plan on its way through the device, with `run` told how far it has come.

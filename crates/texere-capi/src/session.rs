@@ -1,14 +1,13 @@
 //! Sessions: a mesh that stays on its device, chunk by chunk, for programs that draw it there.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex};
 
 use texere::backend::Session;
 
 use crate::argument::check_sized;
 use crate::error::guard;
-use crate::failure::Failure;
-use crate::handle::{Handle, clear, free, get, get_any, give};
+use crate::handle::{Handle, alone, clear, free, get, get_any, give};
 use crate::lent::{mesh as lend, native as natives, texere_device_mesh, texere_native};
 use crate::mesh::{memory, texere_vertex};
 use crate::plan::{Planned, texere_plan};
@@ -26,24 +25,12 @@ pub struct texere_session;
 #[derive(Debug)]
 pub(crate) struct Lending {
     planned: Arc<Planned>,
-    session: Mutex<Session>,
+    session: Session,
 }
 
 impl Handle for texere_session {
-    type Value = Lending;
+    type Value = Mutex<Lending>;
     const NAME: &str = "session";
-}
-
-impl Lending {
-    fn session(&self) -> Result<MutexGuard<'_, Session>, Failure> {
-        match self.session.try_lock() {
-            Ok(session) => Ok(session),
-            Err(TryLockError::WouldBlock) => {
-                Err(Failure::argument("the session is in use by another thread"))
-            }
-            Err(TryLockError::Poisoned(session)) => Ok(session.into_inner()),
-        }
-    }
 }
 
 /// Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
@@ -64,7 +51,7 @@ pub unsafe extern "C" fn texere_session_new(
         let session = planned.start(get_any(run)?)?.into_session();
         natives(session.engine())?;
         // SAFETY: as above.
-        unsafe { give(out, Lending { planned, session: Mutex::new(session) }) }
+        unsafe { give(out, Mutex::new(Lending { planned, session })) }
     })
 }
 
@@ -79,8 +66,7 @@ pub unsafe extern "C" fn texere_session_native(
     guard(|| {
         // SAFETY: the caller vouches for `native`.
         unsafe { check_sized("native", native) }?;
-        let lending = get(session)?;
-        let found = natives(lending.session()?.engine())?;
+        let found = alone(session, |lending| natives(lending.session.engine()))?;
         // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
         unsafe { native.write(found) };
         Ok(())
@@ -105,12 +91,12 @@ pub unsafe extern "C" fn texere_session_mesh(
     guard(|| {
         // SAFETY: the caller vouches for `mesh`.
         unsafe { check_sized("mesh", mesh) }?;
-        let lending = get(session)?;
-        let chunk = lending.planned.chunk(number)?;
-        let mut session = lending.session()?;
-        session.mesh(chunk)?;
-        let slot = session.slot_of_mesh(chunk)?;
-        let found = lend(session.engine(), slot, chunk)?;
+        let found = alone(session, |Lending { planned, session }| {
+            let chunk = planned.chunk(number)?;
+            session.mesh(chunk)?;
+            let slot = session.slot_of_mesh(chunk)?;
+            lend(session.engine(), slot, chunk)
+        })?;
         // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
         unsafe { mesh.write(found) };
         Ok(())
@@ -121,8 +107,10 @@ pub unsafe extern "C" fn texere_session_mesh(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_wait(session: *const texere_session) -> texere_status {
     guard(|| {
-        get(session)?.session()?.timings();
-        Ok(())
+        alone(session, |lending| {
+            lending.session.timings();
+            Ok(())
+        })
     })
 }
 
@@ -140,21 +128,17 @@ pub unsafe extern "C" fn texere_session_read(
     index_count: u64,
 ) -> texere_status {
     guard(|| {
-        let lending = get(session)?;
-        let chunk = lending.planned.chunk(number)?;
-        // SAFETY: the caller vouches for both.
-        let mut out = unsafe {
-            memory(
-                (vertices, vertex_count),
-                (indices, index_count),
-                [chunk.vertices().into(), chunk.indices().into()],
-            )
-        }?;
-        let _ = lending.session()?.read_mesh(chunk, &mut |piece| {
-            out.take(piece);
-            ControlFlow::Continue(())
-        })?;
-        Ok(())
+        alone(session, |Lending { planned, session }| {
+            let chunk = planned.chunk(number)?;
+            let sizes = [chunk.vertices().into(), chunk.indices().into()];
+            // SAFETY: the caller vouches for both.
+            let mut out = unsafe { memory((vertices, vertex_count), (indices, index_count), sizes) }?;
+            let _ = session.read_mesh(chunk, &mut |piece| {
+                out.take(piece);
+                ControlFlow::Continue(())
+            })?;
+            Ok(())
+        })
     })
 }
 

@@ -93,7 +93,7 @@ pub unsafe extern "C" fn texere_plan_stream(
         let (plan, run) = (get(plan)?, get_any(run)?);
         // SAFETY: the caller vouches for the callback; the piece is valid while it runs.
         let take = |piece: texere_piece| Answer::of(unsafe { callback(user, &piece) });
-        if let (Topology::Shared, Some(first)) = (plan.settings.topology, plan.chunks.first()) {
+        if let (Topology::Shared, Some(first)) = (plan.plan.settings().topology, plan.chunks.first()) {
             let shared = plan.plan.shared_indices();
             let (indices, index_count) = (shared.as_ptr(), shared.len() as u64);
             take(texere_piece { indices, index_count, ..plan.piece(first) })?;

@@ -64,7 +64,7 @@ impl Planned {
     fn pipeline(&self, run: Option<Arc<Run>>) -> Pipeline<'_> {
         let mut report = reporter(run);
         Pipeline::new(&self.yarns)
-            .settings(self.settings)
+            .settings(*self.plan.settings())
             .limits(LIMITS)
             .progress(move |done| report(done.rings as f64 / done.total.max(1) as f64))
     }

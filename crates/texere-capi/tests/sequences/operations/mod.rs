@@ -45,11 +45,12 @@ pub(crate) struct Operation {
     pub(crate) call: fn(&mut Caller<'_>) -> texere_status,
 }
 
-/// A design that does not settle, a knit, one that settles, and one that is none.
+/// A design that does not settle and has a warning, since its threads are jammed; a knit; a design
+/// that settles; and one that is none.
 pub(crate) const DESIGNS: [&str; 4] = [
     "weave = { notation = \"plain\", ends = 3, picks = 2 }\nfinish.settle = false\n\
-     yarns.a.diameter_mm = 0.2\nwarp = { yarns = [\"a\"], spacing_mm = 0.5 }\n\
-     weft = { yarns = [\"a\"], spacing_mm = 0.5 }\n",
+     yarns.a.diameter_mm = 0.2\nwarp = { yarns = [\"a\"], spacing_mm = 0.3 }\n\
+     weft = { yarns = [\"a\"], spacing_mm = 0.3 }\n",
     "knit = { chart = \"kp\", wales_per_cm = 8.0, courses_per_cm = 10.0 }\nfinish.settle = false\n\
      yarns.a.diameter_mm = 0.3\n",
     "weave = { notation = \"plain\", ends = 2, picks = 2 }\nyarns.a.diameter_mm = 0.2\n\

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use texere::picture::{Background, Camera, Cut, Pose, Quality, Renderer, Scene, picture_sides};
+use texere::picture::{Background, Camera, Cut, Pose, Quality, RenderError, Renderer, Scene, picture_sides};
 use texere::yarn::Origin;
 use texere::{Settings, Yarns};
 
@@ -27,10 +27,13 @@ impl Drawing {
         &mut self,
         yarns: &Yarns,
         settings: Option<Settings>,
-        progress: impl FnMut(f64) -> ControlFlow<()>,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(), Failure> {
         // The scene before may take the memory that this one needs.
         self.scene = None;
+        if progress(0.0).is_break() {
+            return Err(RenderError::Cancelled.into());
+        }
         let settings = settings.unwrap_or_else(|| usual(yarns));
         self.scene = Some(self.renderer.scene_with_progress(yarns, &settings, progress)?);
         Ok(())

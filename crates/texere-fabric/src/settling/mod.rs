@@ -69,6 +69,7 @@ pub fn settle(
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
+    tell(&mut progress, 0.0)?;
     let plan = SettlingPlan::new(&piece.settling(finish)).map_err(|source| {
         match source.yarn().and_then(|yarn| piece.yarns.layout().yarns().get(yarn)) {
             Some(yarn) => FinishError::Thread { thread: yarn.origin, source },
@@ -76,7 +77,9 @@ pub fn settle(
         }
     })?;
     let plan = Arc::new(plan);
+    tell(&mut progress, 0.0)?;
     let mut settler = backend.settler(Arc::clone(&plan))?;
+    tell(&mut progress, 0.0)?;
     let (mut course, mut stopped) = (Vec::new(), false);
     // The progress counts with at most `finish.passes` passes of each form. Settling may make 41
     // more: one that measures the start, and forty in which yarns grow.
@@ -95,9 +98,11 @@ pub fn settle(
     }
     let points = settling::settled(&plan, settler.as_mut(), piece.yarns.points())?;
     drop(settler);
+    tell(&mut progress, PASSED)?;
 
     let settings = Settings::default();
     let moved = piece.moved(&points).map_err(FabricError::from)?;
+    tell(&mut progress, PASSED)?;
     let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, |done| {
         progress(PASSED + (COMPARED - PASSED) * done)
     })?;
@@ -115,6 +120,19 @@ pub fn settle(
     Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, press, course })
 }
 
+/// Asks whether the work goes on.
+pub(crate) type Look<'a> = &'a mut dyn FnMut() -> Result<(), FabricError>;
+
+/// Tells `progress` the share of the work that is done.
+///
+/// **Errors**: [`FabricError::Cancelled`] if it answers `Break`.
+fn tell(progress: &mut impl FnMut(f64) -> ControlFlow<()>, done: f64) -> Result<(), FabricError> {
+    match progress(done) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(FabricError::Cancelled),
+    }
+}
+
 /// The share of the progress at which one repeat has settled. Its copies are then measured.
 const SETTLED: f64 = 0.8;
 
@@ -122,13 +140,14 @@ const SETTLED: f64 = 0.8;
 /// makes.
 pub(crate) fn settle_repeat(
     repeat: &Repeat,
-    placed: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
+    placed: impl FnOnce(&Yarns, Look<'_>) -> Result<Yarns, FabricError>,
     finish: &Finish,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
     let mut settled = settle(&repeat.piece, finish, backend, |done| progress(SETTLED * done))?;
-    let yarns = placed(&settled.yarns)?;
+    let yarns = placed(&settled.yarns, &mut || tell(&mut progress, SETTLED))?;
+    tell(&mut progress, SETTLED)?;
     let settings = Settings::default();
     settled.clearance =
         clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;

@@ -6,7 +6,7 @@
 //!
 //! | to | take |
 //! |---|---|
-//! | write a mesh larger than memory | [`stream`], [`stream_to`] |
+//! | write a mesh larger than memory | [`stream`], [`stream_to`]; with a plan that there is already [`run`], [`run_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
 //! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
 //! | write a design that is read again | `wif`, `toml` (features of these names) |
@@ -29,7 +29,8 @@
 //! ```
 
 pub use texere_formats::write::{
-    Format, Output, Written, abandon, file, mesh_to, repeat, repeat_to, stream, stream_to, yarns, yarns_to,
+    Format, Output, Written, abandon, file, mesh_to, repeat, repeat_to, run, run_to, stream, stream_to,
+    yarns, yarns_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{

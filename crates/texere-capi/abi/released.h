@@ -275,7 +275,8 @@ typedef struct texere_picker texere_picker;
 // The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
 //
 // A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
-// 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
+// 50 ms. How many there are depends on the device, and on how many cores the machine has. Where a
+// chunk ends inside a yarn, its last ring is also the first of the next one.
 typedef struct texere_plan texere_plan;
 
 // A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
@@ -494,8 +495,8 @@ typedef struct texere_change {
 typedef struct texere_update {
   // Bytes of this struct, which the caller sets.
   uint32_t struct_size;
-  // 1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
-  // and places of everything may be others. Else 0.
+  // 1 where the mesh was begun: in the first update, and after an edit that makes a yarn outgrow
+  // its room, when sizes and places of everything may be others. Else 0.
   uint32_t anew;
   // The stretches that were made again, valid until the next update of this live cloth, or until
   // it is freed.
@@ -1398,11 +1399,13 @@ enum texere_status texere_live_of_yarns(const struct texere_yarns *yarns,
                                         struct texere_live **out);
 
 // Makes the parts of the mesh again that edits have changed, and writes which they are. The first
-// update makes the whole mesh. The caller has set `update->struct_size`.
+// update makes the whole mesh. `run` may be null. The caller has set `update->struct_size`.
 //
-// Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
-// parts again.
-enum texere_status texere_live_update(const struct texere_live *live, struct texere_update *update);
+// Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails, and with TEXERE_CANCELLED where
+// `run` was cancelled; the next update makes the same parts.
+enum texere_status texere_live_update(const struct texere_live *live,
+                                      const struct texere_run *run,
+                                      struct texere_update *update);
 
 // Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
 // room between yarns, too, in which yarns can become longer. The caller has set
@@ -1414,6 +1417,13 @@ enum texere_status texere_live_counts(const struct texere_live *live, struct tex
 // update, or until the live cloth is freed.
 enum texere_status texere_live_draws(const struct texere_live *live,
                                      const struct texere_draw **draws);
+
+// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+// when the live cloth is edited or freed.
+enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
+
+// Frees a live cloth, or nothing where it is null.
+void texere_live_free(struct texere_live *live);
 
 // Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
 // between yarns holds is not said.
@@ -1440,13 +1450,6 @@ enum texere_status texere_live_read(const struct texere_live *live,
                                     uint64_t vertex_count,
                                     uint32_t *indices,
                                     uint64_t index_count);
-
-// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
-// when the live cloth is edited or freed.
-enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
-
-// Frees a live cloth, or nothing where it is null.
-void texere_live_free(struct texere_live *live);
 
 // Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
 // air in the yarn: 0.909 is usual for cotton.
@@ -1544,8 +1547,9 @@ enum texere_status texere_picker_pick(const struct texere_picker *picker,
 // has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
 // null.
 //
-// Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
-// above the length.
+// Fails with TEXERE_ARGUMENT where the cloth has no such place, where its yarn lies elsewhere, as it
+// does for a hit of live cloth on a yarn that was edited, and where `size` is neither 0 nor above
+// the length.
 enum texere_status texere_cloth_place(const struct texere_cloth *cloth,
                                       const struct texere_hit *hit,
                                       char *words,
@@ -1563,7 +1567,8 @@ enum texere_status texere_live_pick(const struct texere_live *live,
 // `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
 // is the yarn alone.
 //
-// Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+// Fails with TEXERE_ARGUMENT where the live cloth has no such place, and where its yarn lies
+// elsewhere now.
 enum texere_status texere_live_place(const struct texere_live *live,
                                      const struct texere_hit *hit,
                                      char *words,

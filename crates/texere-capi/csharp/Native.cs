@@ -646,13 +646,13 @@ namespace Texere
 
         /// <summary>
         ///  Makes the parts of the mesh again that edits have changed, and writes which they are. The first
-        ///  update makes the whole mesh. The caller has set `update-&gt;struct_size`.
+        ///  update makes the whole mesh. `run` may be null. The caller has set `update-&gt;struct_size`.
         ///
-        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
-        ///  parts again.
+        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails, and with TEXERE_CANCELLED where
+        ///  `run` was cancelled; the next update makes the same parts.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_update", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_update(texere_live* live, texere_update* update);
+        internal static extern texere_status texere_live_update(texere_live* live, texere_run* run, texere_update* update);
 
         /// <summary>
         ///  Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
@@ -669,6 +669,19 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_draws", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_draws(texere_live* live, texere_draw** draws);
+
+        /// <summary>
+        ///  Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+        ///  when the live cloth is edited or freed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_yarns(texere_live* live, texere_yarns** @out);
+
+        /// <summary>
+        ///  Frees a live cloth, or nothing where it is null.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_live_free(texere_live* live);
 
         /// <summary>
         ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
@@ -691,19 +704,6 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_read(texere_live* live, texere_change* change, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
-
-        /// <summary>
-        ///  Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
-        ///  when the live cloth is edited or freed.
-        /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_live_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_yarns(texere_live* live, texere_yarns** @out);
-
-        /// <summary>
-        ///  Frees a live cloth, or nothing where it is null.
-        /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void texere_live_free(texere_live* live);
 
         /// <summary>
         ///  Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
@@ -812,8 +812,9 @@ namespace Texere
         ///  has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
         ///  null.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
-        ///  above the length.
+        ///  Fails with TEXERE_ARGUMENT where the cloth has no such place, where its yarn lies elsewhere, as it
+        ///  does for a hit of live cloth on a yarn that was edited, and where `size` is neither 0 nor above
+        ///  the length.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_place(texere_cloth* cloth, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
@@ -831,7 +832,8 @@ namespace Texere
         ///  `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
         ///  is the yarn alone.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+        ///  Fails with TEXERE_ARGUMENT where the live cloth has no such place, and where its yarn lies
+        ///  elsewhere now.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_place(texere_live* live, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
@@ -1590,8 +1592,8 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
-        ///  and places of everything may be others. Else 0.
+        ///  1 where the mesh was begun: in the first update, and after an edit that makes a yarn outgrow
+        ///  its room, when sizes and places of everything may be others. Else 0.
         /// </summary>
         public uint anew;
         /// <summary>
@@ -2099,7 +2101,8 @@ namespace Texere
     ///  The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
     ///
     ///  A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
-    ///  50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
+    ///  50 ms. How many there are depends on the device, and on how many cores the machine has. Where a
+    ///  chunk ends inside a yarn, its last ring is also the first of the next one.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_plan

@@ -6,13 +6,14 @@ use std::sync::OnceLock;
 use texere::check::Measures;
 use texere::rest::RestReport;
 
-use crate::argument::{check_sized, lend, numbered};
+use crate::argument::{lend, numbered};
 use crate::design::texere_design;
 use crate::device::texere_device;
 use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::lendable::lendable;
 use crate::run::{reporter, texere_run};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
@@ -59,6 +60,8 @@ pub struct texere_report {
     /// How many warnings `texere_cloth_warning` gives.
     pub warnings: u64,
 }
+
+grows_after!(texere_report, warnings);
 
 impl Cloth {
     fn new(cloth: texere::Cloth, device: &str) -> Self {
@@ -131,8 +134,8 @@ pub unsafe extern "C" fn texere_cloth_report(
             words: cloth.words.as_ptr(),
             warnings: cloth.warnings.len() as u64,
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { report.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(report, found) };
         Ok(())
     })
 }

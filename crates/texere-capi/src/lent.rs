@@ -9,6 +9,7 @@ use texere::gpu::OpenClEngine;
 use texere::gpu::{WgpuEngine, wgpu, wgpu::hal::api::Vulkan};
 
 use crate::failure::Failure;
+use crate::sized::grows_after;
 
 /// Buffers are `cl_mem`.
 pub const TEXERE_NATIVE_OPENCL: u32 = 1;
@@ -36,6 +37,8 @@ pub struct texere_native {
     /// Zero.
     pub reserved: u32,
 }
+
+grows_after!(texere_native, reserved);
 
 /// A part of a buffer on a device.
 #[repr(C)]
@@ -73,6 +76,8 @@ pub struct texere_device_mesh {
     /// The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
     pub ready: u64,
 }
+
+grows_after!(texere_device_mesh, ready);
 
 /// What an engine works with. Fails where it has no buffers to lend.
 pub(crate) fn native(engine: &dyn Engine) -> Result<texere_native, Failure> {
@@ -146,6 +151,7 @@ fn vulkan_buffer(buffer: Option<&wgpu::Buffer>) -> u64 {
 }
 
 /// No objects of any interface.
+#[cfg(any(feature = "opencl", vulkan))]
 const NONE: texere_native = texere_native {
     struct_size: size_of::<texere_native>() as u32,
     kind: 0,

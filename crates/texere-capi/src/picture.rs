@@ -1,8 +1,8 @@
 //! Pictures: what they show, and how.
 
-use crate::argument::{check_sized, sized};
 use crate::error::guard;
 use crate::failure::Failure;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 
 /// The whole cloth from straight above its face.
@@ -70,6 +70,8 @@ pub struct texere_picture {
     pub height_mm: f32,
 }
 
+grows_after!(texere_picture, height_mm);
+
 /// The box round yarns.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -132,8 +134,8 @@ pub unsafe extern "C" fn texere_picture_default(picture: *mut texere_picture) ->
             field_of_view: FIELD_OF_VIEW,
             height_mm: 0.0,
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { picture.write(usual) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(picture, usual) };
         Ok(())
     })
 }

@@ -3,10 +3,11 @@
 use texere::Settings;
 use texere::mesh::{Frame, Quantum, Topology};
 
-use crate::argument::{check_sized, flag, sized};
+use crate::argument::flag;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::get;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
@@ -41,6 +42,8 @@ pub struct texere_settings {
     /// The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
     pub quantum_mm: f32,
 }
+
+grows_after!(texere_settings, quantum_mm);
 
 /// The settings that `pointer` names, or those that suit `yarns` where it is null.
 ///
@@ -103,8 +106,8 @@ pub unsafe extern "C" fn texere_settings_default(
             caps: u32::from(usual.caps),
             quantum_mm: usual.quantum.mm(),
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { settings.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(settings, found) };
         Ok(())
     })
 }

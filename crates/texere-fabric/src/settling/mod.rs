@@ -3,6 +3,7 @@
 
 mod error;
 mod finished;
+mod look;
 mod piece;
 mod repeat;
 mod settled;
@@ -16,11 +17,13 @@ use texere_core::{Backend, Layout, Settings, YarnPlace, Yarns};
 
 pub use self::error::FinishError;
 pub use self::finished::Finished;
+pub(crate) use self::look::Look;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
 pub(crate) use self::repeat::settled_together;
 pub use self::settled::{Finish, Press, Settled};
 
+use self::look::tell;
 use self::settled::unchanged;
 use crate::{FabricError, thickness_mm};
 
@@ -118,19 +121,6 @@ pub fn settle(
         Press { asked_mm: f64::from(asked), reached_mm }
     });
     Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, press, course })
-}
-
-/// Asks whether the work goes on.
-pub(crate) type Look<'a> = &'a mut dyn FnMut() -> Result<(), FabricError>;
-
-/// Tells `progress` the share of the work that is done.
-///
-/// **Errors**: [`FabricError::Cancelled`] if it answers `Break`.
-fn tell(progress: &mut impl FnMut(f64) -> ControlFlow<()>, done: f64) -> Result<(), FabricError> {
-    match progress(done) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(FabricError::Cancelled),
-    }
 }
 
 /// The share of the progress at which one repeat has settled. Its copies are then measured.

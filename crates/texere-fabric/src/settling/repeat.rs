@@ -5,7 +5,8 @@ use std::ops::Range;
 use texere_core::backend::room_for;
 use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, YarnError, Yarns};
 
-use super::{Look, Piece};
+use super::Piece;
+use super::look::Look;
 use crate::FabricError;
 
 /// The fewest wales and courses of a piece that settles, if the cloth has as many. With so many, a

@@ -12,6 +12,7 @@
     allow(dead_code, unused_variables, reason = "formats are left out that it is for")
 )]
 
+mod bcc_file;
 pub mod read;
 #[cfg(feature = "serde")]
 mod report;

@@ -55,8 +55,8 @@ fn descend(ratio: &impl Fn([f64; 2]) -> f64, at: &mut [f64; 2]) -> f64 {
 }
 
 /// A place with a lower ratio than `least`, which is the ratio at `at`, if a way leads there over a
-/// rise of less than [`CLEARANCE_ACCURACY`]. The way goes along a lattice of a 500th of an interval,
-/// for 5,000 places of it at most.
+/// rise of less than [`CLEARANCE_ACCURACY`]. The way goes along a lattice whose places lie a 500th
+/// of an interval apart, over 5,000 of them at most.
 fn over_a_rise(ratio: &impl Fn([f64; 2]) -> f64, at: [f64; 2], least: f64) -> Option<[f64; 2]> {
     let there = |[i, j]: [i32; 2]| [at[0] + f64::from(i) / 500.0, at[1] + f64::from(j) / 500.0];
     let (mut seen, mut left) = (HashSet::from([[0, 0]]), VecDeque::from([[0, 0]]));

@@ -10,6 +10,9 @@
 //! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of woven designs as [WIF](fn@wif)
 //! or as texere's own [design file](fn@toml), which are read again.
 //!
+//! Centrelines are written as [curves](fn@curves): BCC (`.bcc`) and USD's text form (`.usda`), for
+//! simulators and renderers.
+//!
 //! [Yarns](fn@yarns) are saved in `.yarns` files. They are read again to the bit, so that cloth at
 //! rest need not settle again.
 //!
@@ -31,6 +34,7 @@
 //! Twins for meshes need a writer that seeks, because they go back to fill in values that are known
 //! last.
 
+mod curves;
 #[cfg(feature = "wif")]
 mod design;
 #[cfg(feature = "pictures")]
@@ -55,6 +59,7 @@ mod tests;
 mod unfinished;
 mod yarns;
 
+pub use curves::{CurveFormat, curves, curves_to};
 #[cfg(feature = "toml")]
 pub use design::{toml, toml_to};
 #[cfg(feature = "wif")]

@@ -1,4 +1,5 @@
-//! The JSON document of a GLB file: the layout of its buffer, and the yarn of each part.
+//! The JSON document of a GLB file. It says what the buffer holds where, and which yarn each part
+//! of it is.
 
 use std::borrow::Borrow;
 use std::collections::HashMap;

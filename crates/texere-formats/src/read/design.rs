@@ -195,8 +195,8 @@ impl Design {
         &self.faults
     }
 
-    /// The place in the program of a weft knit that the yarn of a control point comes from.
-    /// `source` is that point's [source](Yarns::sources). None if the design has no program.
+    /// The place in a weft knit's program from which the yarn at a control point comes. `source` is
+    /// that point's [source](Yarns::sources). None if the design has no program.
     #[must_use]
     pub fn program_place(&self, source: u32) -> Option<ProgramPlace> {
         self.knitted_from.as_ref().map(|from| from.program_place(source))

@@ -69,8 +69,8 @@ const LOOPS: &[&str] = &[
 /// Keys of a yarn that say how thick it is.
 const THICKNESS: &[&str] = &["diameter_mm", "tex", "cotton_count"];
 
-/// The tables of a design file that describe a structure. An error names the first of them that the
-/// file has if no key fits.
+/// The tables of a design file that describe a structure. If no key fits, an error names the first
+/// of these tables that the file has.
 const TABLES: &[&str] = &["weave", "knit", "warp_knit"];
 
 /// The header of a knitout file that says how close needles lie.

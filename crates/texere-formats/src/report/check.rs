@@ -67,8 +67,8 @@ impl EmptyNeedles {
     }
 }
 
-/// The faults of a cloth's yarns, each none if there is no such fault. A clean cloth has none of
-/// them, and no error of the knitting machine.
+/// The faults of a cloth's yarns. A field is none if the cloth does not have the fault. A clean
+/// cloth has no such fault, and no error of the knitting machine.
 #[derive(Debug, Serialize)]
 struct FaultsReport {
     crowded: Option<CrowdReport>,
@@ -186,7 +186,7 @@ impl CheckReport {
     }
 
     /// The faults in one phrase with the cloth as its subject, such as "pierces itself, folds".
-    /// None of a clean cloth.
+    /// None for a clean cloth.
     #[must_use]
     pub fn verdict(&self) -> Option<&str> {
         self.verdict.as_deref()

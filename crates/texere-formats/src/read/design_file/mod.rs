@@ -46,11 +46,11 @@
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` if not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
 //!
-//! Each weave of an image counts from the cloth's first end and first pick. Areas of one weave
-//! therefore join up, within an image and from one repeat of it to the next. Each colour of the
-//! image has to be in `[weave.colors]`. Without that table the image has two colours, and the
-//! darker one is warp up. Pixels are opaque or wholly transparent; transparent pixels are one
-//! colour, lighter than any other. The colour space of an image is not read.
+//! The weaves of an image are counted from the cloth's first end and first pick, not from the edges
+//! of their areas. Areas of one weave therefore join up, also from one repeat of the image to the
+//! next. Each colour of the image has to be in `[weave.colors]`. Without that table the image has
+//! two colours, and the darker one is warp up. Pixels are opaque or wholly transparent; transparent
+//! pixels are one colour, lighter than any other. The colour space of an image is not read.
 //!
 //! The picks of a Jacquard cloth take the yarns of `[weft]` in turn: `["2 red", "white"]` are two
 //! red picks and one white pick.

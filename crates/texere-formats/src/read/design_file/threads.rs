@@ -26,10 +26,10 @@ const STIFFNESS: [f64; 2] = [0.01, 100.0];
 
 /// The least and the greatest flatness, width over height: that of yarn that stands on edge, and
 /// that of a ribbon. The limits are `f64`, because 0.1 as an `f32` is a little more than 0.1, and
-/// the limit would refuse a flatness of 0.1.
+/// such a limit would refuse a flatness of 0.1.
 const FLATNESS: [f64; 2] = [0.1, 10.0];
 
-/// The most courses or carriers after which the yarns of a knit come in the same turn again.
+/// The most yarns in the list `knit.yarns`, where `"3 red"` counts as three.
 const TURN_MAX: usize = 100_000;
 
 /// A yarn with its name.

@@ -33,8 +33,8 @@ const ROOM_UNEVEN: f64 = 1.85;
 /// thinner, because radii are rounded to `f32`.
 const ROUNDING: f64 = 1e-6;
 
-/// The share by which a thickness may differ from a spacing and still count as equal. Programs
-/// round both.
+/// The share by which two spacings, two thicknesses, or a thickness and a spacing may differ and
+/// still count as equal. Programs round them.
 const ALIKE: f64 = 0.01;
 
 /// The warp's threads, or the weft's, as far as the file describes them.

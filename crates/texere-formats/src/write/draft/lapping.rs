@@ -46,10 +46,10 @@ const DIAGRAMS_MAX: usize = 9;
 /// Number of straight pieces of half a turn round a needle.
 const PARTS: u32 = 12;
 
-/// Draws a warp knit's lapping diagram to a PNG file, and below it the chain of each bar. The
-/// diagram has the first wales and courses, at most 12 by 48. Needles are counted from the left if
-/// the diagram shows the face, and from the right if it shows the back. Returns the picture's width
-/// and height in pixels.
+/// Draws a warp knit's lapping diagram to a PNG file. The diagram has the first wales and courses,
+/// at most 12 by 48, and the chain of each bar stands below it. Needles are counted from the left
+/// if the diagram shows the face, and from the right if it shows the back. Returns the picture's
+/// width and height in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`] for chains too long to be written below, [`WriteError::Spared`],

@@ -1,5 +1,5 @@
-//! The JSON document of a GLB file. It says what the buffer holds where, and which yarn each part
-//! of it is.
+//! The JSON document of a GLB file. It describes the layout of the buffer, and says which yarn each
+//! part of the buffer belongs to.
 
 use std::borrow::Borrow;
 use std::collections::HashMap;

@@ -56,8 +56,7 @@ pub struct texere_place {
     pub column: u64,
 }
 
-/// Writes the place in a design's file of the fault because of which the last call of this thread
-/// that failed did so.
+/// Writes where the last failure of this thread lies: its place in a design's file.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `place`.
 #[unsafe(no_mangle)]

@@ -335,8 +335,8 @@ pub unsafe extern "C" fn texere_live_draws(
 /// of the room between yarns are undefined.
 ///
 /// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
-/// says, and if there was an edit since the last `texere_live_update`. Fails with TEXERE_CANCELLED
-/// if `run` was cancelled.
+/// says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
+/// TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_mesh(
     live: *const texere_live,
@@ -365,8 +365,8 @@ pub unsafe extern "C" fn texere_live_mesh(
 /// update. Indices count from the base vertex of their draw.
 ///
 /// Fails with TEXERE_ARGUMENT if the range does not lie within the mesh, if `vertex_count` or
-/// `index_count` is not what the range says, and if there was an edit since the last
-/// `texere_live_update`.
+/// `index_count` is not what the range says, and if `texere_live_update` has to be called first,
+/// after an edit for example.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_read(
     live: *const texere_live,

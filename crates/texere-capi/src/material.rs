@@ -30,7 +30,7 @@ pub struct texere_material {
 
 /// A circle.
 pub const TEXERE_SECTION_CIRCLE: u32 = 0;
-/// An ellipse that has `aspect`.
+/// An ellipse whose width over height is `aspect`.
 pub const TEXERE_SECTION_ELLIPSE: u32 = 1;
 /// Two arcs that meet in two edges. The section has `aspect`; `form` is the height of the edges
 /// above the middle, in half heights, -0.9 to 0.9.

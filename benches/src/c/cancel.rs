@@ -58,6 +58,10 @@ unsafe extern "C" fn take_piece(_: *mut c_void, _: *const texere_piece) -> i32 {
     0
 }
 
+unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
+    0
+}
+
 fn rest(name: &'static str, text: &str, device: *mut texere_device) -> Result<Call, Box<dyn Error>> {
     let design = design(text)?;
     let rest = move |run| {
@@ -101,6 +105,12 @@ fn calls() -> Result<Vec<Call>, Box<dyn Error>> {
                 }),
             ),
             ("stream", Box::new(move |run| texere_plan_stream(plan, run, Some(take_piece), null_mut()))),
+            (
+                "file to a callback",
+                Box::new(move |run| {
+                    texere_plan_write_to(plan, run, TEXERE_FORMAT_PLY, Some(take_bytes), null_mut())
+                }),
+            ),
             ("write", Box::new(move |run| texere_plan_write(plan, run, path.as_ptr().cast(), path.len()))),
             (
                 "check",
@@ -134,22 +144,12 @@ fn pictures(yarns: *mut texere_yarns) -> Result<Vec<Call>, Box<dyn Error>> {
         let pixels = vec![0_u8; 4 * width * height].leak();
         let (data, size) = (pixels.as_mut_ptr().cast(), pixels.len() as u64);
         let view: &texere_view = Box::leak(Box::new(texere_view { data, size, stride: 4 * width as u64 }));
-        let first = move |run| {
-            let Ok(other) = made(|out| texere_renderer_open(null(), 0, out)) else { return TEXERE_OK };
-            let mut status = texere_renderer_show(other, swatch, null(), run);
-            if status == TEXERE_OK {
-                status = texere_renderer_picture(other, picture, run, view);
-            }
-            texere_renderer_free(other);
-            status
-        };
         Ok(vec![
             (
                 "show, weave of 815 x 750",
                 Box::new(move |run| texere_renderer_show(renderer, yarns, null(), run)),
             ),
             ("picture", Box::new(move |run| texere_renderer_picture(small, picture, run, view))),
-            ("renderer and first picture", Box::new(first)),
         ])
     }
 }

@@ -17,7 +17,7 @@ use crate::run::{Run, reporter, texere_run};
 use crate::status::texere_status;
 
 impl Editing {
-    /// Reads a stretch of the mesh into the caller's memory.
+    /// Reads a range of the mesh into the caller's memory.
     ///
     /// # Safety
     ///
@@ -34,7 +34,7 @@ impl Editing {
         self.read(wanted, into, reporter(run))
     }
 
-    /// Reads a stretch of the mesh. The slices have the lengths that it says.
+    /// Reads the range `wanted` of the mesh into slices whose lengths are those of the range.
     fn read(
         &mut self,
         wanted: &texere_change,
@@ -87,8 +87,9 @@ impl Editing {
     }
 }
 
-/// Copies what `from`, whose first value has the number `first`, has of the values that `into` is
-/// to hold from number `wanted` on. Gives how many they are.
+/// Copies values from `from`, whose first value has the number `first`, to `into`, whose first
+/// value is to be the one with the number `wanted`. Copies the numbers that both have, and returns
+/// how many they are.
 fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usize {
     let start = first.max(wanted);
     let end = (first + from.len() as u64).min(wanted + into.len() as u64);
@@ -100,12 +101,12 @@ fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usiz
     count
 }
 
-/// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
-/// between yarns holds is not said.
+/// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
+/// of the room between yarns are undefined.
 ///
-/// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-/// `texere_live_counts` says, and where an edit has not been brought to the mesh by
-/// `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
+/// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
+/// says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
+/// TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_mesh(
     live: *const texere_live,
@@ -130,12 +131,12 @@ pub unsafe extern "C" fn texere_live_mesh(
     })
 }
 
-/// Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
-/// last update. Indices count from the base vertex of their draw, as in the whole mesh.
+/// Reads a range of the mesh of a live cloth into the caller's memory, such as a change of the last
+/// update. Indices count from the base vertex of their draw.
 ///
-/// Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
-/// `index_count` is not what it says, and where an edit has not been brought to the mesh by
-/// `texere_live_update`.
+/// Fails with TEXERE_ARGUMENT if the range does not lie within the mesh, if `vertex_count` or
+/// `index_count` is not what the range says, and if `texere_live_update` has to be called first,
+/// after an edit for example.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_read(
     live: *const texere_live,
@@ -147,7 +148,7 @@ pub unsafe extern "C" fn texere_live_read(
 ) -> texere_status {
     guard(|| {
         check("change", change)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         let wanted = unsafe { change.read() };
         alone(live, |editing| {
             let within = |name: &str, first: u64, count: u64, all: u64| {

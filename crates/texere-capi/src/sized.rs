@@ -60,7 +60,7 @@ unsafe fn size<T: Growing>(name: &str, pointer: *const T) -> Result<usize, Failu
     // SAFETY: neither null nor misaligned for `T`, which begins with a `u32`.
     let given = unsafe { pointer.cast::<u32>().read() } as usize;
     let (first, align) = (T::FIRST, align_of::<T>());
-    if !(first..=MOST).contains(&given) || given % align != 0 {
+    if !(first..=MOST).contains(&given) || !given.is_multiple_of(align) {
         return Err(Failure::argument(format!(
             "{name}.struct_size is {given}, expected a multiple of {align} from {first} to {MOST}"
         )));

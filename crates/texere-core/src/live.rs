@@ -175,7 +175,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 
     /// [`LiveMesh::update`], which ends early if `watch` answers `Break`, and returns that answer.
-    /// The next update then makes the same changes. `watch` is called after each 700,000 vertices or so.
+    /// The next update then makes the same changes. `watch` is called after each 700,000 vertices
+    /// or so.
     ///
     /// **Errors**: the errors of [`LiveMesh::update`].
     pub fn update_watched(

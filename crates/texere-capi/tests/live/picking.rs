@@ -1,4 +1,4 @@
-//! What a ray hits, and what a weaver calls the place.
+//! What a ray hits, and the name of the place in a weaver's terms.
 
 use std::ptr::null_mut;
 
@@ -71,8 +71,8 @@ fn a_hit_is_that_of_rust_and_is_called_what_a_weaver_calls_it() {
                 assert_eq!(words, own.named(&edited, &place).to_string());
             }
         }
-        // An end with half of its points: where its intervals lie elsewhere in the cloth, their names
-        // would be those of other picks.
+        // An end with half of its points: where its intervals lie elsewhere in the cloth, their
+        // names would be those of other picks.
         let point = |own: &ControlPoint| texere_point {
             x: own.x,
             y: own.y,

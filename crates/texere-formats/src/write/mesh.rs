@@ -167,13 +167,14 @@ pub fn stream_to(
 /// ```
 /// use std::ops::ControlFlow;
 /// use std::sync::Arc;
-/// use texere_core::backend::{NullBackend, Plan, Run};
+/// use texere_core::backend::{Plan, Run};
 /// use texere_core::{ControlPoint, Limits, Settings, Topology, Yarn, Yarns};
+/// use texere_cpu::ParallelBackend;
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("yarn.ply");
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
-/// # let (yarns, device) = (yarns.build()?, NullBackend::default());
+/// # let (yarns, device) = (yarns.build()?, ParallelBackend::open()?);
 /// let plan = Plan::new(yarns.layout().clone(), Settings::default())?;
 /// let plan = Arc::new(plan.with_topology(Topology::Shared));
 /// let run = Run::start(&device, plan, yarns.points(), Limits::default(), |_| ControlFlow::Continue(()))?;

@@ -78,6 +78,14 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_REFUSED = 3;
         /// <summary>
+        ///  The form of texere's own design file, `.toml`.
+        /// </summary>
+        internal const uint TEXERE_DESIGN_FORMAT_TOML = 0;
+        /// <summary>
+        ///  The form of a WIF 1.1 draft, `.wif`.
+        /// </summary>
+        internal const uint TEXERE_DESIGN_FORMAT_WIF = 1;
+        /// <summary>
         ///  The structure's own choice. A weft knit gets the loop lengths of its program or its gauge; if it
         ///  has neither, its lengths are free. A warp knit gets the lengths of its run-ins; if a bar with
         ///  yarns has none, yarns keep their lengths.
@@ -270,6 +278,18 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_STITCH_MOVED_BEHIND = 7;
         /// <summary>
+        ///  The back of a Jacquard shows floats: only the front needles knit.
+        /// </summary>
+        internal const uint TEXERE_BACKING_NONE = 0;
+        /// <summary>
+        ///  Every other back needle knits, alternating from yarn to yarn and from row to row.
+        /// </summary>
+        internal const uint TEXERE_BACKING_BIRDSEYE = 1;
+        /// <summary>
+        ///  Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+        /// </summary>
+        internal const uint TEXERE_BACKING_LADDER = 2;
+        /// <summary>
         ///  Threads bend round one another as round threads do, and floats lie flat.
         /// </summary>
         internal const uint TEXERE_SHAPE_ROUND = 0;
@@ -306,16 +326,40 @@ namespace Texere
         ///  Binary PLY, `.ply`.
         /// </summary>
         internal const uint TEXERE_FORMAT_PLY = 1;
+        /// <summary>
+        ///  texere's own form of yarns, `.yarns`.
+        /// </summary>
+        internal const uint TEXERE_YARNS_FORMAT_YARNS = 0;
+        /// <summary>
+        ///  Binary Curve Collection, `.bcc`: control points alone.
+        /// </summary>
+        internal const uint TEXERE_YARNS_FORMAT_BCC = 1;
+        /// <summary>
+        ///  The text form of Universal Scene Description, `.usda`: curves with diameters and colours.
+        /// </summary>
+        internal const uint TEXERE_YARNS_FORMAT_USDA = 2;
 
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        internal delegate int texere_design_draft_to_callback_delegate(void* user, ulong offset, byte* data, System.UIntPtr size);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         internal delegate int texere_design_read_memory_files_delegate(void* user, byte* path, System.UIntPtr path_length, byte** data, System.UIntPtr* size);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        internal delegate int texere_design_write_to_callback_delegate(void* user, ulong offset, byte* data, System.UIntPtr size);
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         internal delegate int texere_plan_stream_callback_delegate(void* user, texere_piece* piece);
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         internal delegate int texere_plan_write_to_callback_delegate(void* user, ulong offset, byte* data, System.UIntPtr size);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        internal delegate int texere_renderer_write_to_callback_delegate(void* user, ulong offset, byte* data, System.UIntPtr size);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        internal delegate int texere_yarns_write_to_callback_delegate(void* user, ulong offset, byte* data, System.UIntPtr size);
 
 
 
@@ -458,6 +502,18 @@ namespace Texere
         internal static extern texere_status texere_design_write(texere_design* design, byte* path, System.UIntPtr path_length);
 
         /// <summary>
+        ///  Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
+        ///  `texere_design_write` writes. `format` is a constant whose name begins with
+        ///  TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
+        ///  argument.
+        ///
+        ///  Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
+        ///  number other than 0. The bytes that came before then are not a complete file.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_write_to(texere_design* design, uint format, texere_design_write_to_callback_delegate callback, void* user);
+
+        /// <summary>
         ///  Frees a design. A null handle is allowed. Cloths that were made of the design stay valid.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -496,6 +552,18 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_draft", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_draft(texere_design* design, uint back, byte* path, System.UIntPtr path_length);
+
+        /// <summary>
+        ///  Draws a design on squared paper, and hands the bytes of a `.png` file to `callback`: the bytes
+        ///  that `texere_design_draft` writes. The callback runs on the calling thread, with `user` as its
+        ///  first argument.
+        ///
+        ///  Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_CANCELLED if
+        ///  the callback returned a number other than 0. The bytes that came before then are not a complete
+        ///  file.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_design_draft_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_design_draft_to(texere_design* design, uint back, texere_design_draft_to_callback_delegate callback, void* user);
 
         /// <summary>
         ///  Sets whether the warp is up where an end and a pick cross. Ends and picks count from 0. Both
@@ -716,6 +784,36 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_live_free(texere_live* live);
+
+        /// <summary>
+        ///  Makes attributes as well as the mesh, from the next update on. That update makes the whole mesh
+        ///  again. From then on an edit of a yarn changes the whole yarn, because the length along the yarn
+        ///  changes everywhere behind the edit.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_keep_attributes", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_keep_attributes(texere_live* live);
+
+        /// <summary>
+        ///  Reads the attributes of a live cloth's vertices into the caller's memory: a `texere_attribute`
+        ///  for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
+        ///  be null. The contents of the room between yarns are undefined.
+        ///
+        ///  Fails with TEXERE_ARGUMENT before `texere_live_keep_attributes`, for a view that is too small,
+        ///  misaligned or null, and if `texere_live_update` has to be called first. Fails with
+        ///  TEXERE_CANCELLED if `run` was cancelled.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_attributes", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_attributes(texere_live* live, texere_run* run, texere_view* attributes);
+
+        /// <summary>
+        ///  Reads the attributes of the vertices of a range into the caller's memory, such as those of a
+        ///  change of the last update: as many as `change-&gt;vertex_count`.
+        ///
+        ///  Fails as `texere_live_attributes` does, and with TEXERE_ARGUMENT if the range does not lie
+        ///  within the mesh.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_read_attributes", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_read_attributes(texere_live* live, texere_change* change, texere_view* attributes);
 
         /// <summary>
         ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
@@ -992,6 +1090,17 @@ namespace Texere
         internal static extern texere_status texere_renderer_write(texere_renderer* renderer, texere_picture* picture, texere_run* run, byte* path, System.UIntPtr path_length);
 
         /// <summary>
+        ///  Makes a picture and hands the bytes of a `.png` file to `callback`: the bytes that
+        ///  `texere_renderer_write` writes. `run` may be null. The callback runs on the calling thread, with
+        ///  `user` as its first argument, when the picture is made.
+        ///
+        ///  Fails as `texere_renderer_picture` does, and with TEXERE_CANCELLED if the callback returned a
+        ///  number other than 0. The bytes that came before then are not a complete file.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_renderer_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_renderer_write_to(texere_renderer* renderer, texere_picture* picture, texere_run* run, texere_renderer_write_to_callback_delegate callback, void* user);
+
+        /// <summary>
         ///  Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
         ///  edges. No yarn is seen outside the picture, before the first picture, and after a picture that
         ///  was cancelled.
@@ -1182,12 +1291,37 @@ namespace Texere
         internal static extern texere_status texere_yarns_read(byte* path, System.UIntPtr path_length, texere_yarns** @out);
 
         /// <summary>
-        ///  Saves yarns in a `.yarns` file, which keeps every bit of them.
+        ///  Reads yarns from the caller's memory, which holds the bytes of a `.yarns` file. Errors call the
+        ///  file `name`.
         ///
-        ///  Fails with TEXERE_IO if the file can't be written.
+        ///  Fails with TEXERE_DESIGN if the bytes hold no yarns.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_yarns_read_memory", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_yarns_read_memory(byte* name, System.UIntPtr name_length, byte* data, System.UIntPtr size, texere_yarns** @out);
+
+        /// <summary>
+        ///  Writes yarns to a file. `.yarns` is texere's own form, which keeps every bit of them;
+        ///  `texere_yarns_read` reads it. `.bcc` and `.usda` are centrelines for other programs: `.bcc`
+        ///  holds control points alone, `.usda` also diameters and colours. An existing file of that name is
+        ///  replaced only once the new one is complete.
+        ///
+        ///  Fails with TEXERE_IO if the file can't be written, and with TEXERE_UNSUPPORTED for yarns that
+        ///  `.bcc` can't hold.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_yarns_write(texere_yarns* yarns, byte* path, System.UIntPtr path_length);
+
+        /// <summary>
+        ///  Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
+        ///  writes. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on
+        ///  the calling thread, with `user` as its first argument.
+        ///
+        ///  Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
+        ///  TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then
+        ///  are not a complete file.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_yarns_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_yarns_write_to(texere_yarns* yarns, uint format, texere_yarns_write_to_callback_delegate callback, void* user);
 
         /// <summary>
         ///  Writes how many yarns and control points there are. The caller sets `counts-&gt;struct_size` before
@@ -2362,6 +2496,61 @@ namespace Texere
     }
 
     /// <summary>
+    ///  Lists of numbers, which lie one behind the other in one array.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_lists
+    {
+        /// <summary>
+        ///  The numbers of all lists.
+        /// </summary>
+        public uint* numbers;
+        /// <summary>
+        ///  Where each list begins in `numbers`, counted from 0, and at the end how many numbers there
+        ///  are in all: one offset more than there are lists. Null: every list has one number.
+        /// </summary>
+        public ulong* offsets;
+    }
+
+    /// <summary>
+    ///  A shaft draft. Shafts and treadles count from 1, as weavers write them. The number 0 stands for
+    ///  none; a number that a list has twice counts once.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_draft
+    {
+        /// <summary>
+        ///  Size of this struct, bytes. The caller sets it.
+        /// </summary>
+        public uint struct_size;
+        /// <summary>
+        ///  0 if lifted shafts carry their ends to the face, 1 if they carry them to the back.
+        /// </summary>
+        public uint sinking_shed;
+        /// <summary>
+        ///  How many shafts, 1 to 100000.
+        /// </summary>
+        public uint shafts;
+        /// <summary>
+        ///  How many treadles, 0 to 100000. 0 stands for a loom without treadles, such as a dobby loom.
+        /// </summary>
+        public uint treadles;
+        /// <summary>
+        ///  For each end the shafts that carry it: as many lists as ends.
+        /// </summary>
+        public texere_lists threading;
+        /// <summary>
+        ///  For each treadle the shafts that are tied to it: as many lists as treadles.
+        /// </summary>
+        public texere_lists tie_up;
+        /// <summary>
+        ///  For each pick the treadles that it presses: as many lists as picks. On a loom without
+        ///  treadles this is the lift plan, which has for each pick the shafts that it lifts.
+        /// </summary>
+        public texere_lists treadling;
+    }
+
+    /// <summary>
     ///  A piece of a mesh: vertices, or indices. The piece is valid until the callback returns; its
     ///  draws are valid until the plan is freed.
     /// </summary>
@@ -2525,6 +2714,38 @@ namespace Texere
     }
 
     /// <summary>
+    ///  The Jacquard of a guide bar: an image whose colours displace single guides. Each cell of the
+    ///  image is for one guide and one round of the bar's chain. The image repeats beyond its edges.
+    /// </summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe partial struct texere_jacquard
+    {
+        /// <summary>
+        ///  How many guides the image is wide. 0: the bar is no Jacquard bar, and the rest is not read.
+        /// </summary>
+        public uint guides;
+        /// <summary>
+        ///  How many rounds of the chain the image is high.
+        /// </summary>
+        public uint rounds;
+        /// <summary>
+        ///  The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
+        ///  from the first one knitted, and in each round from guide 0 on.
+        /// </summary>
+        public byte* colors;
+        /// <summary>
+        ///  How many colours there are, 1 to 256.
+        /// </summary>
+        public ulong color_count;
+        /// <summary>
+        ///  What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
+        ///  needles by which the beginning and the end of the lap are moved towards the high numbers.
+        ///  Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+        /// </summary>
+        public byte* shifts;
+    }
+
+    /// <summary>
     ///  A warp knit as the caller's arrays.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -2587,6 +2808,10 @@ namespace Texere
         ///  The materials and sections that the yarns refer to.
         /// </summary>
         public texere_looks looks;
+        /// <summary>
+        ///  The Jacquards of the guide bars, `bar_count` of them, or null if no bar has one.
+        /// </summary>
+        public texere_jacquard* jacquards;
     }
 
     /// <summary>
@@ -2617,7 +2842,7 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  Beds of needles, 1 or 2.
+        ///  Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
         /// </summary>
         public uint beds;
         /// <summary>
@@ -2630,9 +2855,10 @@ namespace Texere
         /// </summary>
         public fixed uint copies[2];
         /// <summary>
-        ///  Zero.
+        ///  With `jacquard`: what the back needles knit, a constant whose name begins with
+        ///  TEXERE_BACKING. Else 0.
         /// </summary>
-        public uint reserved;
+        public uint backing;
         /// <summary>
         ///  What the design is called, UTF-8.
         /// </summary>
@@ -2646,19 +2872,20 @@ namespace Texere
         /// </summary>
         public ulong wales;
         /// <summary>
-        ///  Courses of the repeat, 1 to 65536.
+        ///  Courses of the repeat, or rows of the picture in `jacquard`: 1 to 65536.
         /// </summary>
         public ulong courses;
         /// <summary>
         ///  The stitches, `wales` times `courses` of them: course after course from the first, which is
-        ///  the bottom one, and in each course from left to right as seen from the technical face.
+        ///  the bottom one, and in each course from left to right as seen from the technical face. Null
+        ///  with `jacquard`.
         /// </summary>
         public texere_stitch* stitches;
         /// <summary>
         ///  The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
         ///  counted from 0. After the last one the first one follows again. Null with a `turn_count` of
-        ///  0: all courses take yarn 0. If `courses` is not a multiple of `turn_count`, the chart is
-        ///  repeated upwards until it is.
+        ///  0: all courses take yarn 0, or with `jacquard` the yarns of the picture. If `courses` is not
+        ///  a multiple of `turn_count`, the chart is repeated upwards until it is.
         /// </summary>
         public uint* turn;
         /// <summary>
@@ -2690,6 +2917,14 @@ namespace Texere
         ///  The materials and sections that the yarns refer to.
         /// </summary>
         public texere_looks looks;
+        /// <summary>
+        ///  The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
+        ///  `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
+        ///  each row from left to right. A row becomes one course for each of its yarns, in the order of
+        ///  their numbers. Front needles knit the course's yarn where the picture has it, and it floats
+        ///  past the others.
+        /// </summary>
+        public uint* jacquard;
     }
 
     /// <summary>
@@ -2786,7 +3021,8 @@ namespace Texere
         ///  A row of bits for each pick. The library only reads them. Row 0 is the first pick, at the
         ///  bottom of the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0
         ///  of its second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` +
-        ///  7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows.
+        ///  7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows. With null `data`
+        ///  the cloth is that of `draft`.
         /// </summary>
         public texere_view drawdown;
         /// <summary>
@@ -2801,6 +3037,11 @@ namespace Texere
         ///  The materials and sections that the threads refer to.
         /// </summary>
         public texere_looks looks;
+        /// <summary>
+        ///  The shaft draft that weaves the cloth, or null for a cloth that `drawdown` gives. WIF files
+        ///  and pictures of the draft show its shafts and treadles.
+        /// </summary>
+        public texere_draft* draft;
     }
 
     /// <summary>

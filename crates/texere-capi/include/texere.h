@@ -76,6 +76,12 @@
 // report says why.
 #define TEXERE_REFUSED 3
 
+// The form of texere's own design file, `.toml`.
+#define TEXERE_DESIGN_FORMAT_TOML 0
+
+// The form of a WIF 1.1 draft, `.wif`.
+#define TEXERE_DESIGN_FORMAT_WIF 1
+
 // The structure's own choice. A weft knit gets the loop lengths of its program or its gauge; if it
 // has neither, its lengths are free. A warp knit gets the lengths of its run-ins; if a bar with
 // yarns has none, yarns keep their lengths.
@@ -218,6 +224,15 @@
 // move.
 #define TEXERE_STITCH_MOVED_BEHIND 7
 
+// The back of a Jacquard shows floats: only the front needles knit.
+#define TEXERE_BACKING_NONE 0
+
+// Every other back needle knits, alternating from yarn to yarn and from row to row.
+#define TEXERE_BACKING_BIRDSEYE 1
+
+// Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+#define TEXERE_BACKING_LADDER 2
+
 // Threads bend round one another as round threads do, and floats lie flat.
 #define TEXERE_SHAPE_ROUND 0
 
@@ -245,6 +260,15 @@
 
 // Binary PLY, `.ply`.
 #define TEXERE_FORMAT_PLY 1
+
+// texere's own form of yarns, `.yarns`.
+#define TEXERE_YARNS_FORMAT_YARNS 0
+
+// Binary Curve Collection, `.bcc`: control points alone.
+#define TEXERE_YARNS_FORMAT_BCC 1
+
+// The text form of Universal Scene Description, `.usda`: curves with diameters and colours.
+#define TEXERE_YARNS_FORMAT_USDA 2
 
 // How a call ended.
 typedef enum texere_status {
@@ -412,6 +436,15 @@ typedef int32_t (*texere_file_callback)(void *user,
                                         const uint8_t **data,
                                         size_t *size);
 
+// Takes `size` bytes of a file, whose place in the file begins at byte `offset`. The pieces come
+// in order, except that at the end earlier bytes may come again with values that are only known
+// then. The callback returns 0 to go on; any other value ends the call that was given it. `data`
+// is valid until the callback returns.
+typedef int32_t (*texere_write_callback)(void *user,
+                                         uint64_t offset,
+                                         const uint8_t *data,
+                                         size_t size);
+
 // A description of a device. Its strings end with a zero byte and are valid until the device is
 // freed.
 typedef struct texere_device_info {
@@ -577,6 +610,17 @@ typedef struct texere_draw {
   uint32_t reserved;
 } texere_draw;
 
+// Values that lie in the caller's memory: in an array of their own, or as one member of each
+// struct of an array. `data` and `stride` are multiples of the alignment of the values.
+typedef struct texere_view {
+  // The first value.
+  void *data;
+  // How many bytes from `data` on belong to the view: at least up to the end of the last value.
+  uint64_t size;
+  // Bytes from one value to the next: at least the size of a value.
+  uint64_t stride;
+} texere_view;
+
 // A vertex of a tube.
 typedef struct texere_vertex {
   // Position, mm.
@@ -634,17 +678,6 @@ typedef struct texere_measures {
   // and unless all yarns that are used have the same tex.
   double tightness;
 } texere_measures;
-
-// Values that lie in the caller's memory: in an array of their own, or as one member of each
-// struct of an array. `data` and `stride` are multiples of the alignment of the values.
-typedef struct texere_view {
-  // The first value.
-  void *data;
-  // How many bytes from `data` on belong to the view: at least up to the end of the last value.
-  uint64_t size;
-  // Bytes from one value to the next: at least the size of a value.
-  uint64_t stride;
-} texere_view;
 
 // Where in the caller's memory a mesh is written: arrays of its own, or members of the caller's
 // structs. No two values may overlap.
@@ -938,6 +971,24 @@ typedef struct texere_looks {
   uint64_t section_count;
 } texere_looks;
 
+// The Jacquard of a guide bar: an image whose colours displace single guides. Each cell of the
+// image is for one guide and one round of the bar's chain. The image repeats beyond its edges.
+typedef struct texere_jacquard {
+  // How many guides the image is wide. 0: the bar is no Jacquard bar, and the rest is not read.
+  uint32_t guides;
+  // How many rounds of the chain the image is high.
+  uint32_t rounds;
+  // The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
+  // from the first one knitted, and in each round from guide 0 on.
+  const uint8_t *colors;
+  // How many colours there are, 1 to 256.
+  uint64_t color_count;
+  // What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
+  // needles by which the beginning and the end of the lap are moved towards the high numbers.
+  // Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+  const uint8_t *shifts;
+} texere_jacquard;
+
 // A warp knit as the caller's arrays.
 typedef struct texere_warp_knit {
   // Size of this struct, bytes. The caller sets it.
@@ -969,6 +1020,8 @@ typedef struct texere_warp_knit {
   double course_mm;
   // The materials and sections that the yarns refer to.
   struct texere_looks looks;
+  // The Jacquards of the guide bars, `bar_count` of them, or null if no bar has one.
+  const struct texere_jacquard *jacquards;
 } texere_warp_knit;
 
 // The stitch in one wale of one course.
@@ -984,30 +1037,32 @@ typedef struct texere_stitch {
 typedef struct texere_weft_knit {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // Beds of needles, 1 or 2.
+  // Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
   uint32_t beds;
   // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
   // How many copies of the repeat lie along the courses, and how many along the wales; each 1 or
   // more.
   uint32_t copies[2];
-  // Zero.
-  uint32_t reserved;
+  // With `jacquard`: what the back needles knit, a constant whose name begins with
+  // TEXERE_BACKING. Else 0.
+  uint32_t backing;
   // What the design is called, UTF-8.
   const char *name;
   // Length of the name, bytes.
   size_t name_length;
   // Wales of the repeat, 1 to 65536.
   uint64_t wales;
-  // Courses of the repeat, 1 to 65536.
+  // Courses of the repeat, or rows of the picture in `jacquard`: 1 to 65536.
   uint64_t courses;
   // The stitches, `wales` times `courses` of them: course after course from the first, which is
-  // the bottom one, and in each course from left to right as seen from the technical face.
+  // the bottom one, and in each course from left to right as seen from the technical face. Null
+  // with `jacquard`.
   const struct texere_stitch *stitches;
   // The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
   // counted from 0. After the last one the first one follows again. Null with a `turn_count` of
-  // 0: all courses take yarn 0. If `courses` is not a multiple of `turn_count`, the chart is
-  // repeated upwards until it is.
+  // 0: all courses take yarn 0, or with `jacquard` the yarns of the picture. If `courses` is not
+  // a multiple of `turn_count`, the chart is repeated upwards until it is.
   const uint32_t *turn;
   // How many numbers `turn` has.
   uint64_t turn_count;
@@ -1024,6 +1079,12 @@ typedef struct texere_weft_knit {
   double loop_length_mm;
   // The materials and sections that the yarns refer to.
   struct texere_looks looks;
+  // The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
+  // `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
+  // each row from left to right. A row becomes one course for each of its yarns, in the order of
+  // their numbers. Front needles knit the course's yarn where the picture has it, and it floats
+  // past the others.
+  const uint32_t *jacquard;
 } texere_weft_knit;
 
 // An end or a pick.
@@ -1048,6 +1109,35 @@ typedef struct texere_thread {
   // Zero.
   uint32_t reserved;
 } texere_thread;
+
+// Lists of numbers, which lie one behind the other in one array.
+typedef struct texere_lists {
+  // The numbers of all lists.
+  const uint32_t *numbers;
+  // Where each list begins in `numbers`, counted from 0, and at the end how many numbers there
+  // are in all: one offset more than there are lists. Null: every list has one number.
+  const uint64_t *offsets;
+} texere_lists;
+
+// A shaft draft. Shafts and treadles count from 1, as weavers write them. The number 0 stands for
+// none; a number that a list has twice counts once.
+typedef struct texere_draft {
+  // Size of this struct, bytes. The caller sets it.
+  uint32_t struct_size;
+  // 0 if lifted shafts carry their ends to the face, 1 if they carry them to the back.
+  uint32_t sinking_shed;
+  // How many shafts, 1 to 100000.
+  uint32_t shafts;
+  // How many treadles, 0 to 100000. 0 stands for a loom without treadles, such as a dobby loom.
+  uint32_t treadles;
+  // For each end the shafts that carry it: as many lists as ends.
+  struct texere_lists threading;
+  // For each treadle the shafts that are tied to it: as many lists as treadles.
+  struct texere_lists tie_up;
+  // For each pick the treadles that it presses: as many lists as picks. On a loom without
+  // treadles this is the lift plan, which has for each pick the shafts that it lifts.
+  struct texere_lists treadling;
+} texere_draft;
 
 // Woven cloth as the caller's arrays.
 typedef struct texere_woven {
@@ -1075,7 +1165,8 @@ typedef struct texere_woven {
   // A row of bits for each pick. The library only reads them. Row 0 is the first pick, at the
   // bottom of the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0
   // of its second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` +
-  // 7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows.
+  // 7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows. With null `data`
+  // the cloth is that of `draft`.
   struct texere_view drawdown;
   // The ends from the left: `ends` of them.
   const struct texere_thread *warp;
@@ -1083,16 +1174,10 @@ typedef struct texere_woven {
   const struct texere_thread *weft;
   // The materials and sections that the threads refer to.
   struct texere_looks looks;
+  // The shaft draft that weaves the cloth, or null for a cloth that `drawdown` gives. WIF files
+  // and pictures of the draft show its shafts and treadles.
+  const struct texere_draft *draft;
 } texere_woven;
-
-// Takes `size` bytes of a file, whose place in the file begins at byte `offset`. The pieces come
-// in order, except that at the end earlier bytes may come again with values that are only known
-// then. The callback returns 0 to go on; any other value ends the call that was given it. `data`
-// is valid until the callback returns.
-typedef int32_t (*texere_write_callback)(void *user,
-                                         uint64_t offset,
-                                         const uint8_t *data,
-                                         size_t size);
 
 // Yarns as the caller's arrays.
 typedef struct texere_yarn_arrays {
@@ -1300,6 +1385,18 @@ enum texere_status texere_design_write(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);
 
+// Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
+// `texere_design_write` writes. `format` is a constant whose name begins with
+// TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
+// argument.
+//
+// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
+// number other than 0. The bytes that came before then are not a complete file.
+enum texere_status texere_design_write_to(const struct texere_design *design,
+                                          uint32_t format,
+                                          texere_write_callback callback,
+                                          void *user);
+
 // Frees a design. A null handle is allowed. Cloths that were made of the design stay valid.
 void texere_design_free(struct texere_design *design);
 
@@ -1330,6 +1427,18 @@ enum texere_status texere_design_draft(const struct texere_design *design,
                                        uint32_t back,
                                        const char *path,
                                        size_t path_length);
+
+// Draws a design on squared paper, and hands the bytes of a `.png` file to `callback`: the bytes
+// that `texere_design_draft` writes. The callback runs on the calling thread, with `user` as its
+// first argument.
+//
+// Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_CANCELLED if
+// the callback returned a number other than 0. The bytes that came before then are not a complete
+// file.
+enum texere_status texere_design_draft_to(const struct texere_design *design,
+                                          uint32_t back,
+                                          texere_write_callback callback,
+                                          void *user);
 
 // Sets whether the warp is up where an end and a pick cross. Ends and picks count from 0. Both
 // threads then lie as the structure places them, even if they lay otherwise before.
@@ -1506,6 +1615,31 @@ enum texere_status texere_live_yarns(const struct texere_live *live, struct texe
 
 // Frees a live cloth. A null handle is allowed.
 void texere_live_free(struct texere_live *live);
+
+// Makes attributes as well as the mesh, from the next update on. That update makes the whole mesh
+// again. From then on an edit of a yarn changes the whole yarn, because the length along the yarn
+// changes everywhere behind the edit.
+enum texere_status texere_live_keep_attributes(const struct texere_live *live);
+
+// Reads the attributes of a live cloth's vertices into the caller's memory: a `texere_attribute`
+// for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
+// be null. The contents of the room between yarns are undefined.
+//
+// Fails with TEXERE_ARGUMENT before `texere_live_keep_attributes`, for a view that is too small,
+// misaligned or null, and if `texere_live_update` has to be called first. Fails with
+// TEXERE_CANCELLED if `run` was cancelled.
+enum texere_status texere_live_attributes(const struct texere_live *live,
+                                          const struct texere_run *run,
+                                          const struct texere_view *attributes);
+
+// Reads the attributes of the vertices of a range into the caller's memory, such as those of a
+// change of the last update: as many as `change->vertex_count`.
+//
+// Fails as `texere_live_attributes` does, and with TEXERE_ARGUMENT if the range does not lie
+// within the mesh.
+enum texere_status texere_live_read_attributes(const struct texere_live *live,
+                                               const struct texere_change *change,
+                                               const struct texere_view *attributes);
 
 // Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
 // of the room between yarns are undefined.
@@ -1758,6 +1892,18 @@ enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
                                          const char *path,
                                          size_t path_length);
 
+// Makes a picture and hands the bytes of a `.png` file to `callback`: the bytes that
+// `texere_renderer_write` writes. `run` may be null. The callback runs on the calling thread, with
+// `user` as its first argument, when the picture is made.
+//
+// Fails as `texere_renderer_picture` does, and with TEXERE_CANCELLED if the callback returned a
+// number other than 0. The bytes that came before then are not a complete file.
+enum texere_status texere_renderer_write_to(const struct texere_renderer *renderer,
+                                            const struct texere_picture *picture,
+                                            const struct texere_run *run,
+                                            texere_write_callback callback,
+                                            void *user);
+
 // Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
 // edges. No yarn is seen outside the picture, before the first picture, and after a picture that
 // was cancelled.
@@ -1915,12 +2061,38 @@ enum texere_status texere_yarns_read(const char *path,
                                      size_t path_length,
                                      struct texere_yarns **out);
 
-// Saves yarns in a `.yarns` file, which keeps every bit of them.
+// Reads yarns from the caller's memory, which holds the bytes of a `.yarns` file. Errors call the
+// file `name`.
 //
-// Fails with TEXERE_IO if the file can't be written.
+// Fails with TEXERE_DESIGN if the bytes hold no yarns.
+enum texere_status texere_yarns_read_memory(const char *name,
+                                            size_t name_length,
+                                            const uint8_t *data,
+                                            size_t size,
+                                            struct texere_yarns **out);
+
+// Writes yarns to a file. `.yarns` is texere's own form, which keeps every bit of them;
+// `texere_yarns_read` reads it. `.bcc` and `.usda` are centrelines for other programs: `.bcc`
+// holds control points alone, `.usda` also diameters and colours. An existing file of that name is
+// replaced only once the new one is complete.
+//
+// Fails with TEXERE_IO if the file can't be written, and with TEXERE_UNSUPPORTED for yarns that
+// `.bcc` can't hold.
 enum texere_status texere_yarns_write(const struct texere_yarns *yarns,
                                       const char *path,
                                       size_t path_length);
+
+// Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
+// writes. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on
+// the calling thread, with `user` as its first argument.
+//
+// Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
+// TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then
+// are not a complete file.
+enum texere_status texere_yarns_write_to(const struct texere_yarns *yarns,
+                                         uint32_t format,
+                                         texere_write_callback callback,
+                                         void *user);
 
 // Writes how many yarns and control points there are. The caller sets `counts->struct_size` before
 // the call.

@@ -7,10 +7,12 @@ use std::path::Path;
 use texere::Design;
 
 use crate::argument::{slice, text};
+use crate::callback_file::{CallbackFile, texere_write_callback};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::status::texere_status;
+use crate::structure::choice;
 
 /// A design: read from a WIF draft, a design file or a program of a knitting machine, or made from
 /// the caller's arrays.
@@ -122,6 +124,39 @@ pub unsafe extern "C" fn texere_design_write(
                 return Err(Failure::argument(said));
             }
         };
+        Ok(())
+    })
+}
+
+/// The form of texere's own design file, `.toml`.
+pub const TEXERE_DESIGN_FORMAT_TOML: u32 = 0;
+/// The form of a WIF 1.1 draft, `.wif`.
+pub const TEXERE_DESIGN_FORMAT_WIF: u32 = 1;
+
+/// Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
+/// `texere_design_write` writes. `format` is a constant whose name begins with
+/// TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
+/// argument.
+///
+/// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
+/// number other than 0. The bytes that came before then are not a complete file.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_design_write_to(
+    design: *const texere_design,
+    format: u32,
+    callback: texere_write_callback,
+    user: *mut c_void,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for the callback.
+        let file = unsafe { CallbackFile::new(callback, user) }?;
+        let is_wif = choice("format", format, &[false, true])?;
+        let design = get(design)?;
+        if is_wif {
+            texere::write::wif_to(&design, file)?;
+        } else {
+            texere::write::toml_to(&design, file)?;
+        }
         Ok(())
     })
 }

@@ -101,6 +101,15 @@ fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usiz
     count
 }
 
+/// Makes sure that a range lies within the `all` vertices or indices of a mesh. `name` says which
+/// of them they are.
+pub(crate) fn within(name: &str, first: u64, count: u64, all: u64) -> Result<(), Failure> {
+    if first.checked_add(count).is_some_and(|end| end <= all) {
+        return Ok(());
+    }
+    Err(Failure::argument(format!("{count} {name} from {first} on, but the mesh has {all}")))
+}
+
 /// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
 /// of the room between yarns are undefined.
 ///
@@ -151,12 +160,6 @@ pub unsafe extern "C" fn texere_live_read(
         // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         let wanted = unsafe { change.read() };
         alone(live, |editing| {
-            let within = |name: &str, first: u64, count: u64, all: u64| {
-                let end = first.checked_add(count).filter(|end| *end <= all);
-                end.map(|_| ()).ok_or_else(|| {
-                    Failure::argument(format!("{count} {name} from {first} on, but the mesh has {all}"))
-                })
-            };
             within("vertices", wanted.first_vertex, wanted.vertex_count, editing.counts.vertices)?;
             within("indices", wanted.first_index, wanted.index_count, editing.counts.indices)?;
             // SAFETY: the caller vouches for vertices and indices.

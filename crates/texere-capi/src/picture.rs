@@ -1,5 +1,7 @@
 //! Pictures: the view, the background and the quality of one.
 
+use std::borrow::Cow;
+
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::sized::{check_sized, grows_after, sized, write_sized};
@@ -107,6 +109,17 @@ pub(crate) struct Pixels {
     /// Red, green and blue of each pixel, row after row from the top.
     pub(crate) rgb: Vec<u8>,
     pub(crate) alpha: Vec<u8>,
+}
+
+impl Pixels {
+    /// The pixels as a file of this picture holds them: with alpha if nothing is in the background.
+    pub(crate) fn for_file(&self, picture: &texere_picture) -> Cow<'_, [u8]> {
+        if picture.background != TEXERE_BACKGROUND_NOTHING {
+            return Cow::Borrowed(&self.rgb);
+        }
+        let pixels = self.rgb.chunks_exact(3).zip(&self.alpha);
+        pixels.flat_map(|(rgb, alpha)| [rgb[0], rgb[1], rgb[2], *alpha]).collect()
+    }
 }
 
 /// Width and height of the usual picture, pixels. The usual field of view, radians, is that of a

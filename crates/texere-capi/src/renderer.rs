@@ -1,16 +1,15 @@
 //! Renderers: pictures of yarns, in the caller's memory or in a file.
 
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
 use std::sync::Mutex;
 
 use crate::argument::{check, text};
+use crate::callback_file::{CallbackFile, texere_write_callback};
 #[cfg(feature = "render")]
 use crate::drawing::Drawing;
 use crate::error::guard;
 use crate::handle::{Handle, alone, clear, free, get, get_any, give};
-use crate::picture::{
-    Pixels, TEXERE_BACKGROUND_NOTHING, checked, texere_extent, texere_picture, texere_seen,
-};
+use crate::picture::{checked, texere_extent, texere_picture, texere_seen};
 use crate::run::{reporter, texere_run};
 use crate::settings::{chosen, texere_settings};
 use crate::status::texere_status;
@@ -147,13 +146,32 @@ pub unsafe extern "C" fn texere_renderer_write(
         // SAFETY: the caller vouches for `picture` and `path`.
         let (picture, path) = unsafe { (checked(picture)?, text("path", path, path_length)?) };
         let run = get_any(run)?;
-        let Pixels { size, mut rgb, alpha } =
-            alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
-        if picture.background == TEXERE_BACKGROUND_NOTHING {
-            let pixels = rgb.chunks_exact(3).zip(alpha);
-            rgb = pixels.flat_map(|(rgb, alpha)| [rgb[0], rgb[1], rgb[2], alpha]).collect();
-        }
-        texere::write::picture(size, &rgb, path)?;
+        let made = alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
+        texere::write::picture(made.size, &made.for_file(&picture), path)?;
+        Ok(())
+    })
+}
+
+/// Makes a picture and hands the bytes of a `.png` file to `callback`: the bytes that
+/// `texere_renderer_write` writes. `run` may be null. The callback runs on the calling thread, with
+/// `user` as its first argument, when the picture is made.
+///
+/// Fails as `texere_renderer_picture` does, and with TEXERE_CANCELLED if the callback returned a
+/// number other than 0. The bytes that came before then are not a complete file.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_renderer_write_to(
+    renderer: *const texere_renderer,
+    picture: *const texere_picture,
+    run: *const texere_run,
+    callback: texere_write_callback,
+    user: *mut c_void,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for `picture` and the callback.
+        let (picture, file) = unsafe { (checked(picture)?, CallbackFile::new(callback, user)?) };
+        let run = get_any(run)?;
+        let made = alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
+        texere::write::picture_to(made.size, &made.for_file(&picture), file)?;
         Ok(())
     })
 }

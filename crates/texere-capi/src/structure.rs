@@ -69,7 +69,7 @@ fn array_of(subject: Subject, bars: &[Bar]) -> Option<String> {
         Threading(number) => return bar(number, "threading"),
         Offset(number) => return bar(number, "offset"),
         RunIn(number) => return bar(number, "run_in_mm"),
-        Jacquard(number) => return bar(number, "laps"),
+        Jacquard(number) => return Some(format!("jacquards[{}].shifts", number.checked_sub(1)?)),
         _ => return None,
     };
     let numbered = |array: &str, number: u32| Some(format!("{array}[{}]", number.checked_sub(1)?));

@@ -1,9 +1,11 @@
-//! Warp knits from the caller's arrays: the laps and the threading of each guide bar, the gauge and
-//! the yarns.
+//! Warp knits from the caller's arrays: the laps, the threading and the Jacquard of each guide bar,
+//! the gauge and the yarns.
 
 use std::ffi::c_char;
 
-use texere::warp::{Bar, CHAIN_COURSES, Chain, Lap, NEEDLES_MOST, SPACE_MAX, Threading, WarpKnitted};
+use texere::warp::{
+    Bar, CHAIN_COURSES, Chain, Displacements, Lap, NEEDLES_MOST, SPACE_MAX, Threading, WarpKnitted,
+};
 use texere::weft::{Cells, Gauge};
 use texere::{Design, Structure};
 
@@ -53,6 +55,26 @@ pub struct texere_bar {
     pub reserved: u32,
 }
 
+/// The Jacquard of a guide bar: an image whose colours displace single guides. Each cell of the
+/// image is for one guide and one round of the bar's chain. The image repeats beyond its edges.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct texere_jacquard {
+    /// How many guides the image is wide. 0: the bar is no Jacquard bar, and the rest is not read.
+    pub guides: u32,
+    /// How many rounds of the chain the image is high.
+    pub rounds: u32,
+    /// The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
+    /// from the first one knitted, and in each round from guide 0 on.
+    pub colors: *const u8,
+    /// How many colours there are, 1 to 256.
+    pub color_count: u64,
+    /// What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
+    /// needles by which the beginning and the end of the lap are moved towards the high numbers.
+    /// Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+    pub shifts: *const u8,
+}
+
 /// A warp knit as the caller's arrays.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -86,6 +108,8 @@ pub struct texere_warp_knit {
     pub course_mm: f64,
     /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
+    /// The Jacquards of the guide bars, `bar_count` of them, or null if no bar has one.
+    pub jacquards: *const texere_jacquard,
 }
 
 grows_after!(texere_warp_knit, looks);
@@ -137,23 +161,76 @@ fn no_chain(name: &str, laps: &[Lap]) -> Failure {
     Failure::argument(format!("{name}.lap_count is {}, expected 1 to {CHAIN_COURSES}", laps.len()))
 }
 
+impl texere_jacquard {
+    /// The displacements, or none for a bar that is no Jacquard bar. The chain of the bar has
+    /// `laps` laps.
+    ///
+    /// # Safety
+    ///
+    /// Arrays are valid for reads.
+    unsafe fn read(&self, name: &str, laps: usize) -> Result<Option<Displacements>, Failure> {
+        let Self { guides, rounds, color_count, .. } = *self;
+        if guides == 0 {
+            return Ok(None);
+        }
+        if rounds == 0 || guides.checked_mul(rounds).is_none() {
+            return Err(Failure::argument(format!(
+                "{name} has {guides} guides and {rounds} rounds, expected 1 to {} cells",
+                u32::MAX
+            )));
+        }
+        if !(1..=256).contains(&color_count) {
+            return Err(Failure::argument(format!("{name}.color_count is {color_count}, expected 1 to 256")));
+        }
+        // SAFETY: the caller vouches for both.
+        let (colors, shifts) = unsafe {
+            (
+                array(&format!("{name}.colors"), self.colors, u64::from(guides) * u64::from(rounds))?,
+                array(&format!("{name}.shifts"), self.shifts, color_count * 2 * laps as u64)?,
+            )
+        };
+        if let Some(at) = colors.iter().position(|color| u64::from(*color) >= color_count) {
+            return Err(Failure::argument(format!(
+                "{name}.colors[{at}] is {}, but there are {color_count}, counted from 0",
+                colors[at]
+            )));
+        }
+        if let Some(at) = shifts.iter().position(|shift| *shift > 1) {
+            return Err(Failure::argument(format!("{name}.shifts[{at}] is {}, expected 0 or 1", shifts[at])));
+        }
+        let palette = shifts.chunks(2 * laps).map(|color| color.as_chunks().0.to_vec()).collect();
+        let color = |guide: u32, round: u32| colors[round as usize * guides as usize + guide as usize];
+        let made = Displacements::new([guides, rounds], palette, color);
+        made.map(Some).ok_or_else(|| Failure::argument(format!("{name} is no image of a Jacquard")))
+    }
+}
+
 impl texere_warp_knit {
     /// # Safety
     ///
     /// Arrays and texts are valid for reads.
     unsafe fn read(&self) -> Result<Design, Failure> {
         // SAFETY: the caller vouches for all of them.
-        let (bars, yarns, (materials, sections), name) = unsafe {
+        let (bars, jacquards, yarns, (materials, sections), name) = unsafe {
             (
                 array("knit.bars", self.bars, self.bar_count)?,
+                self.images()?,
                 array("knit.yarns", self.yarns, self.yarn_count)?,
                 self.looks.read("knit")?,
                 text("knit.name", self.name, self.name_length)?,
             )
         };
-        // SAFETY: as above.
-        let bars = bars.iter().enumerate().map(|(n, bar)| unsafe { bar.read(&format!("knit.bars[{n}]")) });
-        let bars = bars.collect::<Result<Vec<_>, _>>()?;
+        let bars = bars.iter().enumerate().map(|(number, bar)| {
+            // SAFETY: as above.
+            let mut own = unsafe { bar.read(&format!("knit.bars[{number}]")) }?;
+            if let Some(jacquard) = jacquards.get(number) {
+                let (name, laps) = (format!("knit.jacquards[{number}]"), own.chain.courses());
+                // SAFETY: as above.
+                own.jacquard = unsafe { jacquard.read(&name, laps) }?;
+            }
+            Ok(own)
+        });
+        let bars = bars.collect::<Result<Vec<_>, Failure>>()?;
         let yarns = yarns.iter().map(texere_knit_yarn::read).collect();
         let gauge = Gauge::new(self.wale_mm, self.course_mm);
         let Self { wales, courses, copies, .. } = *self;
@@ -161,6 +238,17 @@ impl texere_warp_knit {
         let knit = knit.map_err(|error| refused("knit", error, &bars))?;
         let cells = choice("knit.cells", self.cells, &[Cells::Round, Cells::Even])?;
         Ok(Design::of(name, Structure::Warp(knit.with_cells(cells))))
+    }
+
+    /// The Jacquards of the bars: as many as bars, or none.
+    ///
+    /// # Safety
+    ///
+    /// The array is valid for reads.
+    unsafe fn images(&self) -> Result<&[texere_jacquard], Failure> {
+        let count = if self.jacquards.is_null() { 0 } else { self.bar_count };
+        // SAFETY: the caller vouches for it.
+        unsafe { array("knit.jacquards", self.jacquards, count) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use texere::weft::{Beds, Cell, Cells, Chart, ChartError, Gauge, Knitted, Machine};
+use texere::weft::{Backing, Beds, Cell, Cells, Chart, ChartError, Gauge, Knitted, Machine};
 use texere::{Design, FabricError, Structure};
 
 use crate::argument::text;
@@ -34,6 +34,13 @@ pub const TEXERE_STITCH_MOVED: u32 = 6;
 /// move.
 pub const TEXERE_STITCH_MOVED_BEHIND: u32 = 7;
 
+/// The back of a Jacquard shows floats: only the front needles knit.
+pub const TEXERE_BACKING_NONE: u32 = 0;
+/// Every other back needle knits, alternating from yarn to yarn and from row to row.
+pub const TEXERE_BACKING_BIRDSEYE: u32 = 1;
+/// Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+pub const TEXERE_BACKING_LADDER: u32 = 2;
+
 /// The stitch in one wale of one course.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -51,30 +58,32 @@ pub struct texere_stitch {
 pub struct texere_weft_knit {
     /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// Beds of needles, 1 or 2.
+    /// Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
     pub beds: u32,
     /// A constant whose name begins with TEXERE_CELLS.
     pub cells: u32,
     /// How many copies of the repeat lie along the courses, and how many along the wales; each 1 or
     /// more.
     pub copies: [u32; 2],
-    /// Zero.
-    pub reserved: u32,
+    /// With `jacquard`: what the back needles knit, a constant whose name begins with
+    /// TEXERE_BACKING. Else 0.
+    pub backing: u32,
     /// What the design is called, UTF-8.
     pub name: *const c_char,
     /// Length of the name, bytes.
     pub name_length: usize,
     /// Wales of the repeat, 1 to 65536.
     pub wales: u64,
-    /// Courses of the repeat, 1 to 65536.
+    /// Courses of the repeat, or rows of the picture in `jacquard`: 1 to 65536.
     pub courses: u64,
     /// The stitches, `wales` times `courses` of them: course after course from the first, which is
-    /// the bottom one, and in each course from left to right as seen from the technical face.
+    /// the bottom one, and in each course from left to right as seen from the technical face. Null
+    /// with `jacquard`.
     pub stitches: *const texere_stitch,
     /// The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
     /// counted from 0. After the last one the first one follows again. Null with a `turn_count` of
-    /// 0: all courses take yarn 0. If `courses` is not a multiple of `turn_count`, the chart is
-    /// repeated upwards until it is.
+    /// 0: all courses take yarn 0, or with `jacquard` the yarns of the picture. If `courses` is not
+    /// a multiple of `turn_count`, the chart is repeated upwards until it is.
     pub turn: *const u32,
     /// How many numbers `turn` has.
     pub turn_count: u64,
@@ -91,6 +100,12 @@ pub struct texere_weft_knit {
     pub loop_length_mm: f64,
     /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
+    /// The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
+    /// `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
+    /// each row from left to right. A row becomes one course for each of its yarns, in the order of
+    /// their numbers. Front needles knit the course's yarn where the picture has it, and it floats
+    /// past the others.
+    pub jacquard: *const u32,
 }
 
 grows_after!(texere_weft_knit, looks);
@@ -117,34 +132,16 @@ impl texere_weft_knit {
     ///
     /// Arrays and texts are valid for reads.
     unsafe fn read(&self) -> Result<Design, Failure> {
-        let Self { wales, courses, .. } = *self;
-        let count = wales.saturating_mul(courses);
         // SAFETY: the caller vouches for all of them.
-        let (stitches, turn, yarns, (materials, sections), name) = unsafe {
+        let (chart, yarns, (materials, sections), name) = unsafe {
             (
-                array("knit.stitches", self.stitches, count)?,
-                array("knit.turn", self.turn, self.turn_count)?,
+                if self.jacquard.is_null() { self.charted() } else { self.pictured() }?,
                 array("knit.yarns", self.yarns, self.yarn_count)?,
                 self.looks.read("knit")?,
                 text("knit.name", self.name, self.name_length)?,
             )
         };
-        let beds = match self.beds {
-            1 => Beds::One,
-            2 => Beds::Two,
-            other => return Err(Failure::argument(format!("knit.beds is {other}, expected 1 or 2"))),
-        };
-        if let Some((number, yarn)) = (0..).zip(turn).find(|(_, yarn)| u64::from(**yarn) >= self.yarn_count) {
-            return Err(Failure::argument(format!(
-                "knit.turn[{number}] is {yarn}, but there are {}, counted from 0",
-                self.yarn_count
-            )));
-        }
-        let cells = stitches.iter().enumerate().map(|(number, stitch)| stitch.read(number));
-        let cells = cells.collect::<Result<Vec<_>, _>>()?;
-        let refuse = |error| self.refused(error);
-        let chart = Chart::new(wales as usize, beds, cells).map_err(refuse)?;
-        let program = chart.with_yarns(turn).and_then(|chart| chart.program()).map_err(refuse)?;
+        let program = chart.program().map_err(|error| self.refused(error))?;
         let loop_length_mm = (self.loop_length_mm != 0.0).then_some(self.loop_length_mm);
         let gauge = Gauge { wale_mm: self.wale_mm, course_mm: self.course_mm, loop_length_mm };
         let yarns = yarns.iter().map(texere_knit_yarn::read).collect();
@@ -154,6 +151,72 @@ impl texere_weft_knit {
         let knit = knit.map_err(|error| refused("knit", error, &[]))?;
         let cells = choice("knit.cells", self.cells, &[Cells::Round, Cells::Even])?;
         Ok(Design::of(name, Structure::Weft(knit.with_cells(cells))))
+    }
+
+    /// The chart of `stitches` and `turn`.
+    ///
+    /// # Safety
+    ///
+    /// As for `read`.
+    unsafe fn charted(&self) -> Result<Chart, Failure> {
+        let Self { wales, courses, .. } = *self;
+        if self.backing != TEXERE_BACKING_NONE {
+            return Err(Failure::argument(format!(
+                "knit.backing is {}, expected 0 without a knit.jacquard",
+                self.backing
+            )));
+        }
+        // SAFETY: the caller vouches for both.
+        let (stitches, turn) = unsafe {
+            (
+                array("knit.stitches", self.stitches, wales.saturating_mul(courses))?,
+                array("knit.turn", self.turn, self.turn_count)?,
+            )
+        };
+        let beds = match self.beds {
+            1 => Beds::One,
+            2 => Beds::Two,
+            other => return Err(Failure::argument(format!("knit.beds is {other}, expected 1 or 2"))),
+        };
+        self.known("knit.turn", turn)?;
+        let cells = stitches.iter().enumerate().map(|(number, stitch)| stitch.read(number));
+        let cells = cells.collect::<Result<Vec<_>, _>>()?;
+        let chart = Chart::new(wales as usize, beds, cells).and_then(|chart| chart.with_yarns(turn));
+        chart.map_err(|error| self.refused(error))
+    }
+
+    /// The chart of the picture `jacquard`.
+    ///
+    /// # Safety
+    ///
+    /// As for `read`.
+    unsafe fn pictured(&self) -> Result<Chart, Failure> {
+        let Self { wales, courses, .. } = *self;
+        if !self.stitches.is_null() || self.turn_count != 0 || self.beds != 0 {
+            return Err(Failure::argument(
+                "knit.jacquard is not null, so knit.stitches has to be null, knit.turn_count and knit.beds 0",
+            ));
+        }
+        let backings = [None, Some(Backing::Birdseye), Some(Backing::Ladder)];
+        let backing = choice("knit.backing", self.backing, &backings)?;
+        // SAFETY: the caller vouches for it.
+        let picture = unsafe { array("knit.jacquard", self.jacquard, wales.saturating_mul(courses)) }?;
+        self.known("knit.jacquard", picture)?;
+        let wales = wales as usize;
+        let yarn = |wale: usize, row: usize| picture[row * wales + wale];
+        let chart = Chart::jacquard(wales, courses as usize, backing, yarn);
+        chart.map_err(|error| self.refused(error))
+    }
+
+    /// Refuses numbers of yarns that there are not. `name` is the array's.
+    fn known(&self, name: &str, numbers: &[u32]) -> Result<(), Failure> {
+        match numbers.iter().position(|yarn| u64::from(*yarn) >= self.yarn_count) {
+            None => Ok(()),
+            Some(at) => Err(Failure::argument(format!(
+                "{name}[{at}] is {}, but there are {}, counted from 0",
+                numbers[at], self.yarn_count
+            ))),
+        }
     }
 
     /// The failure of a chart, with the number of the stitch that the error is about, if it is
@@ -168,7 +231,8 @@ impl texere_weft_knit {
             }
             _ => String::new(),
         };
-        Failure::argument(format!("knit.stitches{stitch}: {error}"))
+        let array = if self.jacquard.is_null() { "stitches" } else { "jacquard" };
+        Failure::argument(format!("knit.{array}{stitch}: {error}"))
     }
 }
 

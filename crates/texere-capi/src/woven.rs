@@ -1,8 +1,9 @@
-//! Woven cloth from the caller's arrays: the bits of a drawdown, and the threads of warp and weft.
+//! Woven cloth from the caller's arrays: a drawdown or a shaft draft, and the threads of warp and
+//! weft.
 
 use std::ffi::c_char;
 
-use texere::woven::{Crimp, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
+use texere::woven::{Crimp, Draft, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
 use texere::{Design, Structure};
 
 use crate::argument::text;
@@ -11,6 +12,7 @@ use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::shafts::texere_draft;
 use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused};
@@ -87,7 +89,8 @@ pub struct texere_woven {
     /// A row of bits for each pick. The library only reads them. Row 0 is the first pick, at the
     /// bottom of the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0
     /// of its second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` +
-    /// 7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows.
+    /// 7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows. With null `data`
+    /// the cloth is that of `draft`.
     pub drawdown: texere_view,
     /// The ends from the left: `ends` of them.
     pub warp: *const texere_thread,
@@ -95,6 +98,9 @@ pub struct texere_woven {
     pub weft: *const texere_thread,
     /// The materials and sections that the threads refer to.
     pub looks: texere_looks,
+    /// The shaft draft that weaves the cloth, or null for a cloth that `drawdown` gives. WIF files
+    /// and pictures of the draft show its shafts and treadles.
+    pub draft: *const texere_draft,
 }
 
 grows_after!(texere_woven, looks);
@@ -124,23 +130,16 @@ impl texere_woven {
         // refuses.
         let [ends, picks] = [self.ends, self.picks].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
         let refuse = |error| refused("woven", error, &[]);
-        let mut drawdown = Drawdown::new(ends, picks).map_err(refuse)?;
         // SAFETY: the caller vouches for all of them.
-        let (bits, warp, weft, (materials, sections), name) = unsafe {
+        let ((drawdown, draft), warp, weft, (materials, sections), name) = unsafe {
             (
-                self.drawdown.rows("woven.drawdown", picks, ends.div_ceil(8))?,
+                self.weave(ends, picks)?,
                 array("woven.warp", self.warp, self.ends)?,
                 array("woven.weft", self.weft, self.picks)?,
                 self.looks.read("woven")?,
                 text("woven.name", self.name, self.name_length)?,
             )
         };
-        for pick in 0..picks {
-            let row = bits.row(pick);
-            for end in (0..ends).filter(|end| row[end / 8] >> (end % 8) & 1 == 1) {
-                drawdown.set(end, pick, true).map_err(|error| refuse(error.into()))?;
-            }
-        }
         let threads = |threads: &[texere_thread]| threads.iter().map(texere_thread::read).collect();
         let cloth = Woven::new(drawdown, threads(warp), threads(weft), materials, sections);
         let mut cloth = cloth.map_err(refuse)?;
@@ -151,8 +150,36 @@ impl texere_woven {
         cloth.set_crimp(crimp).map_err(|error| refuse(error.into()))?;
         let reliefs = [Relief::Report, Relief::Flatten, Relief::Shrink];
         let relief = choice("woven.relief", self.relief, &reliefs)?;
-        let woven = WovenDesign::new(cloth, None, relief).map_err(refuse)?;
+        let woven = WovenDesign::new(cloth, draft, relief).map_err(refuse)?;
         Ok(Design::of(name, Structure::Woven(woven)))
+    }
+
+    /// The drawdown, and the draft that weaves it if one was given.
+    ///
+    /// # Safety
+    ///
+    /// As for `read`.
+    unsafe fn weave(&self, ends: usize, picks: usize) -> Result<(Drawdown, Option<Draft>), Failure> {
+        let refuse = |error| refused("woven", error, &[]);
+        // Sizes that no cloth has are refused before any array is read.
+        let mut drawdown = Drawdown::new(ends, picks).map_err(refuse)?;
+        if !self.draft.is_null() {
+            if !self.drawdown.data.is_null() {
+                return Err(Failure::argument("woven has both a drawdown and a draft, expected one of them"));
+            }
+            // SAFETY: the caller vouches for all of them.
+            let draft = unsafe { sized("woven.draft", self.draft)?.read(ends, picks) }?;
+            return Ok((draft.drawdown().map_err(|error| refused("woven.draft", error, &[]))?, Some(draft)));
+        }
+        // SAFETY: as above.
+        let bits = unsafe { self.drawdown.rows("woven.drawdown", picks, ends.div_ceil(8)) }?;
+        for pick in 0..picks {
+            let row = bits.row(pick);
+            for end in (0..ends).filter(|end| row[end / 8] >> (end % 8) & 1 == 1) {
+                drawdown.set(end, pick, true).map_err(|error| refuse(error.into()))?;
+            }
+        }
+        Ok((drawdown, None))
     }
 }
 

@@ -1,16 +1,20 @@
 //! Yarns: those of a cloth, of a file or of the caller's arrays.
 
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
+use std::path::Path;
 
+use texere::write::CurveFormat;
 use texere::yarn::Halves;
 use texere::{ControlPoint, Yarn, Yarns};
 
 use crate::argument::{check, slice, slice_mut, text};
+use crate::callback_file::{CallbackFile, texere_write_callback};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
+use crate::structure::choice;
 
 /// Yarns: their control points, sections and materials.
 #[derive(Debug)]
@@ -151,9 +155,35 @@ pub unsafe extern "C" fn texere_yarns_read(
     })
 }
 
-/// Saves yarns in a `.yarns` file, which keeps every bit of them.
+/// Reads yarns from the caller's memory, which holds the bytes of a `.yarns` file. Errors call the
+/// file `name`.
 ///
-/// Fails with TEXERE_IO if the file can't be written.
+/// Fails with TEXERE_DESIGN if the bytes hold no yarns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_yarns_read_memory(
+    name: *const c_char,
+    name_length: usize,
+    data: *const u8,
+    size: usize,
+    out: *mut *mut texere_yarns,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for all of them.
+        unsafe {
+            clear(out)?;
+            let (name, bytes) = (text("name", name, name_length)?, slice("data", data, size)?);
+            give(out, texere::read::yarns_from(name, bytes)?.yarns)
+        }
+    })
+}
+
+/// Writes yarns to a file. `.yarns` is texere's own form, which keeps every bit of them;
+/// `texere_yarns_read` reads it. `.bcc` and `.usda` are centrelines for other programs: `.bcc`
+/// holds control points alone, `.usda` also diameters and colours. An existing file of that name is
+/// replaced only once the new one is complete.
+///
+/// Fails with TEXERE_IO if the file can't be written, and with TEXERE_UNSUPPORTED for yarns that
+/// `.bcc` can't hold.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_write(
     yarns: *const texere_yarns,
@@ -163,7 +193,47 @@ pub unsafe extern "C" fn texere_yarns_write(
     guard(|| {
         // SAFETY: the caller vouches for `path`.
         let path = unsafe { text("path", path, path_length) }?;
-        texere::write::yarns(&*get(yarns)?, path)?;
+        let yarns = get(yarns)?;
+        if CurveFormat::from_path(Path::new(path)).is_ok() {
+            texere::write::curves(&yarns, path)?;
+        } else {
+            texere::write::yarns(&yarns, path)?;
+        }
+        Ok(())
+    })
+}
+
+/// texere's own form of yarns, `.yarns`.
+pub const TEXERE_YARNS_FORMAT_YARNS: u32 = 0;
+/// Binary Curve Collection, `.bcc`: control points alone.
+pub const TEXERE_YARNS_FORMAT_BCC: u32 = 1;
+/// The text form of Universal Scene Description, `.usda`: curves with diameters and colours.
+pub const TEXERE_YARNS_FORMAT_USDA: u32 = 2;
+
+/// Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
+/// writes. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on
+/// the calling thread, with `user` as its first argument.
+///
+/// Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
+/// TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then
+/// are not a complete file.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_yarns_write_to(
+    yarns: *const texere_yarns,
+    format: u32,
+    callback: texere_write_callback,
+    user: *mut c_void,
+) -> texere_status {
+    guard(|| {
+        // SAFETY: the caller vouches for the callback.
+        let file = unsafe { CallbackFile::new(callback, user) }?;
+        let formats = [None, Some(CurveFormat::Bcc), Some(CurveFormat::Usda)];
+        let curves = choice("format", format, &formats)?;
+        let yarns = get(yarns)?;
+        match curves {
+            None => texere::write::yarns_to(&yarns, file)?,
+            Some(format) => texere::write::curves_to(&yarns, format, file)?,
+        };
         Ok(())
     })
 }

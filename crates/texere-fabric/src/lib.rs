@@ -64,9 +64,9 @@ pub use structure::Structure;
 pub use warning::FabricWarning;
 pub(crate) use woven::POINTS_MAX;
 pub use woven::{
-    BySet, Crimp, Draft, Drawdown, JamReport, Loom, NO_CROSSING, Pitch, Relief, SPACING_MAX, SPACING_MIN,
-    Sett, Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
-    WovenRest,
+    BySet, Crimp, Draft, Drawdown, JamReport, LOOM_MAX, Loom, NO_CROSSING, Pitch, Relief, SPACING_MAX,
+    SPACING_MIN, Sett, Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign,
+    WovenError, WovenRest,
 };
 pub use yarn_check::ThreadError;
 pub use yarn_size::{

@@ -23,6 +23,6 @@
 
 pub use texere_core::crossings::Set;
 pub use texere_fabric::{
-    BySet, Crimp, Draft, Drawdown, JamReport, Loom, NO_CROSSING, Pitch, Relief, Sett, Shape, Shedding,
-    Stretch, Thread, ThreadError, Tightness, Weave, Woven, WovenDesign, WovenError,
+    BySet, Crimp, Draft, Drawdown, JamReport, LOOM_MAX, Loom, NO_CROSSING, Pitch, Relief, Sett, Shape,
+    Shedding, Stretch, Thread, ThreadError, Tightness, Weave, Woven, WovenDesign, WovenError,
 };

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
+mod attributes;
 #[path = "../common/calls.rs"]
 mod calls;
 #[path = "../common/mod.rs"]
@@ -80,6 +81,7 @@ macro_rules! c {
         unsafe { $call }
     }};
 }
+use c;
 
 /// The edits of woven cloth, in the order in which the test makes them.
 const EDITS: [Edit; 8] = [

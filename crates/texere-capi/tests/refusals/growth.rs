@@ -12,6 +12,7 @@ use crate::calls::{devices, made, opened};
 use crate::common::{message, sized};
 use crate::handles::{DESIGN, Handles};
 use crate::mesh::settings;
+use crate::outputs::take_bytes;
 use crate::pictures::picture;
 use crate::reading::read;
 use crate::structures::finish;
@@ -138,6 +139,7 @@ fn reading(own: &'static Handles, png: &'static str) -> Vec<Call> {
     call!(calls, reads texere_settings = settings(), |it| texere_check_new(*cloth, it, TEXERE_ACCURACY, null(), &mut null_mut()));
     call!(calls, reads texere_picture = picture(), |it| texere_renderer_picture(*renderer, it, null(), pixels));
     call!(calls, reads texere_picture = picture(), |it| texere_renderer_write(*renderer, it, null(), png.as_ptr().cast(), png.len()));
+    call!(calls, reads texere_picture = picture(), |it| texere_renderer_write_to(*renderer, it, null(), Some(take_bytes), null_mut()));
     call!(calls, reads texere_mesh_arrays = texere_mesh_arrays { positions: *positions, ..sized() }, |it| texere_plan_mesh_arrays(*plan, null(), it));
     call!(calls, reads texere_yarn = what, |it| texere_live_set_yarn(*live, 0, it, points, 2));
     call!(calls, reads texere_yarn_arrays = sized(), |it| texere_yarns_new(it, &mut null_mut()));

@@ -8,6 +8,7 @@ use crate::calls::done;
 use crate::common::sized;
 use crate::handles::Handles;
 use crate::mesh::wrong_settings;
+use crate::outputs::views;
 use crate::tools::{Case, case, handles, sizes, strange};
 
 const MATERIAL: texere_material =
@@ -54,7 +55,16 @@ fn reading(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_live, |live| texere_live_read(live, &none, null_mut(), 0, null_mut(), 0));
     sizes!(cases, texere_update, |update| texere_live_update(own.live, null(), &mut update));
     sizes!(cases, texere_counts, |counts| texere_live_counts(own.live, &mut counts));
+    for view in views().iter().map(std::ptr::from_ref).chain([null()]) {
+        case!(cases, texere_live_attributes(own.live, null(), view));
+        case!(cases, texere_live_read_attributes(own.live, &none, view));
+    }
+    case!(cases, texere_live_read_attributes(own.live, null(), &views()[1]));
+    handles!(cases, own, texere_live, |live| texere_live_keep_attributes(live));
+    handles!(cases, own, texere_live, |live| texere_live_attributes(live, null(), &views()[1]));
+    handles!(cases, own, texere_live, |live| texere_live_read_attributes(live, &none, &views()[1]));
     for run in strange() {
+        case!(cases, texere_live_attributes(own.live, run, &views()[1]));
         case!(cases, texere_live_mesh(own.live, run, null_mut(), 0, null_mut(), 0));
     }
     // Counts that are not those of the mesh, ranges that do not lie within the mesh, and null

@@ -7,6 +7,7 @@ use texere_c::*;
 use crate::calls::done;
 use crate::common::sized;
 use crate::handles::{Handles, text};
+use crate::outputs::take_bytes;
 use crate::tools::{Case, case, handles, sizes, strange};
 
 static POINTS: [texere_point; 2] = [
@@ -45,10 +46,17 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(cases, texere_yarns_read(text, length, &mut null_mut()));
         case!(cases, texere_yarns_write(own.yarns, text, length));
+        case!(cases, texere_yarns_read_memory(text, length, null(), 0, &mut null_mut()));
         case!(cases, texere_plan_write(own.plan, null(), text, length));
     }
     handles!(cases, own, texere_yarns, |yarns| texere_settings_default(yarns, &mut sized()));
     handles!(cases, own, texere_yarns, |yarns| texere_yarns_write(yarns, toml, toml_length));
+    case!(cases, texere_yarns_write(own.yarns, toml, toml_length));
+    case!(cases, texere_yarns_read_memory(toml, toml_length, null(), 1, &mut null_mut()));
+    case!(cases, texere_yarns_read_memory(toml, toml_length, null(), 0, null_mut()));
+    handles!(cases, own, texere_yarns, |it| texere_yarns_write_to(it, 0, Some(take_bytes), null_mut()));
+    case!(cases, texere_yarns_write_to(own.yarns, 3, Some(take_bytes), null_mut()));
+    case!(cases, texere_yarns_write_to(own.yarns, 0, None, null_mut()));
     handles!(cases, own, texere_yarns, |yarns| texere_yarns_counts(yarns, &mut sized()));
     handles!(cases, own, texere_yarns, |yarns| texere_yarns_points(yarns, null_mut(), 0, null_mut(), 0));
     handles!(cases, own, texere_yarns, |yarns| texere_plan_new(yarns, own.device, null(), &mut null_mut()));

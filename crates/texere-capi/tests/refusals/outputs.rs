@@ -10,7 +10,7 @@ use crate::handles::Handles;
 use crate::mesh::settings;
 use crate::tools::{Case, case, handles, sizes, strange};
 
-unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
+pub(crate) unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
     0
 }
 
@@ -19,7 +19,7 @@ unsafe extern "C" fn take_piece(_: *mut c_void, _: *const texere_piece) -> i32 {
 }
 
 /// Invalid views: null, too small, misaligned, with values that overlap, and larger than memory.
-fn views() -> &'static [texere_view] {
+pub(crate) fn views() -> &'static [texere_view] {
     let memory: *mut c_void = Box::leak(Box::new([0_u64; 9])).as_mut_ptr().cast();
     let of = |data, size, stride| texere_view { data, size, stride };
     Box::leak(Box::new([

@@ -8,6 +8,7 @@ use texere_c::*;
 use crate::common::sized;
 use crate::handles::Handles;
 use crate::mesh::settings;
+use crate::outputs::take_bytes;
 use crate::tools::{Case, case, strange};
 
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
@@ -27,6 +28,8 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_renderer_picture(own.renderer, null(), null(), &pixels));
     case!(cases, texere_renderer_picture(own.renderer, &picture(), null(), null()));
     case!(cases, texere_renderer_write(own.renderer, null(), null(), png, length));
+    case!(cases, texere_renderer_write_to(own.renderer, null(), null(), Some(take_bytes), null_mut()));
+    case!(cases, texere_renderer_write_to(own.renderer, &picture(), null(), None, null_mut()));
     let own_of_another_kind = own.run.cast();
     for renderer in [null_mut(), strange()[0], strange()[1], own_of_another_kind] {
         case!(cases, texere_renderer_show(renderer, own.yarns, null(), null()));
@@ -34,11 +37,13 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
         case!(cases, texere_renderer_seen(renderer, 0.0, 0.0, &mut texere_seen::default()));
         case!(cases, texere_renderer_picture(renderer, &picture(), null(), &pixels));
         case!(cases, texere_renderer_write(renderer, &picture(), null(), png, length));
+        case!(cases, texere_renderer_write_to(renderer, &picture(), null(), Some(take_bytes), null_mut()));
     }
     for run in strange() {
         case!(cases, texere_renderer_show(own.renderer, own.yarns, null(), run));
         case!(cases, texere_renderer_picture(own.renderer, &picture(), run, &pixels));
         case!(cases, texere_renderer_write(own.renderer, &picture(), run, png, length));
+        case!(cases, texere_renderer_write_to(own.renderer, &picture(), run, Some(take_bytes), null_mut()));
     }
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(cases, texere_renderer_open(text, length, &mut null_mut()));

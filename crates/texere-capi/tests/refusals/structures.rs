@@ -7,6 +7,7 @@ use texere_c::*;
 
 use crate::common::sized;
 use crate::handles::Handles;
+use crate::outputs::take_bytes;
 use crate::tools::{Case, case, strange};
 
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
@@ -50,12 +51,18 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
         case!(cases, texere_design_finished(design, &finish(own), &mut null_mut()));
         case!(cases, texere_design_write(design, toml, length));
         case!(cases, texere_design_draft(design, 0, png, png_length));
+        case!(cases, texere_design_write_to(design, 0, Some(take_bytes), null_mut()));
+        case!(cases, texere_design_draft_to(design, 0, Some(take_bytes), null_mut()));
     }
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2), (c"none".as_ptr(), 4)] {
         case!(cases, texere_design_write(own.design, text, length));
         case!(cases, texere_design_draft(own.design, 0, text, length));
     }
     case!(cases, texere_design_draft(own.design, 2, png, png_length));
+    case!(cases, texere_design_draft_to(own.design, 2, Some(take_bytes), null_mut()));
+    case!(cases, texere_design_draft_to(own.design, 0, None, null_mut()));
+    case!(cases, texere_design_write_to(own.design, 2, Some(take_bytes), null_mut()));
+    case!(cases, texere_design_write_to(own.design, 0, None, null_mut()));
     for finish in [
         texere_finish { settle: 2, ..finish(own) },
         texere_finish { length_kind: 1, ..finish(own) },

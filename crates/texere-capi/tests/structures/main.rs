@@ -6,6 +6,7 @@
 mod arrays;
 #[path = "../common/mod.rs"]
 mod common;
+mod patterns;
 
 use std::fs;
 use std::path::Path;

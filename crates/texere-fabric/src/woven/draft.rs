@@ -7,6 +7,10 @@ use texere_core::backend::zeroed;
 use super::drawdown::{CROSSINGS_MAX, WORD};
 use crate::{Drawdown, FabricError, WovenError};
 
+/// The most shafts or treadles of a loom that readers of drafts take: enough for a Jacquard machine
+/// with a hook for each end.
+pub const LOOM_MAX: u32 = 100_000;
+
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
 ///
 /// Shafts and treadles are counted from 1, as weavers write them. 0 stands for none, and a list may

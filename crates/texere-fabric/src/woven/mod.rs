@@ -32,7 +32,7 @@ pub(crate) use cloth::POINTS_MAX;
 pub use cloth::Woven;
 pub use crimp::Crimp;
 pub use design::WovenDesign;
-pub use draft::{Draft, Shedding};
+pub use draft::{Draft, LOOM_MAX, Shedding};
 pub use drawdown::{Drawdown, THREADS_MAX};
 pub use error::WovenError;
 pub use loom::Loom;

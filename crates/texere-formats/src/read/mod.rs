@@ -47,8 +47,7 @@ use crate::yarns_file::ENDING;
 pub(crate) use design_file::limits;
 #[cfg(feature = "wif")]
 pub(crate) use wif::{
-    FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, LOOM_MAX, PROGRAM as WIF_PROGRAM,
-    UNITS_MM as WIF_UNITS_MM,
+    FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, PROGRAM as WIF_PROGRAM, UNITS_MM as WIF_UNITS_MM,
 };
 
 /// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine

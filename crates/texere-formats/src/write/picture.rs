@@ -68,7 +68,16 @@ fn encode<W: Write>(
         writer.write_image_data(pixels)?;
         writer.finish()
     });
-    written.map_err(|error| target.failed(error.into()))
+    written.map_err(|error| target.failed(refused(error)))
+}
+
+/// The error of the writer to which an encoder writes, or else what the encoder refuses. The
+/// encoder's own conversion keeps the words of the writer's error alone.
+pub(super) fn refused(error: png::EncodingError) -> io::Error {
+    match error {
+        png::EncodingError::IoError(error) => error,
+        other => other.into(),
+    }
 }
 
 /// Fails if there is too little memory for an encoder. The encoder itself would abort the program.

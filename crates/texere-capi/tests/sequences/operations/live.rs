@@ -5,6 +5,7 @@ use std::ptr::null;
 use texere_c::*;
 
 use super::checks::{hit, ray};
+use super::outputs::viewed;
 use super::{Operation, settings};
 use crate::caller::Caller;
 use crate::common::sized;
@@ -77,6 +78,26 @@ fn meshes() -> Vec<Operation> {
             texere_live_read(
                 live, &change, vertices.as_mut_ptr(), vertex_count, indices.as_mut_ptr(), index_count
             )
+        };
+        texere_live_keep_attributes, 2, |caller| texere_live_keep_attributes(caller.handle());
+        texere_live_attributes, 3, |caller| {
+            let (live, run, mut counts): (_, _, texere_counts) =
+                (caller.handle(), caller.handle_or_null(), sized());
+            if caller.random.one_in(2) {
+                texere_live_keep_attributes(live);
+                texere_live_update(live, null(), &mut sized());
+            }
+            texere_live_counts(live, &mut counts);
+            viewed::<texere_attribute>(caller, counts.vertices, |view| texere_live_attributes(live, run, view))
+        };
+        texere_live_read_attributes, 3, |caller| {
+            let (live, first_vertex) = (caller.handle(), number(caller));
+            if caller.random.one_in(2) {
+                texere_live_keep_attributes(live);
+                texere_live_update(live, null(), &mut sized());
+            }
+            let change = texere_change { first_vertex, vertex_count: 6, first_index: 0, index_count: 0 };
+            viewed::<texere_attribute>(caller, 6, |view| texere_live_read_attributes(live, &change, view))
         };
         texere_live_yarns, 3, |caller| {
             let live = caller.handle();

@@ -6,13 +6,9 @@ use std::ptr::{null, null_mut};
 use texere_c::*;
 
 use super::Operation;
+use super::files::taking;
 use crate::caller::Caller;
 use crate::common::sized;
-
-/// Takes bytes, or refuses them if `user` is 1.
-unsafe extern "C" fn take_bytes(user: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
-    user.addr() as i32
-}
 
 /// Takes a piece, or refuses it if `user` is 1.
 unsafe extern "C" fn take_piece(user: *mut c_void, _: *const texere_piece) -> i32 {
@@ -29,7 +25,7 @@ fn planned(caller: &mut Caller<'_>) -> (*mut texere_plan, *mut texere_run, texer
 
 /// Makes `call` with a view of `count` values, or sometimes with a view that is too small or with
 /// none.
-fn viewed<T>(
+pub(super) fn viewed<T>(
     caller: &mut Caller<'_>,
     count: u64,
     call: impl FnOnce(*const texere_view) -> texere_status,
@@ -86,9 +82,8 @@ pub(super) fn operations() -> Vec<Operation> {
         };
         texere_plan_write_to, 2, |caller| {
             let (plan, run, format) = (caller.handle(), caller.handle_or_null(), caller.random.choice(2));
-            let callback: texere_write_callback = if caller.random.one_in(20) { None } else { Some(take_bytes) };
-            let user = caller.random.pick(&[0, 0, 1]);
-            texere_plan_write_to(plan, run, format, callback, std::ptr::without_provenance_mut(user))
+            let (callback, user) = taking(caller);
+            texere_plan_write_to(plan, run, format, callback, user)
         };
     }
 }

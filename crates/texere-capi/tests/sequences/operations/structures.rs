@@ -1,5 +1,7 @@
 //! Operations that make designs from arrays.
 
+use std::ptr::{null, null_mut};
+
 use texere_c::*;
 
 use super::Operation;
@@ -68,6 +70,46 @@ fn knit_yarn(caller: &mut Caller<'_>) -> texere_knit_yarn {
     texere_knit_yarn { diameter_mm, twist: 0.5, material: 0, section: 0, reserved: 0 }
 }
 
+/// Lists of a draft: `count` of them, of one number each or of none to three, counted from 1 to
+/// `most` or sometimes higher. `kept` holds the arrays.
+fn lists(caller: &mut Caller<'_>, kept: &mut Kept, count: usize, most: u32) -> texere_lists {
+    let is_single = caller.random.one_in(2);
+    let mut offsets = vec![0_u64];
+    for _ in 0..count {
+        let length = if is_single { 1 } else { caller.random.below(4) as u64 };
+        offsets.push(offsets[offsets.len() - 1] + length);
+    }
+    let total = offsets[count] as usize;
+    let numbers: Vec<_> = (0..total).map(|_| caller.random.choice(most + 1)).collect();
+    if !is_single && count > 1 && caller.random.one_in(20) {
+        offsets.swap(0, 1);
+    }
+    let offsets_at = if is_single { null() } else { offsets.as_ptr() };
+    let lists = texere_lists { numbers: numbers.as_ptr(), offsets: offsets_at };
+    kept.0.push(numbers);
+    kept.1.push(offsets);
+    lists
+}
+
+/// Arrays that a draft refers to.
+#[derive(Default)]
+struct Kept(Vec<Vec<u32>>, Vec<Vec<u64>>);
+
+/// A draft of so many ends and picks.
+fn draft(caller: &mut Caller<'_>, kept: &mut Kept, ends: usize, picks: usize) -> texere_draft {
+    let (shafts, treadles) = (1 + caller.random.below(4) as u32, caller.random.pick(&[0, 1, 4]));
+    let picked = if treadles == 0 { shafts } else { treadles };
+    texere_draft {
+        sinking_shed: caller.random.choice(2),
+        threading: lists(caller, kept, ends, shafts),
+        tie_up: lists(caller, kept, treadles as usize, shafts),
+        treadling: lists(caller, kept, picks, picked),
+        shafts: caller.random.pick(&[shafts, shafts, shafts, 0]),
+        treadles,
+        ..caller.sized()
+    }
+}
+
 pub(super) fn operations() -> Vec<Operation> {
     table! {
         texere_design_woven, 3, |caller| {
@@ -77,7 +119,14 @@ pub(super) fn operations() -> Vec<Operation> {
             let size = caller.random.pick(&[bits.len() as u64, bits.len() as u64, 1]);
             let [warp, weft] =
                 [ends, picks].map(|count| (0..count).map(|_| thread(caller)).collect::<Vec<_>>());
+            let mut drawdown = texere_view { data: bits.as_mut_ptr().cast(), size, stride: 2 };
+            let (mut kept, mut of_draft) = (Kept::default(), None);
+            if caller.random.one_in(3) {
+                of_draft = Some(draft(caller, &mut kept, ends, picks));
+                drawdown.data = if caller.random.one_in(20) { drawdown.data } else { null_mut() };
+            }
             let woven = texere_woven {
+                draft: of_draft.as_ref().map_or(null(), std::ptr::from_ref),
                 shape: caller.random.choice(2),
                 relief: caller.random.choice(3),
                 selvedge: caller.random.choice(2),
@@ -87,7 +136,7 @@ pub(super) fn operations() -> Vec<Operation> {
                 name_length: name.length(),
                 ends: caller.random.pick(&[ends as u64, ends as u64, ends as u64, 0]),
                 picks: picks as u64,
-                drawdown: texere_view { data: bits.as_mut_ptr().cast(), size, stride: 2 },
+                drawdown,
                 warp: warp.as_ptr(),
                 weft: weft.as_ptr(),
                 looks: looks.given(),
@@ -106,17 +155,22 @@ pub(super) fn operations() -> Vec<Operation> {
                 .collect();
             let turn = [caller.random.choice(2), 0, 1];
             let yarns = [knit_yarn(caller), knit_yarn(caller)];
+            let picture: Vec<_> = (0..wales * courses).map(|_| caller.random.choice(2)).collect();
+            let is_jacquard = caller.random.one_in(3);
+            let beds = caller.random.pick(&[1, 1, 1, 1, 2, 2, 0, u32::MAX]);
             let knit = texere_weft_knit {
-                beds: caller.random.pick(&[1, 1, 1, 1, 2, 2, 0, u32::MAX]),
+                beds: if is_jacquard { caller.random.pick(&[0, 0, 0, 1]) } else { beds },
+                backing: if is_jacquard { caller.random.choice(3) } else { caller.random.pick(&[0, 0, 0, 1]) },
+                jacquard: if is_jacquard { picture.as_ptr() } else { null() },
                 cells: caller.random.choice(2),
                 copies: [(); 2].map(|()| caller.random.pick(&[1, 1, 1, 2, 0, u32::MAX])),
                 name: name.pointer(),
                 name_length: name.length(),
                 wales: wales as u64,
                 courses: caller.random.pick(&[courses as u64, courses as u64, courses as u64, 0]),
-                stitches: stitches.as_ptr(),
+                stitches: if is_jacquard { null() } else { stitches.as_ptr() },
                 turn: turn.as_ptr(),
-                turn_count: caller.random.below(4) as u64,
+                turn_count: if is_jacquard { 0 } else { caller.random.below(4) as u64 },
                 yarns: yarns.as_ptr(),
                 yarn_count: caller.random.pick(&[2, 2, 2, 2, 1, 0]),
                 wale_mm: caller.random.number(1.2),
@@ -145,8 +199,21 @@ pub(super) fn operations() -> Vec<Operation> {
                 offset: caller.random.pick(&[0, 0, 1, -2, i32::MIN]),
                 reserved: 0,
             };
+            let colors = [(); 4].map(|()| caller.random.choice(2) as u8);
+            let shifts = [(); 8].map(|()| caller.random.pick(&[0, 0, 0, 1, 1, 2]));
+            let jacquard = texere_jacquard {
+                guides: caller.random.pick(&[0, 2, 2, u32::MAX]),
+                rounds: caller.random.pick(&[1, 2, 2, 0]),
+                colors: colors.as_ptr(),
+                color_count: caller.random.pick(&[2, 2, 2, 1, 0, 257]),
+                shifts: shifts.as_ptr(),
+            };
+            // These sizes would read past the end of `colors`, which is not allowed.
+            let is_wide = jacquard.guides == u32::MAX && jacquard.rounds == 1;
+            let jacquards = [jacquard; 2];
             let (bars, yarns) = ([bar; 2], [knit_yarn(caller), knit_yarn(caller)]);
             let knit = texere_warp_knit {
+                jacquards: if is_wide || caller.random.one_in(2) { null() } else { jacquards.as_ptr() },
                 cells: caller.random.choice(2),
                 wales: caller.random.pick(&[2, 2, 2, 1, 0, u32::MAX]),
                 courses: caller.random.pick(&[2, 2, 2, 1, 0, u32::MAX]),

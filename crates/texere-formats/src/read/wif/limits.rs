@@ -7,9 +7,6 @@ pub(crate) const FILE_MAX: u64 = 1 << 28;
 /// The most threads of a warp or weft.
 pub(super) const THREADS_MAX: u32 = 1_000_000;
 
-/// The most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.
-pub(crate) const LOOM_MAX: u32 = 100_000;
-
 /// The least and the greatest spacing or thickness that is allowed, mm. A design file has the same
 /// limits.
 pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];

@@ -23,7 +23,7 @@ mod program;
 mod threads;
 mod wif_draft;
 
-pub(crate) use limits::{FILE_MAX, LENGTH_MM, LOOM_MAX};
+pub(crate) use limits::{FILE_MAX, LENGTH_MM};
 pub(crate) use program::PROGRAM;
 pub(crate) use threads::UNITS_MM;
 pub(super) use wif_draft::design;

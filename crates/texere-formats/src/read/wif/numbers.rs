@@ -2,9 +2,9 @@
 
 use texere_core::backend::filled;
 use texere_core::counted;
+use texere_fabric::LOOM_MAX;
 
 use super::ini::{Entry, Ini};
-use super::limits::LOOM_MAX;
 use crate::read::error::shown;
 use crate::read::{FilePlace, ReadError};
 

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use texere_core::Section;
-use texere_fabric::{Draft, Drawdown, Relief, Shedding, Structure, Woven, WovenDesign};
+use texere_fabric::{Draft, Drawdown, LOOM_MAX, Relief, Shedding, Structure, Woven, WovenDesign};
 
 use super::colors::Palette;
 use super::ini::{self, Ini};
-use super::limits::{FILE_MAX, LOOM_MAX, THREADS_MAX};
+use super::limits::{FILE_MAX, THREADS_MAX};
 use super::numbers::{self, integer, lists};
 use super::program::is_ours;
 use super::threads;

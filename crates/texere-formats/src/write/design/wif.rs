@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::io::Write;
 
-use texere_fabric::{Draft, Shedding};
+use texere_fabric::{Draft, LOOM_MAX, Shedding};
 
 use super::super::WriteError;
 use super::super::target::Target;
@@ -16,7 +16,7 @@ use super::text::{Text, within};
 use super::wif_threads::{Colors, Set};
 use super::woven::woven;
 use crate::Design;
-use crate::read::{LOOM_MAX, WIF_BYTES_MAX, WIF_PROGRAM};
+use crate::read::{WIF_BYTES_MAX, WIF_PROGRAM};
 
 /// The contents of a WIF file, checked.
 pub(super) struct WifFile<'a> {

@@ -3,7 +3,7 @@
 
 use std::io::Write;
 
-use super::super::picture::encoder_room;
+use super::super::picture::{encoder_room, refused};
 use super::super::target::Target;
 use super::super::{Output, WriteError};
 use super::font::{self, GLYPH_HEIGHT, GLYPH_WIDTH};
@@ -120,7 +120,7 @@ impl<'a> Sheet<'a> {
 
     fn encoded<W: Write>(&self, mut target: Target<W>) -> Result<Target<W>, WriteError> {
         encoder_room().map_err(|source| target.failed(source))?;
-        self.write(&mut target).map_err(|error| target.failed(error.into()))?;
+        self.write(&mut target).map_err(|error| target.failed(refused(error)))?;
         Ok(target)
     }
 

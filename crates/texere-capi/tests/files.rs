@@ -1,0 +1,130 @@
+//! Every writer hands a callback the bytes that it writes to a file, and ends when the callback
+//! says so.
+
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
+
+#[path = "common/calls.rs"]
+mod calls;
+mod common;
+#[path = "common/reading.rs"]
+mod reading;
+
+use std::ffi::{c_char, c_void};
+use std::fs;
+use std::ptr::{from_mut, null, null_mut};
+
+use calls::{done, made};
+use common::{message, sized};
+use reading::read;
+use texere_c::texere_status::*;
+use texere_c::*;
+
+const WOVEN: &str = "weave = { notation = \"2/1\", ends = 6, picks = 6 }\nfinish.settle = false\n\
+    yarns.a = { diameter_mm = 0.3, color = \"#a03010\", twist_per_m = 300.0 }\n\
+    warp = { yarns = [\"a\"], spacing_mm = 0.5 }\nweft = { yarns = [\"a\"], spacing_mm = 0.5 }\n";
+
+const KNIT: &str = "knit = { chart = \"kp\", loop_length_mm = 3.2 }\nfinish.settle = false\n\
+    yarns.a.diameter_mm = 0.2\n";
+
+/// A writer to a path, and the writer to a callback of the same bytes.
+type Path<'a> = Box<dyn Fn(*const c_char, usize) -> texere_status + 'a>;
+type Callback<'a> = Box<dyn Fn(texere_write_callback, *mut c_void) -> texere_status + 'a>;
+
+/// Puts bytes where they belong in the file that `user` points to.
+unsafe extern "C" fn take(user: *mut c_void, offset: u64, data: *const u8, size: usize) -> i32 {
+    // SAFETY: `user` is the test's vector, and the library lends the bytes.
+    let (file, bytes) = unsafe { (&mut *user.cast::<Vec<u8>>(), std::slice::from_raw_parts(data, size)) };
+    let end = offset as usize + size;
+    file.resize(file.len().max(end), 0);
+    file[offset as usize..end].copy_from_slice(bytes);
+    0
+}
+
+unsafe extern "C" fn refuse(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
+    7
+}
+
+fn written(to: &Callback<'_>) -> Vec<u8> {
+    let mut file: Vec<u8> = Vec::new();
+    done(to(Some(take), from_mut(&mut file).cast()));
+    file
+}
+
+#[test]
+fn callbacks_are_handed_the_bytes_of_the_files() {
+    let (design, knit) = (read(WOVEN), read(KNIT));
+    // SAFETY: all pointers are those of values that live as long as the calls.
+    let (yarns, renderer, picture) = unsafe {
+        let cloth = made(|out| texere_cloth_placed(design, out));
+        let yarns = made(|out| texere_cloth_yarns(cloth, out));
+        let renderer = made(|out| texere_renderer_open(null(), 0, out));
+        done(texere_renderer_show(renderer, yarns, null(), null()));
+        let mut picture: texere_picture = sized();
+        done(texere_picture_default(&mut picture));
+        (yarns, renderer, texere_picture { width: 60, height: 40, ..picture })
+    };
+    let cut_out = texere_picture { background: TEXERE_BACKGROUND_NOTHING, ..picture };
+    let mut writers: Vec<(&str, Path<'_>, Callback<'_>)> = Vec::new();
+    macro_rules! writer {
+        ($name:literal, $path:ident($($before:expr),*), $callback:ident($($first:expr),*)) => {
+            writers.push((
+                $name,
+                // SAFETY: as above.
+                Box::new(move |path, length| unsafe { $path($($before,)* path, length) }),
+                // SAFETY: as above.
+                Box::new(move |callback, user| unsafe { $callback($($first,)* callback, user) }),
+            ))
+        };
+    }
+    let toml = TEXERE_DESIGN_FORMAT_TOML;
+    writer!("design.toml", texere_design_write(design), texere_design_write_to(design, toml));
+    let wif = TEXERE_DESIGN_FORMAT_WIF;
+    writer!("design.wif", texere_design_write(design), texere_design_write_to(design, wif));
+    writer!("face.png", texere_design_draft(design, 0), texere_design_draft_to(design, 0));
+    writer!("back.png", texere_design_draft(design, 1), texere_design_draft_to(design, 1));
+    writer!("knit.png", texere_design_draft(knit, 0), texere_design_draft_to(knit, 0));
+    let own = TEXERE_YARNS_FORMAT_YARNS;
+    writer!("yarns.yarns", texere_yarns_write(yarns), texere_yarns_write_to(yarns, own));
+    writer!("yarns.bcc", texere_yarns_write(yarns), texere_yarns_write_to(yarns, TEXERE_YARNS_FORMAT_BCC));
+    writer!("yarns.usda", texere_yarns_write(yarns), texere_yarns_write_to(yarns, TEXERE_YARNS_FORMAT_USDA));
+    writer!(
+        "picture.png",
+        texere_renderer_write(renderer, &picture, null()),
+        texere_renderer_write_to(renderer, &picture, null())
+    );
+    writer!(
+        "cut_out.png",
+        texere_renderer_write(renderer, &cut_out, null()),
+        texere_renderer_write_to(renderer, &cut_out, null())
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let mut seen = Vec::new();
+    for (name, path, callback) in &writers {
+        let place = folder.path().join(name);
+        let text = place.to_str().unwrap();
+        done(path(text.as_ptr().cast(), text.len()));
+        let file = written(callback);
+        assert!(file == fs::read(&place).unwrap(), "{name}: other bytes");
+        assert!(!seen.contains(&file), "{name}: bytes of another file");
+        seen.push(file);
+        let refused = callback(Some(refuse), null_mut());
+        assert_eq!(refused, TEXERE_CANCELLED, "{name}: {}", message());
+        assert!(message().contains("the callback answered 7"), "{name}: {}", message());
+    }
+    // Saved yarns are read from memory as they are from their file.
+    let (name, file) = ("memory.yarns", &seen[5]);
+    // SAFETY: as above.
+    unsafe {
+        let (text, length) = (name.as_ptr().cast(), name.len());
+        let again = made(|out| texere_yarns_read_memory(text, length, file.as_ptr(), file.len(), out));
+        let to: Callback<'_> =
+            Box::new(move |callback, user| texere_yarns_write_to(again, own, callback, user));
+        assert!(written(&to) == *file);
+        let mut none = null_mut();
+        let read = texere_yarns_read_memory(text, length, file.as_ptr(), file.len() - 1, &mut none);
+        assert_eq!(read, TEXERE_DESIGN);
+        assert!(none.is_null() && message().contains(name), "{}", message());
+        let knitted = texere_design_write_to(knit, TEXERE_DESIGN_FORMAT_WIF, Some(refuse), null_mut());
+        assert_eq!(knitted, TEXERE_UNSUPPORTED, "{}", message());
+    }
+}

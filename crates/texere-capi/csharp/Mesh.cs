@@ -1,7 +1,7 @@
 // Yarns and their meshes.
 
 using System;
-using System.Runtime.ExceptionServices;
+using System.IO;
 using System.Runtime.InteropServices;
 
 namespace Texere
@@ -55,6 +55,44 @@ namespace Texere
         /// <summary>The yarn, counted from 0.</summary>
         public uint Yarn;
         readonly uint reserved;
+    }
+
+    /// <summary>Where on its yarn a vertex lies.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct VertexAttribute
+    {
+        /// <summary>The yarn, counted from 0.</summary>
+        public uint Yarn;
+        /// <summary>The angle round the section from its first corner, radians.</summary>
+        public float Angle;
+        /// <summary>The length of the yarn from its start to the vertex's ring, mm.</summary>
+        public float Along;
+        /// <summary>The unit tangent of the yarn along the weft or the courses.</summary>
+        public float TangentX;
+        /// <summary>The tangent along the warp or the wales.</summary>
+        public float TangentY;
+        /// <summary>The tangent out of the technical face.</summary>
+        public float TangentZ;
+
+        internal static texere_view View(VertexAttribute* first, int count) => new texere_view
+        {
+            data = first,
+            size = (ulong)count * (ulong)sizeof(VertexAttribute),
+            stride = (ulong)sizeof(VertexAttribute),
+        };
+    }
+
+    /// <summary>A chunk of a mesh, and where it lies in the whole mesh.</summary>
+    public struct Chunk
+    {
+        /// <summary>The number of its first vertex.</summary>
+        public ulong FirstVertex;
+        /// <summary>How many vertices it has.</summary>
+        public ulong VertexCount;
+        /// <summary>The number of its first index.</summary>
+        public ulong FirstIndex;
+        /// <summary>How many indices it has. They count from its first vertex.</summary>
+        public ulong IndexCount;
     }
 
     /// <summary>How sections stand along the yarn.</summary>
@@ -160,12 +198,31 @@ namespace Texere
             return new Yarns(made);
         }
 
-        /// <summary>Saves the yarns in a .yarns file, which keeps every bit of them.</summary>
-        public void Write(string path)
+        /// <summary>Reads yarns from the bytes of a .yarns file.</summary>
+        /// <param name="name">What errors call the file.</param>
+        /// <param name="data">The contents of the file.</param>
+        public static Yarns Read(string name, ReadOnlySpan<byte> data)
         {
-            var bytes = Call.Bytes(path);
-            fixed (byte* text = bytes) Call.Check(Native.texere_yarns_write(Own, text, (UIntPtr)bytes.Length), this);
+            texere_yarns* made;
+            var bytes = Call.Bytes(name);
+            fixed (byte* text = bytes, first = data)
+            {
+                Call.Check(Native.texere_yarns_read_memory(
+                    text, (UIntPtr)bytes.Length, first, (UIntPtr)data.Length, &made));
+            }
+            return new Yarns(made);
         }
+
+        /// <summary>Writes the yarns to a file: .yarns, which keeps every bit of them, .bcc or .usda.</summary>
+        public void Write(string path) =>
+            Files.Write(path, (text, length) => Native.texere_yarns_write(Own, text, length), this);
+
+        /// <summary>Writes the yarns to a stream.</summary>
+        public void Write(YarnsFormat format, Stream stream) => Files.Write(
+            stream,
+            each => Native.texere_yarns_write_to(
+                Own, (uint)format, new Native.texere_yarns_write_to_callback_delegate(each), null),
+            this);
 
         internal texere_yarns* Own => (texere_yarns*)Pointer;
 
@@ -220,115 +277,6 @@ namespace Texere
         protected override bool ReleaseHandle()
         {
             Native.texere_yarns_free((texere_yarns*)handle);
-            return true;
-        }
-    }
-
-    /// <summary>The plan of a mesh, which has all sizes of the mesh before the mesh is made.</summary>
-    public sealed unsafe class Plan : Handle
-    {
-        readonly texere_counts counts;
-
-        /// <summary>Plans a mesh. Null settings stand for those that suit the yarns.</summary>
-        public Plan(Yarns yarns, Device device, Settings? settings = null) : base(Made(yarns, device, settings))
-        {
-            var found = new texere_counts { struct_size = (uint)sizeof(texere_counts) };
-            Call.Check(Native.texere_plan_counts(Own, &found), this);
-            counts = found;
-        }
-
-        static texere_plan* Made(Yarns yarns, Device device, Settings? settings)
-        {
-            var given = (settings ?? yarns.Settings).Native;
-            texere_plan* made;
-            Call.Check(Native.texere_plan_new(yarns.Own, device.Own, &given, &made), yarns, device);
-            return made;
-        }
-
-        internal texere_plan* Own => (texere_plan*)Pointer;
-
-        /// <summary>How many rings all yarns have together.</summary>
-        public ulong Rings => counts.rings;
-        /// <summary>How many vertices the mesh has.</summary>
-        public ulong Vertices => counts.vertices;
-        /// <summary>How many indices the mesh has.</summary>
-        public ulong Indices => counts.indices;
-        /// <summary>How many triangles the draws draw.</summary>
-        public ulong Triangles => counts.triangles;
-
-        /// <summary>The draws, which say which indices draw which yarn. They are valid until Dispose.</summary>
-        public ReadOnlySpan<Draw> Draws
-        {
-            get
-            {
-                texere_draw* draws;
-                Call.Check(Native.texere_plan_draws(Own, &draws), this);
-                return new ReadOnlySpan<Draw>(draws, checked((int)counts.draws));
-            }
-        }
-
-        /// <summary>Makes the mesh in spans as long as <see cref="Vertices"/> and <see cref="Indices"/>.</summary>
-        public void Mesh(Span<Vertex> vertices, Span<uint> indices, Run run = null)
-        {
-            fixed (Vertex* firstVertex = vertices)
-            fixed (uint* firstIndex = indices)
-            {
-                var status = Native.texere_plan_mesh(
-                    Own, Run.Of(run), (texere_vertex*)firstVertex, (ulong)vertices.Length, firstIndex,
-                    (ulong)indices.Length);
-                Call.Check(status, this, run);
-            }
-        }
-
-        /// <summary>Takes a piece of a mesh: vertices, or indices. The spans are valid until it returns.</summary>
-        /// <param name="vertices">Vertices; empty in a piece of indices.</param>
-        /// <param name="indices">Indices; empty in a piece of vertices.</param>
-        /// <param name="first">The number of the first vertex or index of the piece in the whole mesh.</param>
-        /// <param name="baseVertex">With Topology.Indexed, what to add to an index to get the number of a vertex.</param>
-        public delegate void Piece(
-            ReadOnlySpan<Vertex> vertices, ReadOnlySpan<uint> indices, ulong first, ulong baseVertex);
-
-        /// <summary>Makes the mesh piece by piece. An exception of <paramref name="take"/> ends the call.</summary>
-        public void Stream(Piece take, Run run = null)
-        {
-            ExceptionDispatchInfo thrown = null;
-            Native.texere_plan_stream_callback_delegate each = (user, piece) =>
-            {
-                try
-                {
-                    var first = piece->vertices != null ? piece->first_vertex : piece->first_index;
-                    take(
-                        new ReadOnlySpan<Vertex>(piece->vertices, (int)piece->vertex_count),
-                        new ReadOnlySpan<uint>(piece->indices, (int)piece->index_count), first, piece->base_vertex);
-                    return 0;
-                }
-                catch (Exception exception)
-                {
-                    thrown = ExceptionDispatchInfo.Capture(exception);
-                    return 1;
-                }
-            };
-            var status = Native.texere_plan_stream(Own, Run.Of(run), each, null);
-            thrown?.Throw();
-            Call.Check(status, this, run, each);
-        }
-
-        /// <summary>Makes the mesh and writes it to a file, .glb or .ply, in bounded memory.</summary>
-        public void Write(string path, Run run = null)
-        {
-            var bytes = Call.Bytes(path);
-            fixed (byte* text = bytes)
-            {
-                var status = Native.texere_plan_write(
-                    Own, Run.Of(run), text, (UIntPtr)bytes.Length);
-                Call.Check(status, this, run);
-            }
-        }
-
-        /// <inheritdoc/>
-        protected override bool ReleaseHandle()
-        {
-            Native.texere_plan_free((texere_plan*)handle);
             return true;
         }
     }

@@ -2,6 +2,7 @@
 
 using System;
 using System.Collections.Generic;
+using System.IO;
 
 namespace Texere
 {
@@ -126,6 +127,28 @@ namespace Texere
         }
 
         internal texere_design* Own => (texere_design*)Pointer;
+
+        /// <summary>Writes woven cloth to a file, .toml or .wif.</summary>
+        public void Write(string path) =>
+            Files.Write(path, (text, length) => Native.texere_design_write(Own, text, length), this);
+
+        /// <summary>Writes woven cloth to a stream.</summary>
+        public void Write(DesignFormat format, Stream stream) => Files.Write(
+            stream,
+            each => Native.texere_design_write_to(
+                Own, (uint)format, new Native.texere_design_write_to_callback_delegate(each), null),
+            this);
+
+        /// <summary>Draws the design on squared paper, from its face or its back, in a .png file.</summary>
+        public void Draft(string path, bool back = false) =>
+            Files.Write(path, (text, length) => Native.texere_design_draft(Own, back ? 1u : 0, text, length), this);
+
+        /// <summary>Draws the design on squared paper, and writes the bytes of a .png file to a stream.</summary>
+        public void Draft(Stream stream, bool back = false) => Files.Write(
+            stream,
+            each => Native.texere_design_draft_to(
+                Own, back ? 1u : 0, new Native.texere_design_draft_to_callback_delegate(each), null),
+            this);
 
         /// <inheritdoc/>
         protected override bool ReleaseHandle()

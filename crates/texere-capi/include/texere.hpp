@@ -5,13 +5,13 @@
 // texere.h that it calls: texere.h describes units, threads, and how long lent memory is valid.
 //
 // Meshes and points go to memory of the caller's. They go to vectors only if the name of the
-// function says so. What programs seldom need has no function here, such as designs from arrays,
-// finishes, sessions on a device and most edits of live cloth. For that a program calls the
-// function of texere.h with `get()` of the object, and passes the status to `texere::check`.
+// function says so. A program may also call a function of texere.h with `get()` of an object, and
+// pass the status to `texere::check`.
 
 #ifndef TEXERE_HPP
 #define TEXERE_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -99,9 +99,7 @@ Value written(Call call, Arguments... arguments) {
     return value;
 }
 
-// A handle that is freed when its owner is destroyed. It also serves for handles that have no class
-// here:
-// texere::Owner<texere_session, texere_session_free> session(texere_session_new, plan.get(), nullptr);
+// A handle that is freed when its owner is destroyed.
 template <class Handle, void (*Free)(Handle *)>
 class Owner {
 public:
@@ -179,6 +177,31 @@ private:
     std::exception_ptr thrown_;
 };
 
+// Makes a call that hands the bytes of a file to `take(offset, bytes)`. `call` gets the callback and
+// its user. An exception of `take` ends the call and leaves this function.
+template <class Take, class Call>
+void hand(Take &take, Call call) {
+    Callback each([&](std::uint64_t offset, const std::uint8_t *data, std::size_t size) {
+        return take(offset, view<const std::uint8_t>(data, size)), 0;
+    });
+    each.check(call(each.call, &each));
+}
+
+// Keeps the bytes of a file in a vector: `design.write_to(TEXERE_DESIGN_FORMAT_WIF, into(bytes))`.
+inline auto into(std::vector<std::uint8_t> &file) {
+    return [&file](std::uint64_t offset, view<const std::uint8_t> bytes) {
+        const auto first = static_cast<std::size_t>(offset);
+        file.resize(std::max(file.size(), first + bytes.size()));
+        std::copy(bytes.begin(), bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(first));
+    };
+}
+
+// Values that lie side by side, as texere.h is given them.
+template <class Value>
+texere_view dense(view<Value> values) {
+    return {values.data(), values.size() * sizeof(Value), sizeof(Value)};
+}
+
 // Progress and cancellation of calls. Any thread may use them.
 class Run : public Owner<texere_run, texere_run_free> {
 public:
@@ -201,7 +224,7 @@ public:
     texere_device_info describe() const { return told(texere_device_describe, get()); }
 };
 
-// A design that is read from a file or from memory.
+// A design that is read from a file or from memory, or made of arrays.
 class Design : public Owner<texere_design, texere_design_free> {
 public:
     // Reads a file: `.wif`, `.toml` or `.k`.
@@ -217,7 +240,41 @@ public:
     Design(std::string_view name, view<const std::uint8_t> data, Files files)
         : Owner(of_memory(name, data, files)) {}
 
+    // Makes a design of arrays, which are copied.
+    explicit Design(const texere_woven &woven) : Owner(texere_design_woven, &woven) {}
+    explicit Design(const texere_weft_knit &knit) : Owner(texere_design_weft_knit, &knit) {}
+    explicit Design(const texere_warp_knit &knit) : Owner(texere_design_warp_knit, &knit) {}
+
+    // Whether and how the yarns come to rest, and a design like this one with another finish.
+    texere_finish finish() const { return told(texere_design_finish, get()); }
+    Design finished(const texere_finish &finish) const {
+        return Design(written<texere_design *>(texere_design_finished, get(), &finish));
+    }
+    // Writes woven cloth as a `.toml` or `.wif` file.
+    void write(std::string_view path) const { check(texere_design_write(get(), path.data(), path.size())); }
+    // Hands the bytes of the file to `take(offset, bytes)`. `format` is a constant whose name begins
+    // with TEXERE_DESIGN_FORMAT.
+    template <class Take>
+    void write_to(std::uint32_t format, Take take) const {
+        hand(take, [&](texere_write_callback callback, void *user) {
+            return texere_design_write_to(get(), format, callback, user);
+        });
+    }
+    // Draws the design on squared paper, from its face or its back: a `.png` file, or its bytes for
+    // `take(offset, bytes)`.
+    void draft(std::string_view path, bool back = false) const {
+        check(texere_design_draft(get(), back, path.data(), path.size()));
+    }
+    template <class Take>
+    void draft_to(Take take, bool back = false) const {
+        hand(take, [&](texere_write_callback callback, void *user) {
+            return texere_design_draft_to(get(), back, callback, user);
+        });
+    }
+
 private:
+    explicit Design(texere_design *made) noexcept : Owner(made) {}
+
     template <class Files>
     static texere_design *of_memory(std::string_view name, view<const std::uint8_t> data, Files &files) {
         Callback give([&](const char *path, std::size_t length, const std::uint8_t **bytes, std::size_t *size) {
@@ -244,8 +301,20 @@ public:
     explicit Yarns(std::string_view path) : Owner(texere_yarns_read, path.data(), path.size()) {}
     // Makes yarns of arrays, which are copied.
     explicit Yarns(const texere_yarn_arrays &arrays) : Owner(texere_yarns_new, &arrays) {}
+    // Reads the bytes of a `.yarns` file. Errors call the file `name`.
+    Yarns(std::string_view name, view<const std::uint8_t> data)
+        : Owner(texere_yarns_read_memory, name.data(), name.size(), data.data(), data.size()) {}
 
+    // Writes a `.yarns`, `.bcc` or `.usda` file.
     void write(std::string_view path) const { check(texere_yarns_write(get(), path.data(), path.size())); }
+    // Hands the bytes of the file to `take(offset, bytes)`. `format` is a constant whose name begins
+    // with TEXERE_YARNS_FORMAT.
+    template <class Take>
+    void write_to(std::uint32_t format, Take take) const {
+        hand(take, [&](texere_write_callback callback, void *user) {
+            return texere_yarns_write_to(get(), format, callback, user);
+        });
+    }
     texere_yarn_counts counts() const { return told(texere_yarns_counts, get()); }
     // The settings that suit the yarns.
     texere_settings settings() const { return told(texere_settings_default, get()); }
@@ -273,6 +342,8 @@ public:
     }
     // Length of yarn, weight, thickness, crimp, cover and loops of the cloth.
     texere_measures measures() const { return told(texere_cloth_measures, get()); }
+    // The length of yarn of each material, mm: as many as `measures` has materials.
+    void lengths(view<double> to) const { check(texere_cloth_lengths(get(), to.data(), to.size())); }
     // What a weaver or a knitter calls the place of a hit.
     std::string place(const texere_hit &hit) const { return text(texere_cloth_place, get(), &hit); }
     Yarns yarns() const { return Yarns(texere_cloth_yarns, get()); }
@@ -289,6 +360,19 @@ public:
     // The draws, which say which indices draw which yarn. They are valid as long as the plan.
     view<const texere_draw> draws() const {
         return {written<const texere_draw *>(texere_plan_draws, get()), static_cast<std::size_t>(counts().draws)};
+    }
+    // A chunk: where it lies in the mesh, and its draws, which are valid as long as the plan.
+    texere_chunk chunk(std::uint64_t number) const {
+        auto chunk = sized<texere_chunk>();
+        return check(texere_plan_chunk(get(), number, &chunk)), chunk;
+    }
+    // For each yarn the number of its first ring, and at the end how many rings there are. The
+    // numbers are valid as long as the plan.
+    view<const std::uint64_t> ring_offsets() const {
+        const std::uint64_t *offsets = nullptr;
+        std::uint64_t count = 0;
+        check(texere_plan_ring_offsets(get(), &offsets, &count));
+        return {offsets, static_cast<std::size_t>(count)};
     }
     // Makes the mesh. The views have as many vertices and indices as `counts` says.
     void mesh(view<texere_vertex> vertices, view<std::uint32_t> indices, const Run *run = nullptr) const {
@@ -326,10 +410,9 @@ public:
     // whose name begins with TEXERE_FORMAT.
     template <class Take>
     void write_to(std::uint32_t format, Take take, const Run *run = nullptr) const {
-        Callback each([&](std::uint64_t offset, const std::uint8_t *data, std::size_t size) {
-            return take(offset, view<const std::uint8_t>(data, size)), 0;
+        hand(take, [&](texere_write_callback callback, void *user) {
+            return texere_plan_write_to(get(), Run::of(run), format, callback, user);
         });
-        each.check(texere_plan_write_to(get(), Run::of(run), format, each.call, &each));
     }
     // Writes the mesh to a file, `.glb` or `.ply`.
     void write(std::string_view path, const Run *run = nullptr) const {
@@ -339,8 +422,31 @@ public:
 private:
     template <class Call, class Value>
     void fill(Call call, view<Value> to, const Run *run) const {
-        const texere_view values{to.data(), to.size() * sizeof(Value), sizeof(Value)};
+        const texere_view values = dense(to);
         check(call(get(), Run::of(run), &values));
+    }
+};
+
+// The mesh of a plan, made on its device chunk by chunk and left there, for a program that draws with
+// OpenCL or Vulkan. Buffers are valid as long as the session. One thread at a time may use it.
+class Session : public Owner<texere_session, texere_session_free> {
+public:
+    explicit Session(const Plan &plan, const Run *run = nullptr)
+        : Owner(texere_session_new, plan.get(), Run::of(run)) {}
+
+    // The objects of OpenCL or Vulkan that the session works with.
+    texere_native native() const { return told(texere_session_native, get()); }
+    // Makes a chunk on the device, and lends its buffers until two other chunks have been made. The
+    // device may still be at work on it.
+    texere_device_mesh mesh(std::uint64_t chunk) {
+        auto mesh = sized<texere_device_mesh>();
+        return check(texere_session_mesh(get(), chunk, &mesh)), mesh;
+    }
+    // Waits until the device has done all that was asked of it.
+    void wait() { check(texere_session_wait(get())); }
+    // Reads a chunk that was made. The views have as many vertices and indices as it.
+    void read(std::uint64_t chunk, view<texere_vertex> vertices, view<std::uint32_t> indices) const {
+        check(texere_session_read(get(), chunk, vertices.data(), vertices.size(), indices.data(), indices.size()));
     }
 };
 
@@ -351,6 +457,14 @@ public:
         : Owner(texere_check_new, cloth.get(), settings, TEXERE_ACCURACY, Run::of(run)) {}
 
     texere_diagnosis diagnosis() const { return told(texere_check_diagnosis, get()); }
+    // The fault and the warning of a number, counted from 0; `diagnosis` says how many there are.
+    texere_fault fault(std::uint64_t number) const {
+        auto fault = sized<texere_fault>();
+        return check(texere_check_fault(get(), number, &fault)), fault;
+    }
+    const char *warning(std::uint64_t number) const {
+        return written<const char *>(texere_check_warning, get(), number);
+    }
     // The faults and their cures as JSON, and in `measures_json` the counts and measures of the
     // cloth.
     const char *json() const { return written<const char *>(texere_check_json, get()); }
@@ -370,6 +484,9 @@ class Live : public Owner<texere_live, texere_live_free> {
 public:
     Live(const Cloth &cloth, const Device &device, const texere_settings *settings = nullptr)
         : Owner(texere_live_of_cloth, cloth.get(), device.get(), settings) {}
+    // Of yarns, which have no weave: lifts can't be set.
+    Live(const Yarns &yarns, const Device &device, const texere_settings *settings = nullptr)
+        : Owner(texere_live_of_yarns, yarns.get(), device.get(), settings) {}
 
     // Whether the warp is up where an end and a pick cross. Ends and picks count from 0.
     bool lift(std::uint64_t end, std::uint64_t pick) const {
@@ -378,11 +495,43 @@ public:
     void set_lift(std::uint64_t end, std::uint64_t pick, bool up) {
         check(texere_live_set_lift(get(), end, pick, up));
     }
+    // Sets the lifts where `ends` ends from `first_end` on cross the picks from `first_pick` on. `up`
+    // has a byte for each of these crossings, 1 if the warp is up, else 0: pick after pick, and those
+    // of a pick in the order of the ends.
+    void set_drawdown(std::uint64_t first_end, std::uint64_t ends, std::uint64_t first_pick,
+                      view<const std::uint8_t> up) {
+        const std::uint64_t picks = ends ? up.size() / ends : 0;
+        if (picks * ends != up.size()) throw std::invalid_argument("up has no whole number of picks");
+        check(texere_live_set_drawdown(get(), first_end, ends, first_pick, picks, up.data()));
+    }
+    // Properties of a yarn, and its control points. Yarns count from 0.
+    texere_yarn yarn(std::uint64_t yarn) const {
+        auto what = sized<texere_yarn>();
+        return check(texere_live_yarn(get(), yarn, &what)), what;
+    }
+    void set_yarn(std::uint64_t yarn, const texere_yarn &what, view<const texere_point> points) {
+        check(texere_live_set_yarn(get(), yarn, &what, points.data(), points.size()));
+    }
+    void set_points(std::uint64_t yarn, view<const texere_point> points) {
+        check(texere_live_set_points(get(), yarn, points.data(), points.size()));
+    }
+    // A material, counted from 0. Its name is valid until the next call of `material`.
+    texere_material material(std::uint64_t number) const {
+        return written<texere_material>(texere_live_material, get(), number);
+    }
+    void set_material(std::uint64_t number, const texere_material &material) {
+        check(texere_live_set_material(get(), number, &material));
+    }
+    // Sets the tension of the splines of all yarns, from 0 to below 1.
+    void set_tension(float tension) { check(texere_live_set_tension(get(), tension)); }
+    // Replaces the structure, or all yarns, or all yarns by those of the same cloth at rest.
+    void set_structure(const Design &design) { check(texere_live_set_structure(get(), design.get())); }
+    void set_yarns(const Yarns &yarns) { check(texere_live_set_yarns(get(), yarns.get())); }
+    void set_rest(const Yarns &yarns) { check(texere_live_set_rest(get(), yarns.get())); }
     // Brings the edits to the mesh. The changes are valid until the next update.
-    texere_update update(const texere_run *run = nullptr) {
+    texere_update update(const Run *run = nullptr) {
         auto update = sized<texere_update>();
-        check(texere_live_update(get(), run, &update));
-        return update;
+        return check(texere_live_update(get(), Run::of(run), &update)), update;
     }
     texere_counts counts() const { return told(texere_live_counts, get()); }
     // The draws, which say which indices draw which yarn. They are valid until the next update.
@@ -397,6 +546,17 @@ public:
     }
     void read(const texere_change &change, view<texere_vertex> vertices, view<std::uint32_t> indices) const {
         check(texere_live_read(get(), &change, vertices.data(), vertices.size(), indices.data(), indices.size()));
+    }
+    // Makes attributes as well as the mesh, from the next update on, which makes the whole mesh again.
+    void keep_attributes() { check(texere_live_keep_attributes(get())); }
+    // Reads the attributes, as many as vertices: all, or those of a change.
+    void attributes(view<texere_attribute> to, const Run *run = nullptr) const {
+        const texere_view values = dense(to);
+        check(texere_live_attributes(get(), Run::of(run), &values));
+    }
+    void read_attributes(const texere_change &change, view<texere_attribute> to) const {
+        const texere_view values = dense(to);
+        check(texere_live_read_attributes(get(), &change, &values));
     }
     // The yarns, and what a ray hits, as they are now. Edits count even before an update.
     Yarns yarns() const { return Yarns(texere_live_yarns, get()); }
@@ -420,10 +580,24 @@ public:
     void show(const Yarns &yarns, const texere_settings *settings = nullptr, const Run *run = nullptr) {
         check(texere_renderer_show(get(), yarns.get(), settings, Run::of(run)));
     }
+    // The box round the yarns that it shows.
+    texere_extent extent() const { return written<texere_extent>(texere_renderer_extent, get()); }
+    // What the last picture shows at a point, in pixels from its left and upper edges.
+    texere_seen seen(float x, float y) const { return written<texere_seen>(texere_renderer_seen, get(), x, y); }
     // Makes a picture: four bytes for each pixel, in rows from the top that lie side by side.
     void picture(const texere_picture &picture, view<std::uint8_t> pixels, const Run *run = nullptr) const {
         const texere_view rows{pixels.data(), pixels.size(), std::uint64_t{4} * picture.width};
         check(texere_renderer_picture(get(), &picture, Run::of(run), &rows));
+    }
+    // Makes a picture as a `.png` file, or hands the bytes of the file to `take(offset, bytes)`.
+    void write(const texere_picture &picture, std::string_view path, const Run *run = nullptr) const {
+        check(texere_renderer_write(get(), &picture, Run::of(run), path.data(), path.size()));
+    }
+    template <class Take>
+    void write_to(const texere_picture &picture, Take take, const Run *run = nullptr) const {
+        hand(take, [&](texere_write_callback callback, void *user) {
+            return texere_renderer_write_to(get(), &picture, Run::of(run), callback, user);
+        });
     }
 };
 

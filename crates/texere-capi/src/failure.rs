@@ -200,9 +200,22 @@ fn place_of(error: &(dyn Error + 'static)) -> Option<Place> {
         | ReadError::Corner { place, .. }
         | ReadError::Section { place, .. }
         | ReadError::Cloth { place, .. } => at(&place.file, place.line, 0),
-        ReadError::Io { file, .. } | ReadError::Fabric { file, .. } | ReadError::MissingKey { file, .. } => {
-            at(file, 0, 0)
-        }
+        ReadError::Boundary { file, .. }
+        | ReadError::Bytes { file, .. }
+        | ReadError::ExactlyOne { file, .. }
+        | ReadError::Fabric { file, .. }
+        | ReadError::Feature { file, .. }
+        | ReadError::Image { file, .. }
+        | ReadError::ImageTooLarge { file, .. }
+        | ReadError::Io { file, .. }
+        | ReadError::MissingKey { file, .. }
+        | ReadError::MissingSection { file, .. }
+        | ReadError::NotAFile { file, .. }
+        | ReadError::Pixel { file, .. }
+        | ReadError::TooLarge { file, .. }
+        | ReadError::UnknownKind { file, .. }
+        | ReadError::WithoutDesign { file, .. }
+        | ReadError::Yarns { file, .. } => at(file, 0, 0),
         _ => None,
     }
 }

@@ -70,6 +70,18 @@ fn the_calls_for_c_sharp_are_those_of_the_sources() {
     is_kept("csharp/Native.cs", &made);
 }
 
+#[test]
+fn the_classes_for_cpp_have_every_call() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let classes = std::fs::read_to_string(folder.join("include/texere.hpp")).unwrap();
+    let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+    let words: std::collections::BTreeSet<_> = classes.split(|letter| !is_word(letter)).collect();
+    let header = header();
+    let missing: Vec<_> = header.lines().filter_map(called).filter(|name| !words.contains(name)).collect();
+    // These have no handle and belong to no class.
+    assert_eq!(missing, ["texere_abi", "texere_version", "texere_diameter"]);
+}
+
 /// The name of the function that a line of the header declares.
 fn called(line: &str) -> Option<&str> {
     let declared = !line.starts_with("//") && !line.starts_with(' ') && !line.starts_with("typedef");

@@ -30,13 +30,19 @@ for example in weave picture; do
 done
 # What the classes for C++ and C# promise.
 for standard in 17 20; do
-    c++ -std=c++$standard -Wall -Wextra -Wshadow -Werror -pedantic "$capi/tests/hosts/wrappers.cpp" -o wrappers \
-        $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
-    watched ./wrappers
+    for program in wrappers classes; do
+        c++ -std=c++$standard -Wall -Wextra -Wshadow -Werror -pedantic "$capi/tests/hosts/$program.cpp" -o $program \
+            $(pkg-config --cflags --libs texere) "-Wl,-rpath,$PREFIX/lib"
+        watched ./$program
+    done
     ./wrappers picture
+    ./classes wgpu
 done
-mcs -langversion:latest -unsafe "-recurse:$capi/csharp/*.cs" "$capi/tests/hosts/wrappers.cs" -out:wrappers.exe
+for program in wrappers classes; do
+    mcs -langversion:latest -unsafe "-recurse:$capi/csharp/*.cs" "$capi/tests/hosts/$program.cs" -out:$program.exe
+done
 LD_LIBRARY_PATH="$PREFIX/lib" mono wrappers.exe
+LD_LIBRARY_PATH="$PREFIX/lib" mono classes.exe wgpu
 
 for design in poplin jersey tricot; do
     "$texere" mesh "$designs/$design.toml" --device cpu -o $design.ply

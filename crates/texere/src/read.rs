@@ -12,10 +12,10 @@
 //! | to | take |
 //! |---|---|
 //! | read yarns that were saved, without settling them again | [`yarns`], [`yarns_from`], which give [`SavedYarns`] |
-//! | know file, line and field of an error | [`FilePlace`] |
+//! | know file, line and field of an error | [`FilePlace`]; of an error of any type [`fault_place`], which gives a [`FaultPlace`] |
 //! | know why a whole design is refused | [`Refusal`] |
 //! | know which steps a knitting machine could not do | [`MachineFault`] |
 //! | say in words where a yarn was picked | [`Design::named`](crate::Design::named), which gives a [`NamedPlace`] |
 
-pub use texere_formats::read::{SavedYarns, yarns, yarns_from};
+pub use texere_formats::read::{FaultPlace, SavedYarns, fault_place, yarns, yarns_from};
 pub use texere_formats::{FilePlace, MachineFault, NamedPlace, ProgramPlace, Refusal};

@@ -1,0 +1,241 @@
+//! Meshes: vertices and triangles of tubes, as arrays.
+
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+
+use bytemuck::cast_slice;
+use numpy::ndarray::{Array2, ArrayView2, s};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use texere::mesh::Attribute;
+use texere::{Backend, Pipeline, Settings};
+
+use crate::arrays::view;
+use crate::error::{Error, Raise};
+use crate::watch::Run;
+use crate::yarns::Shared;
+use crate::{device, watch};
+
+/// The triangles of yarns: :meth:`texere.Cloth.mesh` makes them.
+///
+/// >>> mesh = texere.read("designs/plain.toml").placed().mesh(device="cpu")
+/// >>> mesh.positions.shape == mesh.normals.shape, mesh.indices.shape
+/// (True, (584448, 3))
+#[pyclass(frozen, module = "texere")]
+#[derive(Debug)]
+pub(crate) struct Mesh {
+    /// Indices count from the first vertex of the whole mesh.
+    mesh: texere::Mesh,
+    yarns: Shared,
+    device: Arc<dyn Backend>,
+    /// Made when they are first asked for.
+    attributes: OnceLock<Vec<Attribute>>,
+}
+
+/// The settings of a mesh: those that suit the yarns, but for what is given.
+pub(crate) fn settings(
+    yarns: &texere::Yarns,
+    sides: Option<u32>,
+    subdivisions: Option<u32>,
+    caps: bool,
+) -> Settings {
+    let usual = Settings::of(yarns);
+    Settings {
+        sides: sides.unwrap_or(usual.sides),
+        subdivisions: subdivisions.unwrap_or(usual.subdivisions),
+        caps,
+        ..usual
+    }
+}
+
+impl Mesh {
+    /// Makes the mesh of `yarns` on the device of a name.
+    pub(crate) fn make(py: Python<'_>, yarns: &Shared, settings: Settings, device: &str) -> PyResult<Self> {
+        let device = watch::quietly(py, |_| device::open(device))?;
+        let pipeline = || pipeline(yarns, settings);
+        let vertices = pipeline().plan().raise(py)?.counts().vertices;
+        if u32::try_from(vertices).is_err() {
+            return Err(Error::new_err(format!(
+                "the mesh has {vertices} vertices, and indices of 32 bits count {} at most",
+                u32::MAX
+            )));
+        }
+        let mut mesh = watch::quietly(py, |run| followed(pipeline(), run).mesh(&*device))?;
+        py.detach(|| count_from_first(&mut mesh));
+        Ok(Self { mesh, yarns: yarns.clone(), device, attributes: OnceLock::new() })
+    }
+
+    /// What is known of each vertex.
+    fn attributes(&self, py: Python<'_>) -> PyResult<&[Attribute]> {
+        if let Some(attributes) = self.attributes.get() {
+            return Ok(attributes);
+        }
+        let settings = *self.mesh.plan.settings();
+        let made = watch::quietly(py, |run| {
+            followed(pipeline(&self.yarns, settings), run).attributes(&*self.device)
+        })?;
+        Ok(self.attributes.get_or_init(|| made))
+    }
+}
+
+fn pipeline(yarns: &texere::Yarns, settings: Settings) -> Pipeline<'_> {
+    Pipeline::new(yarns).settings(settings)
+}
+
+fn followed<'a>(pipeline: Pipeline<'a>, run: &'a Run) -> Pipeline<'a> {
+    pipeline.progress(|done| run.tell(done.rings as f64 / done.total.max(1) as f64))
+}
+
+/// Has all indices count from the first vertex of the whole mesh, instead of from their chunk's.
+/// Writers of files read no indices of a mesh.
+fn count_from_first(mesh: &mut texere::Mesh) {
+    let mut rest = &mut mesh.indices[..];
+    for chunk in &mesh.chunks {
+        let (own, others) = rest.split_at_mut(chunk.indices() as usize);
+        let first = chunk.first_vertex() as u32;
+        if first > 0 {
+            own.iter_mut().for_each(|index| *index += first);
+        }
+        rest = others;
+    }
+}
+
+/// A column of vertices or attributes, each of six numbers of four bytes.
+const WORDS: usize = 6;
+
+#[pymethods]
+impl Mesh {
+    /// Positions of vertices, mm: float32 of shape (n, 3). Does not copy.
+    ///
+    /// >>> mesh = texere.read("designs/plain.toml").placed().mesh(device="cpu")
+    /// >>> mesh.positions.flags.writeable, mesh.positions.base is mesh
+    /// (False, True)
+    #[getter]
+    fn positions<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        vertices(slf, 0)
+    }
+
+    /// Unit normals of vertices, out of the yarn: float32 of shape (n, 3). Does not copy.
+    ///
+    /// >>> texere.read("designs/plain.toml").placed().mesh(device="cpu").normals.dtype
+    /// dtype('float32')
+    #[getter]
+    fn normals<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        vertices(slf, 3)
+    }
+
+    /// Triangles, the numbers of their vertices: uint32 of shape (m, 3), counter-clockwise seen
+    /// from outside. Does not copy.
+    ///
+    /// >>> texere.read("designs/plain.toml").placed().mesh(device="cpu").indices.dtype
+    /// dtype('uint32')
+    #[getter]
+    fn indices<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<u32>>> {
+        let indices = &slf.get().mesh.indices;
+        let triangles = ArrayView2::from_shape((indices.len() / 3, 3), indices).raise(slf.py())?;
+        // SAFETY: the indices belong to the mesh of `slf`, which never changes.
+        unsafe { view(slf.as_any(), triangles) }
+    }
+
+    /// The number of each vertex's yarn, from 0: uint32 of n. Does not copy; the first use of this,
+    /// of ``uv`` or of ``tangents`` makes all three.
+    ///
+    /// >>> mesh = texere.read("designs/plain.toml").placed().mesh(device="cpu")
+    /// >>> int(mesh.yarn_ids.max())
+    /// 111
+    ///
+    /// Raises :class:`texere.Error` for a device that fails, or that can't make them.
+    #[getter]
+    fn yarn_ids<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<u32>>> {
+        let attributes = slf.get().attributes(slf.py())?;
+        let words: &[u32] = cast_slice(attributes);
+        let words = ArrayView2::from_shape((attributes.len(), WORDS), words).raise(slf.py())?;
+        // SAFETY: attributes are made once, and never change.
+        unsafe { view(slf.as_any(), words.slice(s![.., 0])) }
+    }
+
+    /// Where on its yarn each vertex lies: the angle round the section, radians, and the length
+    /// along the yarn, mm: float32 of shape (n, 2). Does not copy.
+    ///
+    /// >>> mesh = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu")
+    /// >>> round(float(mesh.uv[:, 1].max()), 6)
+    /// 1.0
+    ///
+    /// Raises :class:`texere.Error` for a device that fails, or that can't make them.
+    #[getter]
+    fn uv<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        places(slf, 1, 3)
+    }
+
+    /// The unit tangent of the yarn at each vertex: float32 of shape (n, 3). Does not copy.
+    ///
+    /// >>> mesh = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu")
+    /// >>> mesh.tangents[0].tolist()
+    /// [1.0, 0.0, 0.0]
+    ///
+    /// Raises :class:`texere.Error` for a device that fails, or that can't make them.
+    #[getter]
+    fn tangents<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        places(slf, 3, 6)
+    }
+
+    /// The colour of each vertex, sRGB: uint8 of shape (n, 3). Copies.
+    ///
+    /// >>> yarns = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1, colors=[[1, 2, 3]])
+    /// >>> yarns.mesh(device="cpu").colors[0].tolist()
+    /// [1, 2, 3]
+    ///
+    /// Raises :class:`texere.Error` for a device that fails, or that can't tell vertices' yarns.
+    #[getter]
+    fn colors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u8>>> {
+        let attributes = self.attributes(py)?;
+        let (yarns, materials) = (self.yarns.layout().yarns(), self.yarns.materials());
+        let colors = py.detach(|| {
+            let color = |yarn: u32| materials[yarns[yarn as usize].material as usize].srgb;
+            let colors = attributes.iter().flat_map(|attribute| color(attribute.yarn)).collect();
+            Array2::from_shape_vec((attributes.len(), 3), colors)
+        });
+        Ok(colors.raise(py)?.into_pyarray(py))
+    }
+
+    /// Bytes of vertices and indices.
+    ///
+    /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(sides=4, device="cpu").nbytes
+    /// 480
+    #[getter]
+    fn nbytes(&self) -> usize {
+        size_of_val(&self.mesh.vertices[..]) + size_of_val(&self.mesh.indices[..])
+    }
+
+    /// Writes the mesh as a ``.glb`` or ``.ply`` file, which appears whole or not at all.
+    ///
+    /// >>> import tempfile, pathlib
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
+    /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
+    ///
+    /// Raises :class:`texere.Error` for another ending, and for a file that can't be written.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        watch::quietly(py, |_| texere::write(&self.mesh, path))
+    }
+
+    fn __repr__(&self) -> String {
+        let texere::Mesh { vertices, indices, .. } = &self.mesh;
+        format!("<texere.Mesh {} vertices, {} triangles>", vertices.len(), indices.len() / 3)
+    }
+}
+
+/// Three of the six numbers of each vertex, from number `first` on.
+fn vertices<'py>(slf: &Bound<'py, Mesh>, first: usize) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let vertices = &slf.get().mesh.vertices[..];
+    let words = ArrayView2::from_shape((vertices.len(), WORDS), cast_slice(vertices)).raise(slf.py())?;
+    // SAFETY: the vertices belong to the mesh of `slf`, which never changes.
+    unsafe { view(slf.as_any(), words.slice(s![.., first..first + 3])) }
+}
+
+/// Some of the numbers of each vertex's attribute.
+fn places<'py>(slf: &Bound<'py, Mesh>, first: usize, end: usize) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let attributes = slf.get().attributes(slf.py())?;
+    let words = ArrayView2::from_shape((attributes.len(), WORDS), cast_slice(attributes)).raise(slf.py())?;
+    // SAFETY: attributes are made once, and never change.
+    unsafe { view(slf.as_any(), words.slice(s![.., first..end])) }
+}

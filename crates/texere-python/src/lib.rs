@@ -15,12 +15,17 @@
 //!   wrong type or shape are Python's own `TypeError` and `ValueError`.
 
 mod arrays;
+mod check;
 mod cloth;
 mod design;
 mod device;
+mod edit;
 mod error;
 mod knit;
+mod measures;
 mod mesh;
+mod pick;
+mod picture;
 mod progress;
 mod watch;
 mod woven;
@@ -34,17 +39,25 @@ mod _texere {
     use pyo3::prelude::*;
 
     #[pymodule_export]
+    use crate::check::{Clearance, Contact, Diagnosis};
+    #[pymodule_export]
     use crate::cloth::Cloth;
     #[pymodule_export]
     use crate::design::{Design, read};
     #[pymodule_export]
     use crate::device::{Device, devices};
     #[pymodule_export]
+    use crate::edit::Editing;
+    #[pymodule_export]
     use crate::error::Error;
     #[pymodule_export]
     use crate::knit::{Bar, warp_knit, weft_knit};
     #[pymodule_export]
+    use crate::measures::Measures;
+    #[pymodule_export]
     use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::pick::Hit;
     #[pymodule_export]
     use crate::woven::{weave, woven};
     #[pymodule_export]

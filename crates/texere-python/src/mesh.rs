@@ -78,11 +78,13 @@ impl Mesh {
     }
 }
 
-fn pipeline(yarns: &texere::Yarns, settings: Settings) -> Pipeline<'_> {
+/// What makes a mesh of yarns.
+pub(crate) fn pipeline(yarns: &texere::Yarns, settings: Settings) -> Pipeline<'_> {
     Pipeline::new(yarns).settings(settings)
 }
 
-fn followed<'a>(pipeline: Pipeline<'a>, run: &'a Run) -> Pipeline<'a> {
+/// A pipeline that tells how far it has come.
+pub(crate) fn followed<'a>(pipeline: Pipeline<'a>, run: &'a Run) -> Pipeline<'a> {
     pipeline.progress(|done| run.tell(done.rings as f64 / done.total.max(1) as f64))
 }
 

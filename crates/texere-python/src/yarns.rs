@@ -99,18 +99,8 @@ impl Yarns {
         colors: Option<&Bound<'_, PyAny>>,
         tension: f32,
     ) -> PyResult<Self> {
-        let points = given("points", points, &[None, Some(3)])?;
-        let count = points.shape[0];
-        let positions: Vec<f32> = points.values()?;
-        let halves = halves(radii, count)?;
-        let points: Vec<_> = positions
-            .chunks_exact(3)
-            .enumerate()
-            .map(|(number, at)| {
-                let [width, height] = halves[number % halves.len()];
-                ControlPoint::new(at[0], at[1], at[2], width).flattened(width, height)
-            })
-            .collect();
+        let points = points_of(points, Some(radii))?;
+        let count = points.len();
         let offsets = match offsets {
             Some(offsets) => given("offsets", offsets, &[None])?.values()?,
             None => vec![0, count as i64],
@@ -243,6 +233,21 @@ impl Yarns {
     fn __repr__(&self) -> String {
         format!("<texere.Yarns {} with {} control points>", self.__len__(), self.yarns.points().len())
     }
+}
+
+/// Control points from callers' arrays. Without radii each is 1 mm thick.
+pub(crate) fn points_of(
+    points: &Bound<'_, PyAny>,
+    radii: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Vec<ControlPoint>> {
+    let points = given("points", points, &[None, Some(3)])?;
+    let positions: Vec<f32> = points.values()?;
+    let halves = radii.map_or(Ok(vec![[0.5; 2]]), |radii| halves(radii, points.shape[0]))?;
+    let point = |(number, at): (usize, &[f32])| {
+        let [width, height] = halves[number % halves.len()];
+        ControlPoint::new(at[0], at[1], at[2], width).flattened(width, height)
+    };
+    Ok(positions.chunks_exact(3).enumerate().map(point).collect())
 }
 
 /// Half widths and half heights from the radii of `count` points: one pair, or one for each point.

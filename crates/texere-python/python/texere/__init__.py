@@ -12,10 +12,16 @@ wales, z out of the technical face. Yarns, ends, picks and courses are counted f
 
 from ._texere import (
     Bar,
+    Clearance,
     Cloth,
+    Contact,
     Design,
     Device,
+    Diagnosis,
     Error,
+    Hit,
+    Live,
+    Measures,
     Mesh,
     Yarn,
     Yarns,
@@ -31,10 +37,16 @@ from ._texere import (
 
 __all__ = [
     "Bar",
+    "Clearance",
     "Cloth",
+    "Contact",
     "Design",
     "Device",
+    "Diagnosis",
     "Error",
+    "Hit",
+    "Live",
+    "Measures",
     "Mesh",
     "Yarn",
     "Yarns",

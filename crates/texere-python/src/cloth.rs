@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
 use texere::Picker;
 use texere::backend::Plan;
 use texere::picture::{Background, Quality};
@@ -19,7 +20,7 @@ use crate::mesh::{Mesh, settings};
 use crate::pick::Hit;
 use crate::picture::{Asked, Kept, View};
 use crate::yarns::{Shared, Yarns};
-use crate::{device, mesh, pick, picture, watch};
+use crate::{device, mesh, peers, pick, picture, watch};
 
 /// The cloth of a design: :meth:`texere.Design.rest` makes it.
 ///
@@ -36,6 +37,9 @@ pub(crate) struct Cloth {
     /// What the last picture was made of.
     scene: Kept,
 }
+
+/// Width and height of a picture in a notebook, pixels.
+const SHOWN: [u32; 2] = [640, 480];
 
 impl Cloth {
     pub(crate) fn new(cloth: texere::Cloth, device: String) -> Self {
@@ -116,7 +120,9 @@ impl Cloth {
     /// The first place on a yarn that a ray hits, or None. ``ray`` has the shape (2, 3): its origin
     /// and its direction, mm; copied. The first ray makes what later ones are found with.
     ///
-    /// >>> texere.read("designs/plain.toml").placed().pick([[20.3, 15.7, 9], [0, 0, -1]]).name
+    /// >>> hit = texere.read("designs/plain.toml").placed().pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
+    /// >>> hit.name
     /// 'pick 24 at end 31, ecru'
     ///
     /// Raises TypeError and ValueError for what is no ray.
@@ -225,6 +231,33 @@ impl Cloth {
         let asked = Asked { size: size.into(), view, background, quality };
         let yarns = Shared::Cloth(self.cloth.clone());
         picture::picture(py, &yarns, &self.scene, &asked, device, layers)
+    }
+
+    /// Shows the mesh of the cloth in a window of pyvista, or in a notebook:
+    /// :meth:`texere.Mesh.show` of :meth:`mesh`.
+    ///
+    /// >>> texere.read("designs/plain.toml").placed().show() # doctest: +SKIP
+    ///
+    /// Raises ImportError unless pyvista is installed.
+    #[pyo3(signature = (**options))]
+    fn show<'py>(
+        &self,
+        py: Python<'py>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        peers::show(&Bound::new(py, self.mesh(py, None, None, false, "auto")?)?, options)
+    }
+
+    /// A picture for notebooks. None where there is no device for pictures.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        if !picture::has_device(py) {
+            return Ok(None);
+        }
+        let quality = Quality { supersampling: 2, hairs: true };
+        let asked = Asked { size: SHOWN, view: View::Face, background: Background::Ground, quality };
+        let yarns = Shared::Cloth(self.cloth.clone());
+        let png = picture::png(py, &yarns, &self.scene, &asked)?;
+        Ok(Some(PyBytes::new(py, &png)))
     }
 
     /// How the yarns came to rest, in words.

@@ -19,10 +19,14 @@ use crate::{device, watch};
 /// it is. One thread at a time may use it.
 ///
 /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
-/// >>> live.pick([[20.3, 15.7, 9], [0, 0, -1]]).name
+/// >>> hit = live.pick([[20.3, 15.7, 9], [0, 0, -1]])
+/// >>> assert hit is not None
+/// >>> hit.name
 /// 'pick 24 at end 31, ecru'
 /// >>> live.set_lift(30, 23, True)
-/// >>> live.pick([[20.3, 15.7, 9], [0, 0, -1]]).name
+/// >>> hit = live.pick([[20.3, 15.7, 9], [0, 0, -1]])
+/// >>> assert hit is not None
+/// >>> hit.name
 /// 'end 31 at pick 24, ecru'
 #[pyclass(frozen, module = "texere", name = "Live")]
 #[derive(Debug)]

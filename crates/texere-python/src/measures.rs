@@ -2,13 +2,13 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use texere::check::Cover;
 
-/// Measures of a cloth. What a cloth does not have, or what is not known of it, is None.
+/// Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN; a number of
+/// loops, wales or courses is 0.
 ///
 /// >>> measures = texere.read("designs/plain.toml").placed().measures
 /// >>> round(measures.width_mm, 1), measures.loops
-/// (42.7, None)
+/// (42.7, 0)
 #[pyclass(frozen, module = "texere")]
 #[derive(Debug)]
 pub(crate) struct Measures {
@@ -22,10 +22,11 @@ impl Measures {
         let measures = design.structure.measures(cloth.yarns()).map_err(|error| design.refused(error))?;
         Ok(Self { measures, size_mm: design.structure.size_mm() })
     }
+}
 
-    fn factors(&self) -> Option<Cover> {
-        self.measures.cover
-    }
+/// A measure, or NaN.
+fn known(value: Option<f64>) -> f64 {
+    value.unwrap_or(f64::NAN)
 }
 
 /// The names of all measures, in the order in which they are shown.
@@ -88,59 +89,59 @@ impl Measures {
         self.measures.length_mm.clone()
     }
 
-    /// Weight, g/m². None unless every material that is used has a tex.
+    /// Weight, g/m². NaN unless every material that is used has a tex.
     ///
     /// >>> 50 < texere.read("designs/plain.toml").placed().measures.areal_weight < 500
     /// True
     #[getter]
-    fn areal_weight(&self) -> Option<f64> {
-        self.measures.areal_weight
+    fn areal_weight(&self) -> f64 {
+        known(self.measures.areal_weight)
     }
 
-    /// Crimp of the warp: length of yarn over length of cloth, less 1. None of a knit.
+    /// Crimp of the warp: length of yarn over length of cloth, less 1. NaN of a knit.
     ///
     /// >>> texere.read("designs/plain.toml").placed().measures.warp_crimp > 0
     /// True
     #[getter]
-    fn warp_crimp(&self) -> Option<f64> {
-        self.measures.crimp.map(|crimp| crimp.warp)
+    fn warp_crimp(&self) -> f64 {
+        known(self.measures.crimp.map(|crimp| crimp.warp))
     }
 
-    /// Crimp of the weft. None of a knit.
+    /// Crimp of the weft. NaN of a knit.
     ///
-    /// >>> texere.read("designs/locknit.toml").placed().measures.weft_crimp is None
-    /// True
+    /// >>> texere.read("designs/locknit.toml").placed().measures.weft_crimp
+    /// nan
     #[getter]
-    fn weft_crimp(&self) -> Option<f64> {
-        self.measures.crimp.map(|crimp| crimp.weft)
+    fn weft_crimp(&self) -> f64 {
+        known(self.measures.crimp.map(|crimp| crimp.weft))
     }
 
-    /// The share of the cloth's width that ends cover, 0 to 1. None of a knit.
+    /// The share of the cloth's width that ends cover, 0 to 1. NaN of a knit.
     ///
     /// >>> 0 < texere.read("designs/plain.toml").placed().measures.warp_cover < 1
     /// True
     #[getter]
-    fn warp_cover(&self) -> Option<f64> {
-        self.factors().map(|cover| cover.fraction.warp)
+    fn warp_cover(&self) -> f64 {
+        known(self.measures.cover.map(|cover| cover.fraction.warp))
     }
 
-    /// The share of the cloth's length that picks cover, 0 to 1. None of a knit.
+    /// The share of the cloth's length that picks cover, 0 to 1. NaN of a knit.
     ///
     /// >>> 0 < texere.read("designs/plain.toml").placed().measures.weft_cover < 1
     /// True
     #[getter]
-    fn weft_cover(&self) -> Option<f64> {
-        self.factors().map(|cover| cover.fraction.weft)
+    fn weft_cover(&self) -> f64 {
+        known(self.measures.cover.map(|cover| cover.fraction.weft))
     }
 
-    /// The share of the cloth that is covered, 0 to 1. None of a knit.
+    /// The share of the cloth that is covered, 0 to 1. NaN of a knit.
     ///
     /// >>> measures = texere.read("designs/plain.toml").placed().measures
     /// >>> measures.cover > measures.warp_cover
     /// True
     #[getter]
-    fn cover(&self) -> Option<f64> {
-        self.factors().map(|cover| cover.cloth)
+    fn cover(&self) -> f64 {
+        known(self.measures.cover.map(|cover| cover.cloth))
     }
 
     /// Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. None
@@ -149,8 +150,8 @@ impl Measures {
     /// >>> texere.read("designs/plain.toml").placed().measures.warp_cover_factor > 0
     /// True
     #[getter]
-    fn warp_cover_factor(&self) -> Option<f64> {
-        self.factors().and_then(|cover| cover.factor).map(|factor| factor.warp)
+    fn warp_cover_factor(&self) -> f64 {
+        known(self.measures.cover.and_then(|cover| cover.factor).map(|factor| factor.warp))
     }
 
     /// Peirce's cover factor of the weft.
@@ -158,8 +159,8 @@ impl Measures {
     /// >>> texere.read("designs/plain.toml").placed().measures.weft_cover_factor > 0
     /// True
     #[getter]
-    fn weft_cover_factor(&self) -> Option<f64> {
-        self.factors().and_then(|cover| cover.factor).map(|factor| factor.weft)
+    fn weft_cover_factor(&self) -> f64 {
+        known(self.measures.cover.and_then(|cover| cover.factor).map(|factor| factor.weft))
     }
 
     /// Peirce's cover factor of the cloth.
@@ -167,54 +168,54 @@ impl Measures {
     /// >>> texere.read("designs/plain.toml").placed().measures.cover_factor > 0
     /// True
     #[getter]
-    fn cover_factor(&self) -> Option<f64> {
-        self.factors().and_then(|cover| cover.cloth_factor)
+    fn cover_factor(&self) -> f64 {
+        known(self.measures.cover.and_then(|cover| cover.cloth_factor))
     }
 
-    /// Wales of a knit. None of woven cloth.
+    /// Wales of a knit. 0 of woven cloth.
     ///
     /// >>> texere.read("designs/locknit.toml").placed().measures.wales
     /// 18
     #[getter]
-    fn wales(&self) -> Option<u32> {
-        self.measures.knit.map(|knit| knit.size[0])
+    fn wales(&self) -> u32 {
+        self.measures.knit.map_or(0, |knit| knit.size[0])
     }
 
-    /// Courses of a knit. None of woven cloth.
+    /// Courses of a knit. 0 of woven cloth.
     ///
     /// >>> texere.read("designs/locknit.toml").placed().measures.courses
     /// 24
     #[getter]
-    fn courses(&self) -> Option<u32> {
-        self.measures.knit.map(|knit| knit.size[1])
+    fn courses(&self) -> u32 {
+        self.measures.knit.map_or(0, |knit| knit.size[1])
     }
 
-    /// Loops of a knit. None of woven cloth.
+    /// Loops of a knit. 0 of woven cloth.
     ///
     /// >>> texere.read("designs/locknit.toml").placed().measures.loops > 400
     /// True
     #[getter]
-    fn loops(&self) -> Option<u64> {
-        self.measures.knit.map(|knit| knit.loops)
+    fn loops(&self) -> u64 {
+        self.measures.knit.map_or(0, |knit| knit.loops)
     }
 
-    /// Length of yarn in a loop, mm. None of woven cloth.
+    /// Length of yarn in a loop, mm. NaN of woven cloth.
     ///
     /// >>> texere.read("designs/jersey.toml").placed().measures.loop_length_mm > 1
     /// True
     #[getter]
-    fn loop_length_mm(&self) -> Option<f64> {
-        self.measures.knit.map(|knit| knit.loop_length_mm)
+    fn loop_length_mm(&self) -> f64 {
+        known(self.measures.knit.map(|knit| knit.loop_length_mm))
     }
 
-    /// The root of tex over the loop length in cm. None of woven cloth, and unless all yarns that
+    /// The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
     /// are used have one and the same tex.
     ///
-    /// >>> texere.read("designs/plain.toml").placed().measures.tightness is None
-    /// True
+    /// >>> texere.read("designs/plain.toml").placed().measures.tightness
+    /// nan
     #[getter]
-    fn tightness(&self) -> Option<f64> {
-        self.measures.knit.and_then(|knit| knit.tightness)
+    fn tightness(&self) -> f64 {
+        known(self.measures.knit.and_then(|knit| knit.tightness))
     }
 
     /// All measures that the cloth has, by their names. Copies.
@@ -225,7 +226,8 @@ impl Measures {
         let all = PyDict::new(slf.py());
         for name in NAMES {
             let value = slf.getattr(name)?;
-            if !value.is_none() {
+            let is_known = value.extract::<f64>().map_or(true, |number| number.is_finite() && number != 0.0);
+            if is_known {
                 all.set_item(name, value)?;
             }
         }

@@ -7,14 +7,16 @@ use bytemuck::cast_slice;
 use numpy::ndarray::{Array2, ArrayView2, s};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use texere::mesh::Attribute;
 use texere::{Backend, Pipeline, Settings};
 
 use crate::arrays::view;
 use crate::error::{Error, Raise};
 use crate::watch::Run;
+use crate::whole::Whole;
 use crate::yarns::Shared;
-use crate::{device, watch};
+use crate::{device, peers, watch, whole};
 
 /// The triangles of yarns: :meth:`texere.Cloth.mesh` makes them.
 ///
@@ -24,9 +26,9 @@ use crate::{device, watch};
 #[pyclass(frozen, module = "texere")]
 #[derive(Debug)]
 pub(crate) struct Mesh {
-    /// Indices count from the first vertex of the whole mesh.
-    mesh: texere::Mesh,
+    mesh: Whole,
     yarns: Shared,
+    settings: Settings,
     device: Arc<dyn Backend>,
     /// Made when they are first asked for.
     attributes: OnceLock<Vec<Attribute>>,
@@ -52,17 +54,15 @@ impl Mesh {
     /// Makes the mesh of `yarns` on the device of a name.
     pub(crate) fn make(py: Python<'_>, yarns: &Shared, settings: Settings, device: &str) -> PyResult<Self> {
         let device = watch::quietly(py, |_| device::open(device))?;
-        let pipeline = || pipeline(yarns, settings);
-        let vertices = pipeline().plan().raise(py)?.counts().vertices;
+        let vertices = pipeline(yarns, settings).plan().raise(py)?.counts().vertices;
         if u32::try_from(vertices).is_err() {
             return Err(Error::new_err(format!(
                 "the mesh has {vertices} vertices, and indices of 32 bits count {} at most",
                 u32::MAX
             )));
         }
-        let mut mesh = watch::quietly(py, |run| followed(pipeline(), run).mesh(&*device))?;
-        py.detach(|| count_from_first(&mut mesh));
-        Ok(Self { mesh, yarns: yarns.clone(), device, attributes: OnceLock::new() })
+        let mesh = watch::quietly(py, |run| Whole::new(yarns, settings, &*device, run))?;
+        Ok(Self { mesh, yarns: yarns.clone(), settings, device, attributes: OnceLock::new() })
     }
 
     /// What is known of each vertex.
@@ -70,10 +70,8 @@ impl Mesh {
         if let Some(attributes) = self.attributes.get() {
             return Ok(attributes);
         }
-        let settings = *self.mesh.plan.settings();
-        let made = watch::quietly(py, |run| {
-            followed(pipeline(&self.yarns, settings), run).attributes(&*self.device)
-        })?;
+        let made =
+            watch::quietly(py, |run| whole::attributes(&self.yarns, self.settings, &*self.device, run))?;
         Ok(self.attributes.get_or_init(|| made))
     }
 }
@@ -88,20 +86,6 @@ pub(crate) fn followed<'a>(pipeline: Pipeline<'a>, run: &'a Run) -> Pipeline<'a>
     pipeline.progress(|done| run.tell(done.rings as f64 / done.total.max(1) as f64))
 }
 
-/// Has all indices count from the first vertex of the whole mesh, instead of from their chunk's.
-/// Writers of files read no indices of a mesh.
-fn count_from_first(mesh: &mut texere::Mesh) {
-    let mut rest = &mut mesh.indices[..];
-    for chunk in &mesh.chunks {
-        let (own, others) = rest.split_at_mut(chunk.indices() as usize);
-        let first = chunk.first_vertex() as u32;
-        if first > 0 {
-            own.iter_mut().for_each(|index| *index += first);
-        }
-        rest = others;
-    }
-}
-
 /// A column of vertices or attributes, each of six numbers of four bytes.
 const WORDS: usize = 6;
 
@@ -110,8 +94,8 @@ impl Mesh {
     /// Positions of vertices, mm: float32 of shape (n, 3). Does not copy.
     ///
     /// >>> mesh = texere.read("designs/plain.toml").placed().mesh(device="cpu")
-    /// >>> mesh.positions.flags.writeable, mesh.positions.base is mesh
-    /// (False, True)
+    /// >>> mesh.positions.flags.writeable, type(mesh.positions.base)
+    /// (False, <class 'texere.Mesh'>)
     #[getter]
     fn positions<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         vertices(slf, 0)
@@ -209,7 +193,8 @@ impl Mesh {
         size_of_val(&self.mesh.vertices[..]) + size_of_val(&self.mesh.indices[..])
     }
 
-    /// Writes the mesh as a ``.glb`` or ``.ply`` file, which appears whole or not at all.
+    /// Writes the mesh as a ``.glb`` or ``.ply`` file, which appears whole or not at all. It is
+    /// made again while it is written, piece by piece.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
@@ -217,11 +202,53 @@ impl Mesh {
     ///
     /// Raises :class:`texere.Error` for another ending, and for a file that can't be written.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        watch::quietly(py, |_| texere::write(&self.mesh, path))
+        watch::quietly(py, |run| {
+            let pipeline = followed(pipeline(&self.yarns, self.settings), run);
+            texere::write::stream(pipeline, &*self.device, path).map(|_| ())
+        })
+    }
+
+    /// The mesh as a ``trimesh.Trimesh``, with its normals and colours. Copies: trimesh counts in
+    /// float64.
+    ///
+    /// >>> yarns = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1)
+    /// >>> yarns.mesh(sides=4, caps=True, device="cpu").to_trimesh().is_volume
+    /// False
+    ///
+    /// Raises ImportError unless trimesh is installed.
+    fn to_trimesh<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        peers::trimesh(slf)
+    }
+
+    /// The mesh as a ``pyvista.PolyData``, with its normals, and ``yarn``, ``uv`` and ``rgb`` as
+    /// data of points. Copies.
+    ///
+    /// >>> yarns = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1)
+    /// >>> yarns.mesh(sides=4, device="cpu").to_pyvista().n_points
+    /// 12
+    ///
+    /// Raises ImportError unless pyvista is installed.
+    fn to_pyvista<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        peers::pyvista(slf)
+    }
+
+    /// Shows the mesh in a window of pyvista, or in a notebook. ``options`` are those of pyvista's
+    /// ``Plotter.show``, and what that gives is given back.
+    ///
+    /// >>> mesh = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu")
+    /// >>> mesh.show() # doctest: +SKIP
+    ///
+    /// Raises ImportError unless pyvista is installed.
+    #[pyo3(signature = (**options))]
+    fn show<'py>(
+        slf: &Bound<'py, Self>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        peers::show(slf, options)
     }
 
     fn __repr__(&self) -> String {
-        let texere::Mesh { vertices, indices, .. } = &self.mesh;
+        let Whole { vertices, indices } = &self.mesh;
         format!("<texere.Mesh {} vertices, {} triangles>", vertices.len(), indices.len() / 3)
     }
 }

@@ -22,7 +22,9 @@ impl Hit {
     /// The number of the yarn, from 0.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
-    /// >>> cloth.pick([[20.3, 15.7, 9], [0, 0, -1]]).yarn
+    /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
+    /// >>> hit.yarn
     /// 87
     #[getter]
     fn yarn(&self) -> u32 {
@@ -33,7 +35,9 @@ impl Hit {
     /// program.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
-    /// >>> cloth.pick([[20.3, 15.7, 9], [0, 0, -1]]).name
+    /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
+    /// >>> hit.name
     /// 'pick 24 at end 31, ecru'
     #[getter]
     fn name(&self) -> &str {
@@ -43,7 +47,9 @@ impl Hit {
     /// The point, mm.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
-    /// >>> cloth.pick([[20.3, 15.7, 9], [0, 0, -1]]).position[2] > 0.2
+    /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
+    /// >>> hit.position[2] > 0.2
     /// True
     #[getter]
     fn position(&self) -> (f64, f64, f64) {
@@ -53,7 +59,9 @@ impl Hit {
     /// Distance from the ray's origin in lengths of its direction.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
-    /// >>> 8 < cloth.pick([[20.3, 15.7, 9], [0, 0, -1]]).distance < 9
+    /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
+    /// >>> 8 < hit.distance < 9
     /// True
     #[getter]
     fn distance(&self) -> f64 {
@@ -63,6 +71,7 @@ impl Hit {
     /// The control interval of the yarn, from 0, and where in it, 0 to 1.
     ///
     /// >>> hit = texere.read("designs/plain.toml").placed().pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
     /// >>> interval, t = hit.place
     /// >>> interval > 0, 0 <= t <= 1
     /// (True, True)

@@ -1,6 +1,7 @@
 //! Pictures of cloth and their layers, as arrays.
 
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -13,7 +14,7 @@ use texere::picture::{
 use texere::yarn::Origin;
 use texere::{BackendError, Settings};
 
-use crate::error::Error;
+use crate::error::Raise;
 use crate::watch;
 use crate::yarn::srgb;
 use crate::yarns::Shared;
@@ -130,8 +131,20 @@ fn settings(yarns: &texere::Yarns) -> Settings {
 /// A scene that pictures of the same cloth are made of, and the device that has it.
 pub(crate) type Kept = Mutex<Option<(String, Scene)>>;
 
-/// Makes a picture of `yarns`, and its layers if `layers` asks for any. `kept` holds the scene for
-/// the next picture.
+/// Whether there is a device for pictures.
+pub(crate) fn has_device(py: Python<'_>) -> bool {
+    py.detach(|| renderer("auto").is_ok())
+}
+
+/// Makes a picture of `yarns` as a PNG file.
+pub(crate) fn png(py: Python<'_>, yarns: &Shared, kept: &Kept, asked: &Asked) -> PyResult<Vec<u8>> {
+    let (made, _) = drawn(py, yarns, kept, asked, "auto", false)?;
+    let mut png = Cursor::new(Vec::new());
+    texere::write::picture_to(made.size, &made.rgb, &mut png).raise(py)?;
+    Ok(png.into_inner())
+}
+
+/// Makes a picture of `yarns`, and a dict of its layers if `layers` asks for any.
 pub(crate) fn picture<'py>(
     py: Python<'py>,
     yarns: &Shared,
@@ -144,11 +157,29 @@ pub(crate) fn picture<'py>(
         let known = LAYERS.join(", ");
         return Err(PyValueError::new_err(format!("there is no layer {unknown:?}, only {known}")));
     }
+    let (made, shown) = drawn(py, yarns, kept, asked, device, layers.is_some())?;
+    let color = pixels(py, asked, made)?;
+    let Some((layers, shown)) = layers.zip(shown) else { return Ok(color) };
+    let all = PyDict::new(py);
+    all.set_item("color", color)?;
+    add(&all, shown, &layers)?;
+    Ok(all.into_any())
+}
+
+/// Draws a picture, and reads its layers if they are wanted. `kept` holds the scene for the next
+/// picture.
+fn drawn(
+    py: Python<'_>,
+    yarns: &Shared,
+    kept: &Kept,
+    asked: &Asked,
+    device: &str,
+    wants_layers: bool,
+) -> PyResult<(Picture, Option<Layers>)> {
     let [width, height] = asked.size;
     if u64::from(width) * u64::from(height) > PIXELS_MOST {
-        return Err(PyValueError::new_err(format!(
-            "size is {width} x {height}, more than {PIXELS_MOST} pixels"
-        )));
+        let most = format!("more than {PIXELS_MOST} pixels");
+        return Err(PyValueError::new_err(format!("size is {width} x {height}, {most}")));
     }
     let taken = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
     let mut scene = match taken.filter(|(name, _)| name == device) {
@@ -159,25 +190,18 @@ pub(crate) fn picture<'py>(
             watch::quietly(py, |run| renderer.scene_with_progress(yarns, &settings, |share| run.tell(share)))?
         }
     };
-    let wants = layers.is_some();
-    let (made, shown) = {
+    let drawn = {
         let scene = &mut scene;
         watch::quietly(py, move |run| {
             scene.set_background(asked.background);
             let camera = asked.camera(scene)?;
             let made = scene.picture_with_progress(&camera, asked.quality, |share| run.tell(share))?;
-            let shown = if wants { scene.layers()? } else { None };
+            let shown = if wants_layers { scene.layers()? } else { None };
             Ok::<_, RenderError>((made, shown))
         })?
     };
     *kept.lock().unwrap_or_else(PoisonError::into_inner) = Some((device.into(), scene));
-    let color = pixels(py, asked, made)?;
-    let Some(layers) = layers else { return Ok(color) };
-    let shown = shown.ok_or_else(|| Error::new_err("the picture has no layers"))?;
-    let all = PyDict::new(py);
-    all.set_item("color", color)?;
-    add(&all, shown, &layers)?;
-    Ok(all.into_any())
+    Ok(drawn)
 }
 
 /// The pixels of a picture: with alpha where nothing lies behind the cloth.

@@ -88,7 +88,8 @@ impl YarnSpec {
 /// A colour: `"#rrggbb"`, or three numbers.
 pub(crate) fn srgb(value: &Bound<'_, PyAny>) -> PyResult<[u8; 3]> {
     let Ok(text) = value.extract::<String>() else { return value.extract() };
-    let hex = text.strip_prefix('#').filter(|hex| hex.len() == 6);
+    let is_hex = |hex: &&str| hex.len() == 6 && hex.bytes().all(|digit| digit.is_ascii_hexdigit());
+    let hex = text.strip_prefix('#').filter(is_hex);
     hex.and_then(|hex| u32::from_str_radix(hex, 16).ok())
         .map(|number| [16, 8, 0].map(|shift| (number >> shift) as u8))
         .ok_or_else(|| PyValueError::new_err(format!("color is {text:?}, expected \"#rrggbb\"")))

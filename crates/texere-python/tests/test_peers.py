@@ -41,10 +41,10 @@ def test_layers_show_what_rays_hit(cloth):
 
 
 def test_a_picture_without_background_has_alpha(cloth):
-    near = {"view": "close-up", "at": (20, 16), "width_mm": 3}
+    near = {"view": "cut-warp", "at": (20, 16), "width_mm": 3}
     nothing = cloth.picture(size=(40, 30), background="nothing", **near)
     assert nothing.shape == (30, 40, 4) and nothing[..., 3].min() == 0 and nothing[..., 3].max() == 255
-    red = cloth.picture(size=(40, 30), background="#ff0000")
+    red = cloth.picture(size=(40, 30), background="#ff0000", **near)
     assert (red[0, 0] == [255, 0, 0]).all()
     assert (cloth.picture(size=(40, 30)) == cloth.picture(size=(40, 30))).all()
 

@@ -7,14 +7,14 @@ use texere::check::{SettlingReport, counted};
 use texere::write::Output;
 use texere::{Backend, BackendError, Pipeline, Yarns};
 
-use crate::args::{MeshArgs, is_yarns, undersampled};
+use crate::args::{MeshArgs, is_curves, is_yarns, undersampled};
 use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let open = || drivers::quietly(|| texere::open(&args.device));
-    if is_yarns(&args.output) {
+    if is_yarns(&args.output) || is_curves(&args.output) {
         if let Some(option) = args.settings.of_a_mesh() {
             return Err(Fail::needs_mesh(option, &args.output));
         }
@@ -69,9 +69,12 @@ impl Cloth {
     }
 }
 
-/// Writes the yarns. Returns the line to print about it.
+/// Writes the yarns themselves, or their centrelines. Returns the line to print about it.
 fn saved(args: &MeshArgs, yarns: &Yarns, output: Output) -> Result<String, Fail> {
-    let bytes = texere::write::yarns(yarns, output)?;
+    let bytes = match is_curves(&args.output) {
+        true => texere::write::curves(yarns, output)?,
+        false => texere::write::yarns(yarns, output)?,
+    };
     let (count, points) = (yarns.layout().yarns().len(), yarns.points().len());
     let (count, points) = (counted(count, "yarn"), counted(points, "control point"));
     Ok(format!("{}: {count}, {points}, {bytes} bytes\n", line(args.output.display())))

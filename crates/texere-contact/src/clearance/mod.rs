@@ -1,6 +1,7 @@
 //! Clearance: how near yarns come to one another and to themselves, and how tightly they bend.
 
 mod approach;
+mod chords;
 mod contact;
 mod crowd;
 mod curvature;

@@ -10,6 +10,7 @@
 //! if a plane lies between them:     nothing
 //! for each approach of the chords:  keep its nearest place, refined
 //! while that lies in a valley:      keep a nearer place, if the hulls leave room for one
+//! if the yarn folds in the valley:  keep the nearest places of fine chords, refined
 //! ```
 
 use std::cell::Cell;
@@ -18,9 +19,10 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 
 use super::approach::{Side, refine};
+use super::chords::{Fine, SAGITTA, SAGITTA_FINE};
 use super::contact::{CLEARANCE_ACCURACY, Contact};
 use super::found::Found;
-use super::interval::{SAGITTA, closest};
+use super::interval::closest;
 use super::met::{Curve, Met};
 use super::nearer::nearer;
 use super::part::Part;
@@ -184,10 +186,13 @@ impl<'a> Pair<'a> {
         let mut seen: Vec<DVec2> = Vec::new();
         let least = Cell::new(f64::INFINITY);
         let valley = Cell::new(false);
+        let lost = Cell::new(false);
         let refined = |start: DVec2| {
             let approach = refine(sides[0], sides[1], start);
             least.set(approach.ratio.min(least.get()));
             valley.set(valley.get() || approach.valley);
+            let kept = approach.own.is_some_and(|place| self.is_apart(place));
+            lost.set(lost.get() || !kept);
             approach.own.map(|place| (place, approach.ratio))
         };
         let mut keep = |(place, ratio): (DVec2, f64)| {
@@ -224,6 +229,14 @@ impl<'a> Pair<'a> {
             if least.get() >= known {
                 break;
             }
+        }
+        // Where a yarn doubles back, the way downhill leads to a fold, which is no contact. A
+        // contact on that way may be too shallow for the usual chords.
+        if self.same && valley.get() && lost.get() {
+            let [first, second] = [a, b].map(|curve| Fine::of(&curve.cubic, SAGITTA_FINE));
+            first.approaches(&second, self.near * self.reach, true, |starts| {
+                refined(starts[0]).into_iter().for_each(&mut keep);
+            });
         }
     }
 }

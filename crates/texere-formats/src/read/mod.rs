@@ -2,6 +2,7 @@
 //! yarns](fn@yarns).
 
 mod bytes;
+mod curves;
 mod design;
 #[cfg(feature = "toml")]
 mod design_file;
@@ -30,6 +31,7 @@ use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::Path;
 
+pub use curves::{CurveScale, curves, curves_from};
 pub use design::Design;
 pub use error::{FilePlace, ReadError};
 pub use fault_place::{FaultPlace, fault_place};

@@ -26,8 +26,9 @@ pub struct Written {
 /// any topology.
 ///
 /// **Errors**: [`WriteError`] for an extension that stands for no format of this build, for a mesh
-/// that the format can't hold, that has no triangles, does not match its plan or materials or is
-/// not finite, for a file that must not be replaced, and if the file system refuses.
+/// that the format can't hold, that has no triangles, that does not match its plan or its
+/// materials, or that has numbers that are not finite, for a file that must not be replaced, and if
+/// the file system refuses.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;

@@ -1,4 +1,4 @@
-//! What went wrong in a call: its status, its words, its place in a file.
+//! What went wrong in a call: the status, the message, and the place in a design's file.
 
 use std::any::Any;
 use std::error::Error;
@@ -67,8 +67,9 @@ impl<E: Error + 'static> From<E> for Failure {
     }
 }
 
-/// The status of an error by itself, where it decides one. A cause decides over what it led to:
-/// memory that ran out while a design was read is no fault of the design.
+/// The status that an error has by itself, without its causes, or `None` if it has none. A
+/// `Failure` takes the status of the deepest cause that has one: if memory runs out while a design
+/// is read, the status is TEXERE_MEMORY and not TEXERE_DESIGN.
 fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if error.is::<OutOfMemory>() {
         return Some(TEXERE_MEMORY);
@@ -76,14 +77,14 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if error.is::<Answer>() {
         return Some(TEXERE_CANCELLED);
     }
-    // What an error of the system holds is none of its causes.
+    // `source` of an `io::Error` passes over the error that it wraps, so that error is asked here.
     if let Some(held) = error.downcast_ref().and_then(io::Error::get_ref) {
         return status_of(held);
     }
     of_cloth(error).or_else(|| of_mesh(error))
 }
 
-/// The status of an error of a design or of its cloth.
+/// The status of an error of a design or of its cloth, if it has one.
 fn of_cloth(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
         return status_of(&**error);
@@ -118,7 +119,8 @@ fn of_cloth(error: &(dyn Error + 'static)) -> Option<texere_status> {
     None
 }
 
-/// The status of an error of a device, or of a mesh and what becomes of it.
+/// The status of an error of a device, or of making, editing, drawing or writing a mesh, if it has
+/// one.
 fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(error) = error.downcast_ref() {
         return Some(match error {

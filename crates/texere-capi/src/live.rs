@@ -22,28 +22,28 @@ use crate::settings::{chosen, texere_settings};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// A cloth that is being edited, and its whole mesh on a device. One thread at a time may use it: a
-/// call fails with TEXERE_ARGUMENT while a call of another thread is using it.
+/// A cloth that is being edited, with its whole mesh on a device. One thread at a time may use it:
+/// a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
 ///
-/// An edit counts at once for `texere_live_yarns` and `texere_live_pick`. `texere_live_update`
-/// brings it to the mesh. To undo an edit, set the old value again.
+/// `texere_live_yarns` and `texere_live_pick` see an edit at once. `texere_live_update` brings
+/// edits to the mesh. To undo an edit, set the old value again.
 #[derive(Debug)]
 pub struct texere_live;
 
-/// A live cloth, with what the library lends of it.
+/// A live cloth, with the values that the library lends to the caller.
 #[derive(Debug)]
 pub(crate) struct Editing {
     pub(crate) live: Live,
-    /// By which places are named.
+    /// The design by which places are named, if there is one.
     pub(crate) known: Known,
-    /// That of the material that was asked for last.
+    /// The name of the material that `texere_live_material` wrote last.
     pub(crate) name: CString,
     counts: texere_counts,
     draws: Vec<texere_draw>,
     changes: Vec<texere_change>,
 }
 
-/// What the yarns of a live cloth come from.
+/// The origin of a live cloth's yarns.
 #[derive(Debug)]
 pub(crate) enum Known {
     Cloth(Arc<Cloth>),
@@ -56,34 +56,34 @@ impl Handle for texere_live {
     const NAME: &str = "live cloth";
 }
 
-/// A stretch of vertices and indices that an update has made again. Both count from the start of
+/// A range of vertices and a range of indices that an update has made again. Both are numbered in
 /// the whole mesh.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct texere_change {
-    /// The first vertex.
+    /// The number of the first vertex.
     pub first_vertex: u64,
     /// How many vertices there are.
     pub vertex_count: u64,
-    /// The first index.
+    /// The number of the first index.
     pub first_index: u64,
-    /// How many indices there are: none unless the topology is TEXERE_TOPOLOGY_INDEXED.
+    /// How many indices there are: 0 unless the topology is TEXERE_TOPOLOGY_INDEXED.
     pub index_count: u64,
 }
 
-/// What an update has made again.
+/// The parts of the mesh that an update has made again.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_update {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// 1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
-    /// and places of everything may be others. Else 0.
+    /// 1 if the whole mesh was begun anew, for example because a yarn outgrew its room: then its
+    /// sizes and draws may have changed, and vertices may have other numbers. Else 0.
     pub anew: u32,
-    /// The stretches that were made again, valid until the next update of this live cloth, or until
-    /// it is freed.
+    /// The ranges that were made again. They are valid until the next update of this live cloth, or
+    /// until it is freed.
     pub changes: *const texere_change,
-    /// How many there are.
+    /// How many changes there are.
     pub change_count: u64,
 }
 
@@ -115,7 +115,8 @@ impl Editing {
         })
     }
 
-    /// A change as stretches of the whole mesh: the tubes, and the caps behind them.
+    /// A change as ranges of the whole mesh: one for the tubes, and one for the caps behind them if
+    /// there are any.
     fn stretches(&self, change: &Change) -> impl Iterator<Item = texere_change> + use<> {
         let mesh = self.live.mesh();
         let (chunk, settings) = (&mesh.chunks()[change.chunk], *mesh.plan().settings());
@@ -135,7 +136,7 @@ impl Editing {
         iter::once(tubes).chain(caps)
     }
 
-    /// Reads a stretch of the mesh into the caller's memory.
+    /// Reads a range of the mesh into the caller's memory.
     ///
     /// # Safety
     ///
@@ -152,7 +153,7 @@ impl Editing {
         self.read(wanted, into, reporter(run))
     }
 
-    /// Reads a stretch of the mesh. The slices have the lengths that it says.
+    /// Reads the range `wanted` of the mesh into slices whose lengths are those of the range.
     fn read(
         &mut self,
         wanted: &texere_change,
@@ -205,8 +206,9 @@ impl Editing {
     }
 }
 
-/// Copies what `from`, whose first value has the number `first`, has of the values that `into` is
-/// to hold from number `wanted` on. Gives how many they are.
+/// Copies values from `from`, whose first value has the number `first`, to `into`, whose first
+/// value is to be the one with the number `wanted`. Copies the numbers that both have, and returns
+/// how many they are.
 fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usize {
     let start = first.max(wanted);
     let end = (first + from.len() as u64).min(wanted + into.len() as u64);
@@ -218,11 +220,11 @@ fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usiz
     count
 }
 
-/// Makes a live cloth of a cloth, with its mesh on a device. Lifts of a woven cloth can be set.
-/// `settings` may be null: `texere_settings_default` says what holds then.
+/// Makes a live cloth of a cloth, with its mesh on a device. If the cloth is woven, its lifts can
+/// be set. `settings` may be null, and then those of `texere_settings_default` apply.
 ///
-/// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY where the mesh has no
-/// room on the device, and with TEXERE_UNSUPPORTED where the device can't keep a mesh.
+/// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY if the mesh has no room
+/// on the device, and with TEXERE_UNSUPPORTED if the device can't keep a mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_of_cloth(
     cloth: *const texere_cloth,
@@ -249,8 +251,8 @@ pub unsafe extern "C" fn texere_live_of_cloth(
     })
 }
 
-/// Makes a live cloth of yarns, with its mesh on a device. It has no weave, so lifts can't be set.
-/// `settings` may be null: `texere_settings_default` says what holds then.
+/// Makes a live cloth of yarns, with its mesh on a device. Yarns have no weave, so lifts can't be
+/// set. `settings` may be null, and then those of `texere_settings_default` apply.
 ///
 /// Fails as `texere_live_of_cloth` does.
 #[unsafe(no_mangle)]
@@ -272,11 +274,11 @@ pub unsafe extern "C" fn texere_live_of_yarns(
     })
 }
 
-/// Makes the parts of the mesh again that edits have changed, and writes which they are. The first
-/// update makes the whole mesh. The caller has set `update->struct_size`.
+/// Makes again the parts of the mesh that edits have changed, and writes which parts they are. The
+/// first update makes the whole mesh. The caller sets `update->struct_size` before the call.
 ///
-/// Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
-/// parts again.
+/// Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails. The next update then makes the
+/// same parts.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_update(
     live: *const texere_live,
@@ -286,15 +288,16 @@ pub unsafe extern "C" fn texere_live_update(
         // SAFETY: the caller vouches for `update`.
         unsafe { check_sized("update", update) }?;
         let made = alone(live, Editing::update)?;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
+        // that the struct is long enough.
         unsafe { update.write(made) };
         Ok(())
     })
 }
 
-/// Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
-/// room between yarns, too, in which yarns can become longer. The caller has set
-/// `counts->struct_size`.
+/// Writes the sizes of a live cloth's mesh as of its last update. The numbers of vertices and
+/// indices include the room between yarns, into which yarns can grow. The caller sets
+/// `counts->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_counts(
     live: *const texere_live,
@@ -304,15 +307,16 @@ pub unsafe extern "C" fn texere_live_counts(
         // SAFETY: the caller vouches for `counts`.
         unsafe { check_sized("counts", counts) }?;
         let found = alone(live, |editing| Ok(editing.counts))?;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
+        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
+        // that the struct is long enough.
         unsafe { counts.write(found) };
         Ok(())
     })
 }
 
-/// Lends the draws of a live cloth's mesh as of its last update: `texere_live_counts` says how many
-/// there are. What lies between them is room, and is not drawn. They are valid until the next
-/// update, or until the live cloth is freed.
+/// Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
+/// there are. Indices between two draws are room, and are not drawn. The draws are valid until the
+/// next update, or until the live cloth is freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_draws(
     live: *const texere_live,
@@ -321,18 +325,18 @@ pub unsafe extern "C" fn texere_live_draws(
     guard(|| {
         check("draws", draws)?;
         let lent = alone(live, |editing| Ok(editing.draws.as_ptr()))?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { draws.write(lent) };
         Ok(())
     })
 }
 
-/// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
-/// between yarns holds is not said.
+/// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
+/// of the room between yarns are undefined.
 ///
-/// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-/// `texere_live_counts` says, and where an edit has not been brought to the mesh by
-/// `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
+/// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
+/// says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
+/// TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_mesh(
     live: *const texere_live,
@@ -357,12 +361,12 @@ pub unsafe extern "C" fn texere_live_mesh(
     })
 }
 
-/// Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
-/// last update. Indices count from the base vertex of their draw, as in the whole mesh.
+/// Reads a range of the mesh of a live cloth into the caller's memory, such as a change of the last
+/// update. Indices count from the base vertex of their draw.
 ///
-/// Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
-/// `index_count` is not what it says, and where an edit has not been brought to the mesh by
-/// `texere_live_update`.
+/// Fails with TEXERE_ARGUMENT if the range does not lie within the mesh, if `vertex_count` or
+/// `index_count` is not what the range says, and if `texere_live_update` has to be called first,
+/// after an edit for example.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_read(
     live: *const texere_live,
@@ -374,7 +378,7 @@ pub unsafe extern "C" fn texere_live_read(
 ) -> texere_status {
     guard(|| {
         check("change", change)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         let wanted = unsafe { change.read() };
         alone(live, |editing| {
             let within = |name: &str, first: u64, count: u64, all: u64| {
@@ -407,7 +411,7 @@ pub unsafe extern "C" fn texere_live_yarns(
     })
 }
 
-/// Frees a live cloth, or nothing where it is null.
+/// Frees a live cloth. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_free(live: *mut texere_live) {
     free(live);

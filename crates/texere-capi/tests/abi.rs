@@ -6,11 +6,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What a header declares: a name, and what programs rely on about it.
+/// The declarations of a header: for each name the text on which programs rely.
 type Declarations = BTreeMap<String, String>;
 
-/// Reads a header as cbindgen writes it: comments behind two slashes, no macros but constants, no
-/// declaration within another one.
+/// Reads a header as cbindgen writes it: comments begin with two slashes, all macros are constants,
+/// and no declaration lies within another one.
 fn declarations(header: &str) -> Declarations {
     let mut found = Declarations::new();
     let mut code = String::new();
@@ -30,7 +30,7 @@ fn declarations(header: &str) -> Declarations {
     found
 }
 
-/// Where the semicolon of the first declaration is: the first one outside braces.
+/// The place of the semicolon that ends the first declaration: the first semicolon outside braces.
 fn end_of_declaration(code: &str) -> Option<usize> {
     let mut depth = 0;
     code.find(|letter| {
@@ -44,13 +44,15 @@ fn declare(code: &str, found: &mut Declarations) {
         let (body, name) = body.rsplit_once('}').unwrap();
         let name = name.trim();
         if head.starts_with("typedef enum") {
-            // A value of its own each, since more may come.
+            // Each value of an enum is a declaration of its own, because a later header may add
+            // values.
             for value in body.split(',').map(str::trim).filter(|value| !value.is_empty()) {
                 let (value, number) = value.split_once(" = ").unwrap();
                 found.insert(value.into(), format!("{number} of {name}"));
             }
         } else {
-            // Sizes and places depend on all fields and their order.
+            // A struct is one declaration, because its size and the places of its fields depend on
+            // all fields and their order.
             found.insert(name.into(), body.split_whitespace().collect::<Vec<_>>().join(" "));
         }
     } else if let Some((head, callback)) = code.split_once("(*").filter(|_| code.starts_with("typedef")) {
@@ -65,7 +67,7 @@ fn declare(code: &str, found: &mut Declarations) {
     }
 }
 
-/// The types of parameters: their names are nothing to a program.
+/// The types of parameters. A program does not depend on their names.
 fn types(parameters: &str) -> String {
     let parameters = parameters.strip_suffix(')').unwrap().split(',').map(str::trim);
     parameters.map(unnamed).collect::<Vec<_>>().join(", ")
@@ -84,8 +86,8 @@ fn unnamed(parameter: &str) -> String {
     }
 }
 
-/// What of `kept` is gone or is another thing in `now`, a line each; nothing where the number of
-/// the binary interface went up.
+/// The declarations of `kept` that are missing or different in `now`, one on each line. The text is
+/// empty if the number of the binary interface is higher in `now`.
 fn broken(kept: &str, now: &str) -> String {
     let (kept, now) = (declarations(kept), declarations(now));
     let abi = |header: &Declarations| header["TEXERE_ABI"].parse::<u32>().unwrap();

@@ -41,10 +41,32 @@ def test_an_error_of_the_system_has_its_cause(tmp_path):
 def long_design():
     """A knit that takes many passes to come to rest."""
     wool = texere.Yarn(diameter_mm=0.3)
-    return texere.weft_knit("kp\npk", wool, wale_mm=1.5, course_mm=1.0, copies=(30, 30))
+    return texere.weft_knit("kp\npk", wool, wale_mm=1.5, course_mm=1.0, copies=(60, 60))
 
 
-def test_ctrl_c_ends_a_rest():
+def spent(call):
+    """The time that all cores have worked on a call, and the exception that it ended with."""
+    before, ended = time.process_time(), None
+    try:
+        call()
+    except (KeyboardInterrupt, Enough) as exception:
+        ended = type(exception)
+    return time.process_time() - before, ended
+
+
+class Enough(Exception):
+    """What a progress function raises."""
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """The work of a whole rest of the long design."""
+    work, ended = spent(lambda: long_design().rest(device="cpu", progress=False))
+    assert ended is None
+    return work
+
+
+def test_ctrl_c_ends_a_rest(whole):
     shares, counted = [], [0, True]
 
     def press():
@@ -60,12 +82,12 @@ def test_ctrl_c_ends_a_rest():
     threads = [threading.Thread(target=press), threading.Thread(target=count)]
     [thread.start() for thread in threads]
     try:
-        with pytest.raises(KeyboardInterrupt):
-            long_design().rest(device="cpu", progress=shares.append)
+        work, ended = spent(lambda: long_design().rest(device="cpu", progress=shares.append))
     finally:
         counted[1] = False
         [thread.join() for thread in threads]
-    assert max(shares) < 1
+    assert ended is KeyboardInterrupt
+    assert work < 0.5 * whole, "the rest went on to its end"
     assert counted[0] > 10, "no other thread went on meanwhile"
 
 
@@ -85,15 +107,13 @@ def test_ctrl_c_ends_a_script():
     assert "KeyboardInterrupt" in said and "panic" not in said
 
 
-def test_an_exception_of_the_progress_ends_the_rest():
-    class Enough(Exception):
-        pass
-
+def test_an_exception_of_the_progress_ends_the_rest(whole):
     def stop(share):
         raise Enough
 
-    with pytest.raises(Enough):
-        long_design().rest(device="cpu", progress=stop)
+    work, ended = spent(lambda: long_design().rest(device="cpu", progress=stop))
+    assert ended is Enough
+    assert work < 0.5 * whole, "the rest went on to its end"
 
 
 def test_progress_is_a_bool_or_a_function():

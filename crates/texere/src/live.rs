@@ -14,7 +14,7 @@ use texere_fabric::{Loom, Structure, Woven};
 
 pub use self::error::LiveError;
 
-/// A fabric that is being edited, and its whole mesh on a device.
+/// A fabric that is being edited, with its whole mesh on a device.
 ///
 /// Lifts, yarns, control points and colours change one by one. [`Live::update`] makes again only
 /// what has changed. The mesh is then equal to that of the edited fabric made from scratch. To undo

@@ -1,12 +1,12 @@
 //! Pictures of cloth, lit and shaded on a device of `wgpu` (feature `render`).
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | open a device that renders | [`open_renderer`], which gives a [`Renderer`] |
-//! | put cloth on it | [`Renderer::scene`], which gives a [`Scene`] |
-//! | look at it | [`Camera`], [`Pose`], [`Extent`], [`Cut`] |
-//! | have a picture in memory | [`Scene::picture`], which gives a [`Picture`] |
-//! | choose how good it is, and what lies behind it | [`Quality`], [`Background`] |
+//! | send cloth to it | [`Renderer::scene`], which gives a [`Scene`] |
+//! | choose the view | [`Camera`], [`Pose`], [`Extent`], [`Cut`] |
+//! | make a picture in memory | [`Scene::picture`], which gives a [`Picture`] |
+//! | choose the quality, and the background | [`Quality`], [`Background`] |
 //! | know which yarn a pixel shows | [`Scene::seen_at`], which gives a [`Seen`] |
 //! | have depths, normals and yarns of all pixels | [`Scene::layers`], which gives [`Layers`] |
 //!

@@ -1,5 +1,5 @@
-//! Readers of saved yarns and of curves, and what readers report: where a file is wrong, and what a
-//! place in a cloth is called.
+//! Readers of saved yarns and of curves, and what readers report: the place of an error in a file,
+//! and the names of places in a cloth.
 //!
 //! [`texere::read`](fn@crate::read) reads a design's file and the files that it names;
 //! [`read_from`](crate::read_from) takes them from memory.
@@ -9,7 +9,7 @@
 //! [`run`](crate::rest::Resting::run) is `Ok` even if yarns don't come to rest:
 //! [`Cloth::report`](crate::Cloth::report) then says so.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | read yarns that were saved, without settling them again | [`yarns`], [`yarns_from`], which give [`SavedYarns`] |
 //! | read curves that another program wrote, as round yarns | [`curves`], [`curves_from`], with a [`CurveScale`] |

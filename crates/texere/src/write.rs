@@ -4,7 +4,7 @@
 //! [`file()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of
 //! the caller's.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | write a mesh larger than memory | [`stream`], [`stream_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |

@@ -1,6 +1,6 @@
-//! Yarns: material, section, thickness, how they end, and how long they are.
+//! Yarns: their materials, sections, thicknesses, ends and lengths.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | build yarns of any origin | [`Yarns::builder`](crate::Yarns::builder), which gives a [`YarnsBuilder`] |
 //! | say what a yarn is made of, and what its section is | [`Material`], [`Section`] |

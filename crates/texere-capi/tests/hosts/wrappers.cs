@@ -1,4 +1,4 @@
-// What the classes for C# promise beyond the calls: exceptions, disposal, structs that lie as the library's do.
+// Tests what the classes for C# add to the calls: exceptions, disposal, and structs laid out like the library's.
 using System;
 using System.Runtime.InteropServices;
 using System.Text;
@@ -77,7 +77,7 @@ static unsafe class Wrappers
             }
             run.Cancel();
             Check(Thrown(() => plan.Mesh(vertices, indices, run)).Status == Status.Cancelled, "cancelled");
-            // The plan keeps its device.
+            // The plan stays valid when its device is disposed of.
             device.Dispose();
             device.Dispose();
             plan.Mesh(vertices, indices);

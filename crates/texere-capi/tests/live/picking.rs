@@ -1,4 +1,4 @@
-//! What a ray hits, and what a weaver calls the place.
+//! What a ray hits, and the name of the place in a weaver's terms.
 
 use texere::Live;
 use texere::mesh::Ray;

@@ -1,4 +1,4 @@
-//! Live cloth and pickers with what they can't take.
+//! Calls about live cloth and pickers with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
@@ -68,7 +68,7 @@ fn reading(own: &'static Handles) -> Vec<Case> {
     for run in strange() {
         case!(cases, texere_live_mesh(own.live, run, null_mut(), 0, null_mut(), 0));
     }
-    // Numbers of values that are not those of the mesh, stretches that are no part of it, and null
+    // Counts that are not those of the mesh, ranges that do not lie within the mesh, and null
     // arrays.
     case!(cases, texere_live_mesh(own.live, null(), null_mut(), 1, null_mut(), 1));
     case!(cases, texere_live_read(own.live, &none, null_mut(), 1, null_mut(), 0));
@@ -132,7 +132,7 @@ fn edits_of_yarns(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_yarns, |it| texere_live_set_rest(own.live, it));
     sizes!(cases, texere_yarn, |what| texere_live_set_yarn(own.live, 0, &what, POINTS.as_ptr(), 2));
     sizes!(cases, texere_yarn, |what| texere_live_yarn(own.live, 0, &mut what));
-    // Yarns and materials that there are not, values that they can't have, too few points.
+    // Yarns and materials that do not exist, invalid values of them, and too few control points.
     for yarn in [8, u64::MAX] {
         case!(cases, texere_live_set_yarn(own.live, yarn, &what, POINTS.as_ptr(), 2));
         case!(cases, texere_live_set_points(own.live, yarn, POINTS.as_ptr(), 2));
@@ -186,7 +186,7 @@ fn picking(own: &'static Handles) -> Vec<Case> {
         case!(cases, texere_live_place(own.live, &hit, null_mut(), 0, &mut 0));
         case!(cases, texere_cloth_place(own.cloth, &hit, null_mut(), 0, &mut 0));
     }
-    // No hit, no place for the text or its length, one that is too small.
+    // No hit, a null pointer for the text or for its length, and too little room for the text.
     case!(cases, texere_live_place(own.live, null(), null_mut(), 0, &mut 0));
     case!(cases, texere_cloth_place(own.cloth, null(), null_mut(), 0, &mut 0));
     for size in [1, 4] {

@@ -1,4 +1,4 @@
-//! Every function of the header refuses what it can't take, with the status that says so.
+//! Every function of the header refuses invalid arguments with TEXERE_ARGUMENT.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -63,7 +63,7 @@ fn every_function_refuses_what_it_can_not_take() {
         assert_eq!(call(), TEXERE_ARGUMENT, "{name}, case {number}: {}", message());
         assert!(!message().is_empty(), "{name}, case {number}");
     }
-    // The header's list, so that none is forgotten.
+    // The functions of the header, to make sure that no function is missing here.
     let header =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("include/texere.h")).unwrap();
     let names = header.lines().filter_map(|line| {
@@ -97,7 +97,7 @@ fn what_was_freed_is_refused_and_may_be_freed_again() {
             texere_yarns_free(own.yarns);
             texere_renderer_free(own.renderer);
         }
-        // The plan keeps what it needs.
+        // The plan keeps its yarns and its device when their handles are freed.
         let (status, vertices) = handles::mesh(own.plan, null_mut());
         assert_eq!(status, TEXERE_OK, "{}", message());
         assert!(vertices.iter().all(|vertex| vertex.normal != [0.0; 3]));

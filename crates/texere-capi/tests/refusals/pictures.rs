@@ -1,4 +1,4 @@
-//! Wrong calls about pictures.
+//! Calls about pictures with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 

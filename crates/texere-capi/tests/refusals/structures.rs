@@ -1,4 +1,4 @@
-//! Wrong calls about structures by arrays, their finish, and the files of designs.
+//! Calls about designs from arrays, finishes and files of designs, with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 

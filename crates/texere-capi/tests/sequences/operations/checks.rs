@@ -8,18 +8,18 @@ use super::{Operation, settings};
 use crate::caller::Caller;
 use crate::common::sized;
 
-/// A number of few things, or one that there is not.
+/// The number of one of few things, or a number that is too high.
 fn number(caller: &mut Caller<'_>) -> u64 {
     caller.random.pick(&[0, 0, 0, 1, u64::MAX])
 }
 
-/// A ray down onto the cloth, or one that no ray is.
+/// A ray down onto the cloth, or an invalid ray.
 pub(super) fn ray(caller: &mut Caller<'_>) -> texere_ray {
     let [x, y] = [(); 2].map(|()| caller.random.number(0.6));
     texere_ray { origin: [x, y, 9.0], direction: [0.0, 0.0, -1.0] }
 }
 
-/// A place on a yarn, or one that no yarn has.
+/// A place on a yarn, or a place that no yarn has.
 pub(super) fn hit(caller: &mut Caller<'_>) -> texere_hit {
     let (found, yarn) = (caller.random.pick(&[1, 1, 1, 0]), caller.random.pick(&[0, 1, 2, u32::MAX]));
     let (interval, t) = (caller.random.pick(&[0, 1, u32::MAX]), caller.random.number(0.5));

@@ -9,12 +9,12 @@ use super::{Operation, settings};
 use crate::caller::Caller;
 use crate::common::sized;
 
-/// A number of an end, a pick, a yarn or a material, or one that there is not.
+/// The number of an end, a pick, a yarn or a material, or a number that is too high.
 fn number(caller: &mut Caller<'_>) -> u64 {
     caller.random.pick(&[0, 0, 1, 1, 2, u64::MAX])
 }
 
-/// Points of a yarn: some more than it has, or fewer than any has.
+/// Control points of a yarn: a few more than it has, or too few for a yarn.
 fn points(caller: &mut Caller<'_>) -> Vec<texere_point> {
     let count = caller.random.pick(&[0, 2, 5, 9, 60]);
     let point = |number| {

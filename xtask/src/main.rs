@@ -10,6 +10,7 @@ mod instructions;
 mod mutants;
 mod mutate;
 mod publishing;
+mod python;
 mod sources;
 mod steps;
 mod workspace;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
             programs(&mut steps);
         }
         Some("hosts") => programs(&mut steps),
+        Some("python") => python(&mut steps),
         Some("demo") => demo::demo(&mut steps),
         Some("gallery") => demo::gallery(&mut steps),
         Some("bench-tables") => {
@@ -64,15 +66,18 @@ fn main() -> ExitCode {
         }
         _ => {
             eprintln!(
-                "usage: cargo xtask <demo | gallery | test | check | hosts | sources | mutate | instructions | bench-tables | bundle | install>"
+                "usage: cargo xtask <demo | gallery | test | check | hosts | python | sources | mutate | instructions | bench-tables | bundle | install>"
             );
             eprintln!("  demo   a picture of denim at rest; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
-            eprintln!("  test   all tests, doctests and the conformance suite");
+            eprintln!(
+                "  test   all tests, doctests, the conformance suite and the tests of the Python package"
+            );
             eprintln!(
                 "  check  formatting, lints, docs, licences, spelling, packages, instruction counts, the README's main command and programs that link the C library"
             );
             eprintln!("  hosts  programs in C, C++ and C# that link the installed library");
+            eprintln!("  python  builds the Python package, installs it in target/python and tests it");
             eprintln!("  sources  circles of files, long functions and wide comments");
             eprintln!(
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
@@ -94,13 +99,20 @@ fn main() -> ExitCode {
 }
 
 /// Runs all tests: a program that links the library, unit tests, integration tests, the conformance
-/// suite and doctests.
+/// suite, doctests and the tests of the Python package.
 fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
     install(steps, "a screen", &SCREEN);
     consumer(steps);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
+    python(steps);
+}
+
+/// Builds and tests the Python package.
+fn python(steps: &mut Steps) {
+    install(steps, "Python", &python::PACKAGES);
+    python::test(steps);
 }
 
 /// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Its

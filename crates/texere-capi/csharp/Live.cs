@@ -95,7 +95,7 @@ namespace Texere
         public ReadOnlySpan<Change> Update(out bool anew)
         {
             var update = new texere_update { struct_size = (uint)sizeof(texere_update) };
-            Call.Check(Native.texere_live_update(Own, &update), this);
+            Call.Check(Native.texere_live_update(Own, null, &update), this);
             anew = update.anew != 0;
             return new ReadOnlySpan<Change>(update.changes, checked((int)update.change_count));
         }

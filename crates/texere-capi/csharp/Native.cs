@@ -679,13 +679,14 @@ namespace Texere
 
         /// <summary>
         ///  Makes again the parts of the mesh that edits have changed, and writes which parts they are. The
-        ///  first update makes the whole mesh. The caller sets `update-&gt;struct_size` before the call.
+        ///  first update makes the whole mesh. `run` may be null. The caller sets `update-&gt;struct_size`
+        ///  before the call.
         ///
-        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails. The next update then makes the
-        ///  same parts.
+        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails, and with TEXERE_CANCELLED if
+        ///  `run` was cancelled. The next update then makes the same parts.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_update", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_update(texere_live* live, texere_update* update);
+        internal static extern texere_status texere_live_update(texere_live* live, texere_run* run, texere_update* update);
 
         /// <summary>
         ///  Writes the sizes of a live cloth's mesh as of its last update. The numbers of vertices and
@@ -702,6 +703,19 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_draws", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_draws(texere_live* live, texere_draw** draws);
+
+        /// <summary>
+        ///  Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+        ///  when the live cloth is edited or freed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_yarns(texere_live* live, texere_yarns** @out);
+
+        /// <summary>
+        ///  Frees a live cloth. A null handle is allowed.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void texere_live_free(texere_live* live);
 
         /// <summary>
         ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
@@ -724,19 +738,6 @@ namespace Texere
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_read(texere_live* live, texere_change* change, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
-
-        /// <summary>
-        ///  Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
-        ///  when the live cloth is edited or freed.
-        /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_live_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_yarns(texere_live* live, texere_yarns** @out);
-
-        /// <summary>
-        ///  Frees a live cloth. A null handle is allowed.
-        /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void texere_live_free(texere_live* live);
 
         /// <summary>
         ///  Writes the diameter, mm, of a yarn with the linear density `tex`, tex, and the density
@@ -847,7 +848,8 @@ namespace Texere
         ///  `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
         ///  has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
         ///
-        ///  Fails with TEXERE_ARGUMENT if the cloth has no such place, and if `size` is neither 0 nor above
+        ///  Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
+        ///  for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
         ///  the length.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -867,7 +869,8 @@ namespace Texere
         ///  pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
         ///  writes only which yarn it is.
         ///
-        ///  Fails with TEXERE_ARGUMENT if the live cloth has no such place.
+        ///  Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
+        ///  where the hit is.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_place(texere_live* live, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
@@ -1641,8 +1644,9 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 if the whole mesh was begun anew, for example because a yarn outgrew its room: then its
-        ///  sizes and draws may have changed, and vertices may have other numbers. Else 0.
+        ///  1 if the whole mesh was begun: in the first update, and for example after an edit by which a
+        ///  yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+        ///  numbers. Else 0.
         /// </summary>
         public uint anew;
         /// <summary>
@@ -2167,8 +2171,8 @@ namespace Texere
     ///  is made.
     ///
     ///  A mesh is made in chunks, which are so small that a call ends within 50 ms after its run is
-    ///  cancelled. If a chunk ends inside a yarn, its last ring is also the first ring of the next
-    ///  chunk.
+    ///  cancelled. How many there are depends on the device, and on the number of the machine's cores.
+    ///  If a chunk ends inside a yarn, its last ring is also the first ring of the next chunk.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_plan

@@ -16,7 +16,7 @@ static void check(enum texere_status status) {
 static void lift(struct texere_live *live, uint32_t up, struct texere_vertex *vertices, uint32_t *indices) {
     check(texere_live_set_lift(live, 2, 3, up));
     struct texere_update update = {.struct_size = sizeof update};
-    check(texere_live_update(live, &update));
+    check(texere_live_update(live, NULL, &update));
     if (update.anew) exit(1);
     printf("%s: %llu stretches made again\n", up ? "up" : "down", (unsigned long long)update.change_count);
     for (const struct texere_change *c = update.changes; c < update.changes + update.change_count; c++)
@@ -33,7 +33,7 @@ int main(int count, char **arguments) {
     check(texere_cloth_placed(design, &cloth));
     check(texere_live_of_cloth(cloth, device, NULL, &live));
     struct texere_update update = {.struct_size = sizeof update};
-    check(texere_live_update(live, &update));
+    check(texere_live_update(live, NULL, &update));
     struct texere_counts counts = {.struct_size = sizeof counts};
     check(texere_live_counts(live, &counts));
     struct texere_vertex *vertices = calloc(counts.vertices, sizeof *vertices);

@@ -300,8 +300,8 @@ typedef struct texere_picker texere_picker;
 // is made.
 //
 // A mesh is made in chunks, which are so small that a call ends within 50 ms after its run is
-// cancelled. If a chunk ends inside a yarn, its last ring is also the first ring of the next
-// chunk.
+// cancelled. How many there are depends on the device, and on the number of the machine's cores.
+// If a chunk ends inside a yarn, its last ring is also the first ring of the next chunk.
 typedef struct texere_plan texere_plan;
 
 // A device that makes pictures, and the yarns that the pictures show. One thread at a time may use
@@ -529,8 +529,9 @@ typedef struct texere_change {
 typedef struct texere_update {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 if the whole mesh was begun anew, for example because a yarn outgrew its room: then its
-  // sizes and draws may have changed, and vertices may have other numbers. Else 0.
+  // 1 if the whole mesh was begun: in the first update, and for example after an edit by which a
+  // yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+  // numbers. Else 0.
   uint32_t anew;
   // The ranges that were made again. They are valid until the next update of this live cloth, or
   // until it is freed.
@@ -1479,11 +1480,14 @@ enum texere_status texere_live_of_yarns(const struct texere_yarns *yarns,
                                         struct texere_live **out);
 
 // Makes again the parts of the mesh that edits have changed, and writes which parts they are. The
-// first update makes the whole mesh. The caller sets `update->struct_size` before the call.
+// first update makes the whole mesh. `run` may be null. The caller sets `update->struct_size`
+// before the call.
 //
-// Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails. The next update then makes the
-// same parts.
-enum texere_status texere_live_update(const struct texere_live *live, struct texere_update *update);
+// Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails, and with TEXERE_CANCELLED if
+// `run` was cancelled. The next update then makes the same parts.
+enum texere_status texere_live_update(const struct texere_live *live,
+                                      const struct texere_run *run,
+                                      struct texere_update *update);
 
 // Writes the sizes of a live cloth's mesh as of its last update. The numbers of vertices and
 // indices include the room between yarns, into which yarns can grow. The caller sets
@@ -1495,6 +1499,13 @@ enum texere_status texere_live_counts(const struct texere_live *live, struct tex
 // next update, or until the live cloth is freed.
 enum texere_status texere_live_draws(const struct texere_live *live,
                                      const struct texere_draw **draws);
+
+// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+// when the live cloth is edited or freed.
+enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
+
+// Frees a live cloth. A null handle is allowed.
+void texere_live_free(struct texere_live *live);
 
 // Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
 // of the room between yarns are undefined.
@@ -1521,13 +1532,6 @@ enum texere_status texere_live_read(const struct texere_live *live,
                                     uint64_t vertex_count,
                                     uint32_t *indices,
                                     uint64_t index_count);
-
-// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
-// when the live cloth is edited or freed.
-enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
-
-// Frees a live cloth. A null handle is allowed.
-void texere_live_free(struct texere_live *live);
 
 // Writes the diameter, mm, of a yarn with the linear density `tex`, tex, and the density
 // `density`, g/cm³. The density is that of the yarn with the air in it; 0.909 is usual for cotton.
@@ -1627,7 +1631,8 @@ enum texere_status texere_picker_pick(const struct texere_picker *picker,
 // `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
 // has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
 //
-// Fails with TEXERE_ARGUMENT if the cloth has no such place, and if `size` is neither 0 nor above
+// Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
+// for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
 // the length.
 enum texere_status texere_cloth_place(const struct texere_cloth *cloth,
                                       const struct texere_hit *hit,
@@ -1647,7 +1652,8 @@ enum texere_status texere_live_pick(const struct texere_live *live,
 // pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
 // writes only which yarn it is.
 //
-// Fails with TEXERE_ARGUMENT if the live cloth has no such place.
+// Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
+// where the hit is.
 enum texere_status texere_live_place(const struct texere_live *live,
                                      const struct texere_hit *hit,
                                      char *words,

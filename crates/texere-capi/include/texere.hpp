@@ -379,7 +379,11 @@ public:
         check(texere_live_set_lift(get(), end, pick, up));
     }
     // Brings the edits to the mesh. The changes are valid until the next update.
-    texere_update update() { return told(texere_live_update, get()); }
+    texere_update update(const texere_run *run = nullptr) {
+        auto update = sized<texere_update>();
+        check(texere_live_update(get(), run, &update));
+        return update;
+    }
     texere_counts counts() const { return told(texere_live_counts, get()); }
     // The draws, which say which indices draw which yarn. They are valid until the next update.
     view<const texere_draw> draws() const {

@@ -1,4 +1,4 @@
-//! Checks of what C passes: pointers, texts, structs that begin with their size.
+//! Checks of what C passes: pointers and texts.
 
 use std::ffi::{CStr, c_char};
 
@@ -81,36 +81,6 @@ pub(crate) unsafe fn text<'a>(name: &str, pointer: *const c_char, length: usize)
     // SAFETY: the caller vouches for it.
     let bytes = unsafe { slice(name, pointer.cast::<u8>(), length) }?;
     str::from_utf8(bytes).map_err(|error| Failure::argument(format!("{name} is not UTF-8: {error}")))
-}
-
-/// Makes sure that the `struct_size` with which a struct of the caller's begins is the size of `T`.
-///
-/// # Safety
-///
-/// `pointer` is valid for reads of a `u32`.
-pub(crate) unsafe fn check_sized<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
-    check(name, pointer)?;
-    // SAFETY: the pointer is neither null nor misaligned for `T`, which begins with a `u32`.
-    let given = unsafe { pointer.cast::<u32>().read() };
-    let size = size_of::<T>();
-    if given as usize != size {
-        return Err(Failure::argument(format!(
-            "{name}.struct_size is {given}, and this library takes {size}"
-        )));
-    }
-    Ok(())
-}
-
-/// A copy of a struct of the caller's that begins with its `struct_size`.
-///
-/// # Safety
-///
-/// `pointer` is valid for reads of a `u32`, and of as many bytes as that says.
-pub(crate) unsafe fn sized<T: Copy>(name: &str, pointer: *const T) -> Result<T, Failure> {
-    // SAFETY: the caller vouches for it.
-    unsafe { check_sized(name, pointer) }?;
-    // SAFETY: the struct has the size of `T`, and the pointer is neither null nor misaligned.
-    Ok(unsafe { pointer.read() })
 }
 
 /// Makes sure that a callback is not null.

@@ -10,7 +10,7 @@ use texere::check::{
 };
 use texere::{PipelineError, Settings};
 
-use crate::argument::{check_sized, lend, numbered};
+use crate::argument::{lend, numbered};
 use crate::cloth::{Cloth, texere_cloth};
 use crate::error::guard;
 use crate::failure::Failure;
@@ -18,6 +18,7 @@ use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::lendable::lendable;
 use crate::run::{reporter, texere_run};
 use crate::settings::{chosen, texere_settings};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 
 /// The check of a cloth: how near its yarns come to one another, its faults, and their cures.
@@ -85,6 +86,8 @@ pub struct texere_fault {
     pub words: *const c_char,
 }
 
+grows_after!(texere_fault, words);
+
 /// The result of a check.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -119,6 +122,8 @@ pub struct texere_diagnosis {
     /// How many warnings `texere_check_warning` lends.
     pub warnings: u64,
 }
+
+grows_after!(texere_diagnosis, warnings);
 
 /// A fault, with words that the library lends to the caller.
 #[derive(Debug)]
@@ -286,9 +291,8 @@ pub unsafe extern "C" fn texere_check_diagnosis(
         // SAFETY: the caller vouches for `diagnosis`.
         unsafe { check_sized("diagnosis", diagnosis) }?;
         let found = get(check)?.diagnosis();
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { diagnosis.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(diagnosis, found) };
         Ok(())
     })
 }
@@ -309,9 +313,8 @@ pub unsafe extern "C" fn texere_check_fault(
         let Fault { kind, value, position, words } = numbered("fault", &check.faults, number)?;
         let struct_size = size_of::<texere_fault>() as u32;
         let (kind, value, position, words) = (*kind, *value, *position, words.as_ptr());
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { fault.write(texere_fault { struct_size, kind, value, position, words }) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(fault, texere_fault { struct_size, kind, value, position, words }) };
         Ok(())
     })
 }

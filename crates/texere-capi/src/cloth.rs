@@ -6,13 +6,14 @@ use std::sync::OnceLock;
 use texere::check::Measures;
 use texere::rest::RestReport;
 
-use crate::argument::{check_sized, lend, numbered};
+use crate::argument::{lend, numbered};
 use crate::design::texere_design;
 use crate::device::texere_device;
 use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::lendable::lendable;
 use crate::run::{reporter, texere_run};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
@@ -63,6 +64,8 @@ pub struct texere_report {
     /// How many warnings the cloth has: `texere_cloth_warning` lends them.
     pub warnings: u64,
 }
+
+grows_after!(texere_report, warnings);
 
 impl Cloth {
     fn new(cloth: texere::Cloth, device: &str) -> Self {
@@ -138,9 +141,8 @@ pub unsafe extern "C" fn texere_cloth_report(
             words: cloth.words.as_ptr(),
             warnings: cloth.warnings.len() as u64,
         };
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { report.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(report, found) };
         Ok(())
     })
 }

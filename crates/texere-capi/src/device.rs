@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use texere::Backend;
 
-use crate::argument::{check_sized, text};
+use crate::argument::text;
 use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::lendable::lendable;
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 
 /// An open device: a GPU, or the CPU.
@@ -45,6 +46,8 @@ pub struct texere_device_info {
     /// How much memory the device has, bytes; 0 if it is not known.
     pub memory_bytes: u64,
 }
+
+grows_after!(texere_device_info, memory_bytes);
 
 /// Opens a device by its name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
 /// "wgpu" and so on. A `name_length` of 0 is "auto".
@@ -91,9 +94,8 @@ pub unsafe extern "C" fn texere_device_describe(
             driver,
             memory_bytes: is.memory_bytes.unwrap_or(0),
         };
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { info.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(info, found) };
         Ok(())
     })
 }

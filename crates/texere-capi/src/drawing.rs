@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use texere::picture::{Background, Camera, Cut, Pose, Quality, Renderer, Scene, picture_sides};
+use texere::picture::{Background, Camera, Cut, Pose, Quality, RenderError, Renderer, Scene, picture_sides};
 use texere::yarn::Origin;
 use texere::{Settings, Yarns};
 
@@ -28,10 +28,13 @@ impl Drawing {
         &mut self,
         yarns: &Yarns,
         settings: Option<Settings>,
-        progress: impl FnMut(f64) -> ControlFlow<()>,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(), Failure> {
         // The previous scene is dropped first, because the new one may need its memory.
         self.scene = None;
+        if progress(0.0).is_break() {
+            return Err(RenderError::Cancelled.into());
+        }
         let settings = settings.unwrap_or_else(|| usual(yarns));
         self.scene = Some(self.renderer.scene_with_progress(yarns, &settings, progress)?);
         Ok(())

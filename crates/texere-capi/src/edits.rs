@@ -4,7 +4,7 @@
 use texere::yarn::Material;
 use texere::{ControlPoint, Yarn};
 
-use crate::argument::{check, check_sized, flag, sized, slice};
+use crate::argument::{check, flag, slice};
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
@@ -12,6 +12,7 @@ use crate::handle::{alone, get};
 use crate::lendable::lendable;
 use crate::live::{Editing, Known, texere_live};
 use crate::material::texere_material;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::yarns::{texere_point, texere_yarns};
 
@@ -30,6 +31,8 @@ pub struct texere_yarn {
     /// Its twist, radians per mm; positive is Z twist.
     pub twist: f32,
 }
+
+grows_after!(texere_yarn, twist);
 
 /// Sets whether the warp is up where an end and a pick cross. Ends and picks count from 0. Both
 /// threads then lie as the structure places them, even if they lay otherwise before.
@@ -170,9 +173,10 @@ pub unsafe extern "C" fn texere_live_yarn(
         let [yarn] = number([("yarn", yarn)])?;
         let Yarn { material, section, closed, twist, .. } = alone(live, |editing| yarn_of(editing, yarn))?;
         let struct_size = size_of::<texere_yarn>() as u32;
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { what.write(texere_yarn { struct_size, material, section, closed: closed.into(), twist }) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe {
+            write_sized(what, texere_yarn { struct_size, material, section, closed: closed.into(), twist })
+        };
         Ok(())
     })
 }

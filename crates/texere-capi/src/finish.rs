@@ -4,11 +4,11 @@ use texere::Design;
 use texere::rest::{Finish, Length};
 use texere::woven::{BySet, Set, Stretch};
 
-use crate::argument::{check_sized, sized};
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, get, give};
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::structure::choice;
 
@@ -59,6 +59,8 @@ pub struct texere_finish {
     /// The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
     pub stretch_by: f64,
 }
+
+grows_after!(texere_finish, stretch_by);
 
 impl texere_finish {
     fn of(design: &Design) -> Self {
@@ -154,9 +156,8 @@ pub unsafe extern "C" fn texere_design_finish(
         // SAFETY: the caller vouches for `finish`.
         unsafe { check_sized("finish", finish) }?;
         let found = texere_finish::of(&*get(design)?);
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { finish.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(finish, found) };
         Ok(())
     })
 }

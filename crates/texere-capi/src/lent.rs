@@ -9,6 +9,7 @@ use texere::gpu::OpenClEngine;
 use texere::gpu::{WgpuEngine, wgpu, wgpu::hal::api::Vulkan};
 
 use crate::failure::Failure;
+use crate::sized::grows_after;
 
 /// Buffers are `cl_mem`.
 pub const TEXERE_NATIVE_OPENCL: u32 = 1;
@@ -37,6 +38,8 @@ pub struct texere_native {
     /// Zero.
     pub reserved: u32,
 }
+
+grows_after!(texere_native, reserved);
 
 /// A part of a buffer on a device.
 #[repr(C)]
@@ -75,6 +78,8 @@ pub struct texere_device_mesh {
     /// The `cl_event` to wait for, valid until the session's next call; 0 with Vulkan.
     pub ready: u64,
 }
+
+grows_after!(texere_device_mesh, ready);
 
 /// The objects of OpenCL or Vulkan that an engine works with. Fails if the engine has neither.
 pub(crate) fn native(engine: &dyn Engine) -> Result<texere_native, Failure> {
@@ -149,6 +154,7 @@ fn vulkan_buffer(buffer: Option<&wgpu::Buffer>) -> u64 {
 }
 
 /// No objects of any interface.
+#[cfg(any(feature = "opencl", vulkan))]
 const NONE: texere_native = texere_native {
     struct_size: size_of::<texere_native>() as u32,
     kind: 0,

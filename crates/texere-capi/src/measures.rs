@@ -2,11 +2,12 @@
 
 use texere::check::{Cover, KnitMeasures, Measures};
 
-use crate::argument::{check_sized, slice_mut};
+use crate::argument::slice_mut;
 use crate::cloth::{Cloth, texere_cloth};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::get;
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::exactly;
 
@@ -62,6 +63,8 @@ pub struct texere_measures {
     pub tightness: f64,
 }
 
+grows_after!(texere_measures, tightness);
+
 impl Cloth {
     /// The measures. They are taken at the first call and kept.
     fn measures(&self) -> Result<&Measures, Failure> {
@@ -87,9 +90,8 @@ pub unsafe extern "C" fn texere_cloth_measures(
         unsafe { check_sized("measures", measures) }?;
         let cloth = get(cloth)?;
         let found = of(cloth.measures()?, cloth.cloth.design().structure.size_mm());
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { measures.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(measures, found) };
         Ok(())
     })
 }

@@ -7,12 +7,13 @@ use texere::Vertex;
 use texere::backend::MeshMut;
 use texere::mesh::{MeshPiece, Topology};
 
-use crate::argument::{sized, slice_mut};
+use crate::argument::slice_mut;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{get, get_any};
 use crate::plan::{Planned, texere_plan};
 use crate::run::{Run, texere_run};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::view::{Strided, texere_view};
 use crate::yarns::exactly;
@@ -46,6 +47,8 @@ pub struct texere_mesh_arrays {
     /// Indices, a `uint32_t` each. With null `data` they are left out.
     pub indices: texere_view,
 }
+
+grows_after!(texere_mesh_arrays, indices);
 
 /// The views of `texere_mesh_arrays` after their checks.
 struct Places<'a> {

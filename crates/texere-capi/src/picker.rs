@@ -6,7 +6,7 @@ use std::sync::Arc;
 use texere::backend::Plan;
 use texere::mesh::{End, Ray};
 use texere::yarn::YarnPlace;
-use texere::{Hit, Picker};
+use texere::{Hit, Picker, Settings, Yarns};
 
 use crate::argument::{check, write_text};
 use crate::cloth::texere_cloth;
@@ -91,30 +91,57 @@ impl From<Option<Hit>> for texere_hit {
 
 /// The place of a hit along its yarn.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
-    pub(crate) yarn: usize,
-    pub(crate) interval: usize,
-    pub(crate) t: f64,
+struct Place {
+    yarn: usize,
+    interval: usize,
+    t: f64,
+    position: [f64; 3],
 }
+
+/// The share of an interval by which the mesh of a yarn may lie beside its spline. With the fewest
+/// rings, one between two control points, it lies 0.05 beside a spline that turns by 90 degrees.
+const SAG: f64 = 0.25;
 
 impl Place {
     /// # Safety
     ///
     /// `hit` is valid for a read.
-    pub(crate) unsafe fn of(hit: *const texere_hit) -> Result<Self, Failure> {
+    unsafe fn of(hit: *const texere_hit) -> Result<Self, Failure> {
         check("hit", hit)?;
         // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
-        let texere_hit { found, yarn, interval, t, .. } = unsafe { hit.read() };
+        let texere_hit { found, yarn, interval, t, position, .. } = unsafe { hit.read() };
         if found != 1 {
             return Err(Failure::argument(format!("hit.found is {found}, so there is no place to name")));
         }
-        Ok(Self { yarn: yarn as usize, interval: interval as usize, t })
+        Ok(Self { yarn: yarn as usize, interval: interval as usize, t, position })
     }
 
-    /// The failure that says that there is no such place.
-    pub(crate) fn missing(&self) -> Failure {
-        let Self { yarn, interval, t } = self;
-        Failure::argument(format!("there is no place {t} in interval {interval} of yarn {yarn}"))
+    /// The place on yarn `number` of `yarns`. Fails if there is none, and if that yarn's surface
+    /// does not pass through the hit. The hit is then one of other yarns, for example of live cloth
+    /// after an edit, and its numbers stand for another place here.
+    fn on(&self, yarns: &Yarns, number: usize) -> Result<YarnPlace, Failure> {
+        let Self { yarn, interval, t, position } = *self;
+        let at = YarnPlace::at(yarns, number, interval, t).ok_or_else(|| {
+            Failure::argument(format!("there is no place {t} in interval {interval} of yarn {yarn}"))
+        })?;
+        let points = yarns.yarn_points(number).unwrap_or_default();
+        let ends = [points[interval], points[(interval + 1) % points.len()]];
+        let half = ends.map(|end| end.half_width().max(end.half_height()));
+        let layout = yarns.layout();
+        let section = &layout.sections()[layout.yarns()[number].section as usize];
+        let corners = section.outline(layout.corners().unwrap_or(Settings::default().sides));
+        let reach = corners.iter().map(|corner| corner.x.hypot(corner.y)).fold(0.0, f32::max);
+        let length = f64::from(ends[0].position().distance(ends[1].position()));
+        let most = f64::from(half[0].max(half[1]) * reach) + SAG * length;
+        let apart = [0, 1, 2].map(|axis| (position[axis] - at.position[axis]).powi(2));
+        let apart = apart.iter().sum::<f64>().sqrt();
+        if apart <= most {
+            return Ok(at);
+        }
+        Err(Failure::argument(format!(
+            "hit.position is {apart:.3} mm from place {t} in interval {interval} of yarn {yarn}, expected \
+             {most:.3} at most: the hit is one of other yarns, or of an edited yarn before its edit"
+        )))
     }
 }
 
@@ -183,7 +210,8 @@ pub unsafe extern "C" fn texere_picker_pick(
 /// `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
 /// has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
 ///
-/// Fails with TEXERE_ARGUMENT if the cloth has no such place, and if `size` is neither 0 nor above
+/// Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
+/// for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
 /// the length.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_place(
@@ -198,7 +226,7 @@ pub unsafe extern "C" fn texere_cloth_place(
         let place = unsafe { Place::of(hit) }?;
         let cloth = get(cloth)?;
         let yarns = cloth.cloth.yarns();
-        let at = YarnPlace::at(yarns, place.yarn, place.interval, place.t).ok_or_else(|| place.missing())?;
+        let at = place.on(yarns, place.yarn)?;
         let said = cloth.cloth.design().named(yarns, &at).to_string();
         // SAFETY: the caller vouches for `words` and `length`.
         unsafe { write_text(&said, words, size, length) }
@@ -225,7 +253,8 @@ pub unsafe extern "C" fn texere_live_pick(
 /// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
 /// writes only which yarn it is.
 ///
-/// Fails with TEXERE_ARGUMENT if the live cloth has no such place.
+/// Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
+/// where the hit is.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_place(
     live: *const texere_live,
@@ -240,7 +269,7 @@ pub unsafe extern "C" fn texere_live_place(
         let said = alone(live, |editing| {
             // To name a place, its yarn is enough: `yarn` has it alone, as number 0.
             let yarn = editing.live.only(place.yarn)?;
-            let at = YarnPlace::at(&yarn, 0, place.interval, place.t).ok_or_else(|| place.missing())?;
+            let at = place.on(&yarn, 0)?;
             let named = editing.known.design().map(|design| design.named(&yarn, &at).to_string());
             Ok(named.unwrap_or_else(|| yarn.layout().yarns()[0].origin.to_string()))
         })?;

@@ -1,8 +1,8 @@
 //! Pictures: the view, the background and the quality of one.
 
-use crate::argument::{check_sized, sized};
 use crate::error::guard;
 use crate::failure::Failure;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 
 /// The whole cloth from straight above its face.
@@ -76,6 +76,8 @@ pub struct texere_picture {
     pub height_mm: f32,
 }
 
+grows_after!(texere_picture, height_mm);
+
 /// The box round yarns.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -140,9 +142,8 @@ pub unsafe extern "C" fn texere_picture_default(picture: *mut texere_picture) ->
             field_of_view: FIELD_OF_VIEW,
             height_mm: 0.0,
         };
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { picture.write(usual) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(picture, usual) };
         Ok(())
     })
 }

@@ -5,13 +5,13 @@ use std::sync::{Arc, Mutex};
 
 use texere::backend::Session;
 
-use crate::argument::check_sized;
 use crate::error::guard;
 use crate::handle::{Handle, alone, clear, free, get, get_any, give};
 use crate::lent::{mesh as lend, native as natives, texere_device_mesh, texere_native};
 use crate::mesh::{memory, texere_vertex};
 use crate::plan::{Planned, texere_plan};
 use crate::run::texere_run;
+use crate::sized::{check_sized, write_sized};
 use crate::status::texere_status;
 
 /// Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
@@ -68,9 +68,8 @@ pub unsafe extern "C" fn texere_session_native(
         // SAFETY: the caller vouches for `native`.
         unsafe { check_sized("native", native) }?;
         let found = alone(session, |lending| natives(lending.session.engine()))?;
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { native.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(native, found) };
         Ok(())
     })
 }
@@ -99,9 +98,8 @@ pub unsafe extern "C" fn texere_session_mesh(
             let slot = session.slot_of_mesh(chunk)?;
             lend(session.engine(), slot, chunk)
         })?;
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { mesh.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(mesh, found) };
         Ok(())
     })
 }

@@ -3,10 +3,11 @@
 use texere::Settings;
 use texere::mesh::{Frame, Quantum, Topology};
 
-use crate::argument::{check_sized, flag, sized};
+use crate::argument::flag;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::get;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
@@ -42,6 +43,8 @@ pub struct texere_settings {
     /// The step of the grid that packed positions lie on, mm: a power of two from 2^-24 to 2^11.
     pub quantum_mm: f32,
 }
+
+grows_after!(texere_settings, quantum_mm);
 
 /// The settings that `pointer` points to, or those that suit `yarns` if it is null.
 ///
@@ -105,9 +108,8 @@ pub unsafe extern "C" fn texere_settings_default(
             caps: u32::from(usual.caps),
             quantum_mm: usual.quantum.mm(),
         };
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { settings.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(settings, found) };
         Ok(())
     })
 }

@@ -7,12 +7,13 @@ use texere::warp::{Bar, CHAIN_COURSES, Chain, Lap, NEEDLES_MOST, SPACE_MAX, Thre
 use texere::weft::{Cells, Gauge};
 use texere::{Design, Structure};
 
-use crate::argument::{sized, text};
+use crate::argument::text;
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused, texere_knit_yarn};
 
@@ -86,6 +87,8 @@ pub struct texere_warp_knit {
     /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
 }
+
+grows_after!(texere_warp_knit, looks);
 
 impl texere_bar {
     /// # Safety

@@ -5,12 +5,13 @@ use std::ffi::c_char;
 use texere::weft::{Beds, Cell, Cells, Chart, ChartError, Gauge, Knitted, Machine};
 use texere::{Design, FabricError, Structure};
 
-use crate::argument::{sized, text};
+use crate::argument::text;
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused, texere_knit_yarn};
 
@@ -91,6 +92,8 @@ pub struct texere_weft_knit {
     /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
 }
+
+grows_after!(texere_weft_knit, looks);
 
 impl texere_stitch {
     fn read(self, number: usize) -> Result<Cell, Failure> {

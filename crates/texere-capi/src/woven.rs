@@ -5,12 +5,13 @@ use std::ffi::c_char;
 use texere::woven::{Crimp, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
 use texere::{Design, Structure};
 
-use crate::argument::{sized, text};
+use crate::argument::text;
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused};
 use crate::view::texere_view;
@@ -95,6 +96,8 @@ pub struct texere_woven {
     /// The materials and sections that the threads refer to.
     pub looks: texere_looks,
 }
+
+grows_after!(texere_woven, looks);
 
 impl texere_thread {
     fn read(&self) -> Thread {

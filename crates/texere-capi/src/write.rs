@@ -4,7 +4,8 @@ use std::ffi::{c_char, c_void};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::Arc;
 
-use texere::Pipeline;
+use texere::backend;
+use texere::mesh::{Limits, Topology};
 use texere::write::Format;
 
 use crate::argument::{given, text};
@@ -12,8 +13,8 @@ use crate::callback::Answer;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{get, get_any};
-use crate::plan::{LIMITS, Planned, texere_plan};
-use crate::run::{Run, reporter, texere_run};
+use crate::plan::{Planned, texere_plan};
+use crate::run::{Run, texere_run};
 use crate::status::texere_status;
 
 /// glTF 2.0 in one binary file, `.glb`.
@@ -60,14 +61,15 @@ impl<F> Seek for CallbackFile<F> {
     }
 }
 
+/// Chunks of a file: 2 MiB of vertices at most. The file does not depend on them. A disk that takes
+/// 100 MB a second takes a chunk and its triangles in 50 ms.
+const LIMITS: Limits = Limits { binding_bytes: 2 << 20, ..Limits::NONE };
+
 impl Planned {
-    /// The pipeline that makes the mesh for a file.
-    fn pipeline(&self, run: Option<Arc<Run>>) -> Pipeline<'_> {
-        let mut report = reporter(run);
-        Pipeline::new(&self.yarns)
-            .settings(*self.plan.settings())
-            .limits(LIMITS)
-            .progress(move |done| report(done.rings as f64 / done.total.max(1) as f64))
+    /// The run that a writer takes: with a pattern of indices for all draws, so that the device
+    /// makes none.
+    fn writing(&self, run: Option<Arc<Run>>) -> Result<backend::Run<'_>, Failure> {
+        self.run_of(Arc::new(self.plan.with_topology(Topology::Shared)), LIMITS, run)
     }
 }
 
@@ -87,7 +89,7 @@ pub unsafe extern "C" fn texere_plan_write(
         // SAFETY: the caller vouches for `path`.
         let path = unsafe { text("path", path, path_length) }?;
         let (plan, run) = (get(plan)?, get_any(run)?);
-        texere::write::stream(plan.pipeline(run), &*plan.device.backend, path)?;
+        texere::write::run(plan.writing(run)?, plan.yarns.materials(), path)?;
         Ok(())
     })
 }
@@ -120,7 +122,7 @@ pub unsafe extern "C" fn texere_plan_write_to(
             unsafe { callback(user, offset, bytes.as_ptr(), bytes.len()) }
         };
         let file = CallbackFile { take, position: 0, end: 0 };
-        texere::write::stream_to(plan.pipeline(run), &*plan.device.backend, format, file)?;
+        texere::write::run_to(plan.writing(run)?, plan.yarns.materials(), format, file)?;
         Ok(())
     })
 }

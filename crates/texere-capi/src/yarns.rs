@@ -5,10 +5,11 @@ use std::ffi::c_char;
 use texere::yarn::Halves;
 use texere::{ControlPoint, Yarn, Yarns};
 
-use crate::argument::{check, check_sized, sized, slice, slice_mut, text};
+use crate::argument::{check, slice, slice_mut, text};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 
 /// Yarns: their control points, sections and materials.
@@ -63,6 +64,8 @@ pub struct texere_yarn_arrays {
     pub twist: *const f32,
 }
 
+grows_after!(texere_yarn_arrays, twist);
+
 /// How many yarns and control points a handle of yarns has.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +79,8 @@ pub struct texere_yarn_counts {
     /// How many control points all yarns have together.
     pub points: u64,
 }
+
+grows_after!(texere_yarn_counts, points);
 
 /// Makes yarns, round or flattened, of the caller's arrays, which are copied.
 ///
@@ -180,9 +185,8 @@ pub unsafe extern "C" fn texere_yarns_counts(
             yarns: yarns.layout().yarns().len() as u64,
             points: yarns.points().len() as u64,
         };
-        // SAFETY: `check_sized` has made sure that the pointer is neither null nor misaligned, and
-        // that the struct is long enough.
-        unsafe { counts.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(counts, found) };
         Ok(())
     })
 }

@@ -86,6 +86,11 @@ fn unnamed(parameter: &str) -> String {
     }
 }
 
+/// Whether a struct of these members begins with its size. Members may be added at its end.
+fn says_its_size(body: &str) -> bool {
+    body.starts_with("uint32_t struct_size;")
+}
+
 /// The declarations of `kept` that are missing or different in `now`, one on each line. The text is
 /// empty if the number of the binary interface is higher in `now`.
 fn broken(kept: &str, now: &str) -> String {
@@ -94,7 +99,8 @@ fn broken(kept: &str, now: &str) -> String {
     if abi(&now) > abi(&kept) {
         return String::new();
     }
-    let broken = kept.iter().filter(|(name, meaning)| now.get(*name) != Some(meaning));
+    let holds = |was: &str, is: &str| was == is || says_its_size(was) && is.starts_with(was);
+    let broken = kept.iter().filter(|(name, was)| !now.get(*name).is_some_and(|is| holds(was, is)));
     broken
         .map(|(name, was)| format!("{name}: was {was}, is {}\n", now.get(name).map_or("gone", |is| is)))
         .collect()
@@ -133,6 +139,8 @@ fn each_kind_of_change_is_seen() {
         ("double *share", "float *share", "texere_run_progress"),
         ("uint32_t subdivisions;\n", "", "texere_settings"),
         ("uint32_t subdivisions;", "uint64_t subdivisions;", "texere_settings"),
+        ("uint32_t subdivisions;", "uint32_t later;\nuint32_t subdivisions;", "texere_settings"),
+        ("} texere_view;", "uint64_t later;\n} texere_view;", "texere_view"),
         ("TEXERE_IO = 5", "TEXERE_IO = 6", "TEXERE_IO"),
         ("#define TEXERE_REFUSED 3", "#define TEXERE_REFUSED 4", "TEXERE_REFUSED"),
         ("typedef struct texere_run texere_run;", "", "texere_run"),
@@ -152,8 +160,39 @@ fn each_kind_of_change_is_seen() {
     }
     let more = now.replace("TEXERE_PANIC = 8,", "TEXERE_PANIC = 8,\nTEXERE_LATER = 9,");
     let more = more.replace("double *share", "double *part") + "\n";
+    let more = more.replace("} texere_settings;", "uint32_t later;\n} texere_settings;");
     assert_eq!(
         broken(&now, &more.replace("uint32_t texere_abi", "void texere_later(void);\nuint32_t texere_abi")),
         ""
     );
+}
+
+/// A struct that grows must not move what lies behind it in another struct, and no member that is
+/// added may lie where an earlier program's struct has padding, which that never sets.
+#[test]
+#[cfg(target_os = "linux")]
+fn structs_that_say_their_size_can_grow() {
+    let now = declarations(&header("include/texere.h"));
+    let sized: BTreeMap<_, _> = now.iter().filter(|(_, body)| says_its_size(body)).collect();
+    assert!(sized.len() > 15, "only {} structs were found in the header", sized.len());
+    let mut code = "#include <texere.h>\n".to_owned();
+    for (name, body) in &sized {
+        for (holder, other) in now.iter().filter(|(_, other)| other.contains(';')) {
+            let held = format!("struct {name} ");
+            let held = other.split(';').any(|member| member.contains(&held) && !member.contains('*'));
+            assert!(!held, "{holder} holds {name}, which can't grow there");
+        }
+        let last = body.trim_end_matches(';').rsplit([' ', '*']).next().unwrap();
+        let last = last.split('[').next().unwrap();
+        let end = format!("offsetof({name}, {last}) + sizeof(({name} *)0)->{last}");
+        code += &format!("_Static_assert(sizeof({name}) == {end}, \"{name} ends with padding\");\n");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sizes.c");
+    std::fs::write(&file, code).unwrap();
+    let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
+    let mut compiler = std::process::Command::new("cc");
+    let checked =
+        compiler.args(["-std=c11", "-fsyntax-only", "-I"]).arg(include).arg(&file).output().unwrap();
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }

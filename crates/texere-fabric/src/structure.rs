@@ -99,8 +99,8 @@ impl Structure {
     pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(_) => repeat.placed(yarns),
-            Self::Weft(knit) => knit.placed(repeat, yarns),
-            Self::Warp(knit) => knit.placed(repeat, yarns),
+            Self::Weft(knit) => knit.placed(repeat, yarns, &mut || Ok(())),
+            Self::Warp(knit) => knit.placed(repeat, yarns, &mut || Ok(())),
         }
     }
 

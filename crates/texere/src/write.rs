@@ -6,7 +6,7 @@
 //!
 //! | to | use |
 //! |---|---|
-//! | write a mesh larger than memory | [`stream`], [`stream_to`] |
+//! | write a mesh larger than memory | [`stream`], [`stream_to`]; with a plan that there is already [`run`], [`run_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
 //! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
 //! | write centrelines for a simulator or a renderer | [`curves`], [`curves_to`] |
@@ -30,8 +30,8 @@
 //! ```
 
 pub use texere_formats::write::{
-    CurveFormat, Format, Output, Written, abandon, curves, curves_to, file, mesh_to, repeat, repeat_to,
-    stream, stream_to, yarns, yarns_to,
+    CurveFormat, Format, Output, Written, abandon, curves, curves_to, file, mesh_to, repeat, repeat_to, run,
+    run_to, stream, stream_to, yarns, yarns_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{

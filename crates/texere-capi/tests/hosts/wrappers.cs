@@ -101,7 +101,7 @@ static unsafe class Wrappers
         {
             Check(check.IsClean == (check.ToString() == "clean"), check.ToString());
             Check(check.Json[0] == '{' && check.MeasuresJson[0] == '{', "JSON");
-            Check(live.Update(out var anew).Length > 0, "the first update makes the whole mesh");
+            Check(live.Update(out var anew).Length > 0 && anew, "the first update makes the whole mesh");
             var (vertices, indices) = (new Vertex[live.Vertices], new uint[live.Indices]);
             live.Mesh(vertices, indices);
             var up = live[2, 3];

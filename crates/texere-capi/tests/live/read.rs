@@ -31,7 +31,7 @@ pub(crate) fn update(live: *const texere_live) -> (Vec<texere_change>, bool) {
     let mut update: texere_update = sized();
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
-        done(texere_live_update(live, &mut update));
+        done(texere_live_update(live, null(), &mut update));
         (std::slice::from_raw_parts(update.changes, update.change_count as usize).to_vec(), update.anew == 1)
     }
 }

@@ -17,8 +17,12 @@ use texere::{Backend, Mesh, Pipeline, Settings, Yarns};
 use texere_c::texere_status::*;
 use texere_c::*;
 
-/// Limits that cut meshes into the same chunks as the library does.
-const LIMITS: Limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
+/// Limits that cut meshes into the same chunks as the library does: 8 MiB for each core, 16 to 64
+/// MiB.
+fn limits() -> Limits {
+    let cores = std::thread::available_parallelism().unwrap().get() as u64;
+    Limits { binding_bytes: (cores << 23).clamp(16 << 20, 64 << 20), ..Limits::NONE }
+}
 
 /// Calls `check` for all yarns on all devices, with the settings that suit the yarns.
 fn everywhere(check: impl Fn(&str, &dyn Backend, &Yarns, &Settings, &Plan)) {
@@ -35,7 +39,7 @@ fn everywhere(check: impl Fn(&str, &dyn Backend, &Yarns, &Settings, &Plan)) {
 }
 
 fn pipeline<'a>(yarns: &'a Yarns, settings: &Settings) -> Pipeline<'a> {
-    Pipeline::new(yarns).settings(*settings).limits(LIMITS)
+    Pipeline::new(yarns).settings(*settings).limits(limits())
 }
 
 fn same_mesh(name: &str, mesh: &Mesh, vertices: &[texere_vertex], indices: &[u32]) {
@@ -191,7 +195,7 @@ fn the_pieces_of_a_stream_are_the_whole_mesh() {
         });
         assert!(draws.eq(own), "{name}: other draws");
         // No piece is larger than a chunk, which bounds what a cancelled call still has to do.
-        assert!(all.most <= (8 << 20) / 24, "{name}: {} vertices in a piece", all.most);
+        assert!(all.most <= limits().binding_bytes / 24, "{name}: {} vertices in a piece", all.most);
     });
 }
 

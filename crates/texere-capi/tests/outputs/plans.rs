@@ -41,6 +41,8 @@ pub(crate) fn subjects() -> Vec<(&'static str, Yarns)> {
     let placed = |name: &'static str| {
         (name, texere::read(designs.join(name)).unwrap().placed(0.0).unwrap().yarns().clone())
     };
+    // 20,000 for each 8 MiB of a chunk.
+    let points = 20_000 * (crate::limits().binding_bytes >> 23) as u32;
     let mut several = Yarns::builder();
     for number in 0..3_u32 {
         let wave = |place: u32| {
@@ -48,7 +50,7 @@ pub(crate) fn subjects() -> Vec<(&'static str, Yarns)> {
             texere::ControlPoint::new(along, number as f32 + (along * 0.7).sin(), (along * 0.3).cos(), 0.1)
         };
         let yarn = texere::Yarn { twist: number as f32, ..texere::Yarn::default() };
-        several.yarn(yarn, &(0..20_000).map(wave).collect::<Vec<_>>());
+        several.yarn(yarn, &(0..points).map(wave).collect::<Vec<_>>());
     }
     let several = ("several chunks", several.build().unwrap());
     vec![placed("denim.toml"), placed("jersey.toml"), placed("tricot.toml"), several]

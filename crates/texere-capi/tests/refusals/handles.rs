@@ -39,7 +39,7 @@ impl Handles {
             let yarns = made(|out| texere_cloth_yarns(cloth, out));
             let plan = made(|out| texere_plan_new(yarns, device, null(), out));
             let live = made(|out| texere_live_of_cloth(cloth, device, null(), out));
-            done(texere_live_update(live, &mut sized()));
+            done(texere_live_update(live, null(), &mut sized()));
             let picker = made(|out| texere_picker_new(yarns, null(), out));
             let check = made(|out| texere_check_new(cloth, null(), TEXERE_ACCURACY, null(), out));
             let renderer = made(|out| texere_renderer_open(null(), 0, out));

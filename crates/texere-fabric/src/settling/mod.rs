@@ -3,6 +3,7 @@
 
 mod error;
 mod finished;
+mod look;
 mod piece;
 mod repeat;
 mod settled;
@@ -16,11 +17,13 @@ use texere_core::{Backend, Layout, Settings, YarnPlace, Yarns};
 
 pub use self::error::FinishError;
 pub use self::finished::Finished;
+pub(crate) use self::look::Look;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
 pub(crate) use self::repeat::settled_together;
 pub use self::settled::{Finish, Press, Settled};
 
+use self::look::tell;
 use self::settled::unchanged;
 use crate::{FabricError, thickness_mm};
 
@@ -69,6 +72,7 @@ pub fn settle(
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
+    tell(&mut progress, 0.0)?;
     let plan = SettlingPlan::new(&piece.settling(finish)).map_err(|source| {
         match source.yarn().and_then(|yarn| piece.yarns.layout().yarns().get(yarn)) {
             Some(yarn) => FinishError::Thread { thread: yarn.origin, source },
@@ -76,7 +80,9 @@ pub fn settle(
         }
     })?;
     let plan = Arc::new(plan);
+    tell(&mut progress, 0.0)?;
     let mut settler = backend.settler(Arc::clone(&plan))?;
+    tell(&mut progress, 0.0)?;
     let (mut course, mut stopped) = (Vec::new(), false);
     // The progress counts with at most `finish.passes` passes of each form. Settling may make 41
     // more: one that measures the start, and forty in which yarns grow.
@@ -95,9 +101,11 @@ pub fn settle(
     }
     let points = settling::settled(&plan, settler.as_mut(), piece.yarns.points())?;
     drop(settler);
+    tell(&mut progress, PASSED)?;
 
     let settings = Settings::default();
     let moved = piece.moved(&points).map_err(FabricError::from)?;
+    tell(&mut progress, PASSED)?;
     let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, |done| {
         progress(PASSED + (COMPARED - PASSED) * done)
     })?;
@@ -122,13 +130,14 @@ const SETTLED: f64 = 0.8;
 /// makes.
 pub(crate) fn settle_repeat(
     repeat: &Repeat,
-    placed: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
+    placed: impl FnOnce(&Yarns, Look<'_>) -> Result<Yarns, FabricError>,
     finish: &Finish,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
     let mut settled = settle(&repeat.piece, finish, backend, |done| progress(SETTLED * done))?;
-    let yarns = placed(&settled.yarns)?;
+    let yarns = placed(&settled.yarns, &mut || tell(&mut progress, SETTLED))?;
+    tell(&mut progress, SETTLED)?;
     let settings = Settings::default();
     settled.clearance =
         clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;

@@ -61,8 +61,13 @@ impl WarpKnitted {
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?.with_tension(tension).map_err(FabricError::from)?;
         let finish = self.finish_of(&repeat, finish);
-        let settled =
-            settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)?;
+        let settled = settle_repeat(
+            &repeat,
+            |yarns, look| self.placed(&repeat, yarns, look),
+            &finish,
+            backend,
+            progress,
+        )?;
         Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
     }
 

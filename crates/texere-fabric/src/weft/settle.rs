@@ -38,7 +38,7 @@ impl Knitted {
         if self.stitches().repeat.is_none() {
             return settle(&repeat.piece, &finish, backend, progress).map(|settled| self.pressed(settled));
         }
-        settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)
+        settle_repeat(&repeat, |yarns, look| self.placed(&repeat, yarns, look), &finish, backend, progress)
             .map(|settled| self.pressed(settled))
     }
 

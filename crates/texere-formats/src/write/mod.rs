@@ -71,7 +71,7 @@ pub use draft::{
 pub use error::WriteError;
 pub use file::file;
 pub use format::Format;
-pub use mesh::{Written, mesh, mesh_to, stream, stream_to};
+pub use mesh::{Written, mesh, mesh_to, run, run_to, stream, stream_to};
 pub use output::Output;
 #[cfg(feature = "pictures")]
 pub use picture::{picture, picture_to};

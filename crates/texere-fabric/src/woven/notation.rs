@@ -15,7 +15,8 @@ pub(super) enum Notation {
     /// less than the length of the row. After `picks` picks the row has come back to its first
     /// place.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
-    /// A column of picks, `base`: as it is for `left` ends, and inverted for the next `right` ends.
+    /// A column of picks, `base`. The first `left` ends have the column as it is, and the next
+    /// `right` ends have it inverted.
     Matt { base: Vec<bool>, left: usize, right: usize },
     /// A twill of move 1 whose line goes one way for `way` ends, and then back.
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },

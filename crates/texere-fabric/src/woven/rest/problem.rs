@@ -14,7 +14,8 @@ use crate::{Drawdown, Thread, Woven};
 pub(super) struct Problem {
     pub(super) repeat: [usize; 2],
     pub(super) crossings: Crossings,
-    /// Half width and half height of each thread's room, as multiples of those of the thread.
+    /// Half width and half height of each thread's room, as multiples of the thread's half width
+    /// and half height.
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The level of each thread of the repeat among its set.
     pub(super) levels: [Vec<u32>; 2],
@@ -52,8 +53,8 @@ impl Problem {
     }
 }
 
-/// Half width and half height of the room that each thread's section takes, as multiples of those
-/// of the thread.
+/// Half width and half height of the room that each thread's section takes, as multiples of the
+/// thread's half width and half height.
 fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
     let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
     [cloth.warp(), cloth.weft()].map(|threads| {

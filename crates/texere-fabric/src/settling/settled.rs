@@ -11,9 +11,9 @@ use crate::{BySet, FabricWarning};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finish {
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
-    /// gets the loop lengths of its program or its gauge, and its lengths are free if a loop has
-    /// neither. A warp knit gets the lengths of its run-ins, and keeps its lengths if a bar with
-    /// yarns has none. All other yarns keep their lengths.
+    /// gets the loop lengths of its program or its gauge, and its lengths are free if neither gives
+    /// a length for some loop. A warp knit gets the lengths of its run-ins, and keeps its lengths
+    /// if a bar with yarns has none. All other yarns keep their lengths.
     pub length: Option<Length>,
     /// Distance of the two plates that press the cloth while yarns settle, mm. A press does not
     /// move yarns that are at rest before settling begins.

@@ -85,7 +85,7 @@ pub struct KnitMeasures {
 /// The share of the cloth that its threads cover, seen from the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
-    /// Peirce's cover factors: threads to the inch over √Ne. That is 28 times the share of the
+    /// Peirce's cover factors: threads to the inch over √Ne. A factor is 28 times the share of the
     /// width that round cotton yarns of the same weight would cover. None if a material that is
     /// used has no tex.
     ///

@@ -143,8 +143,8 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenErr
     } else {
         smallest
     };
-    // In the first pick of a warp-faced satin all ends but the last are up, in that of a weft-faced
-    // one all ends but the first are down.
+    // In the first pick of a warp-faced satin all ends but the last are up. In the first pick of a
+    // weft-faced satin all ends but the first are down.
     let base = (0..ends).map(|end| if warp_faced { end + 1 < ends } else { end == 0 }).collect();
     Ok(Notation::Shifted { base, step, picks: ends })
 }

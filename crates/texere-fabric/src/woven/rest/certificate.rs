@@ -168,7 +168,7 @@ fn thin(
             );
             let (wide, high) = (wide / (wide + high), high / (wide + high));
             // Losses of width and height, weighted by `wide` and `high`, have to make up what is
-            // lacking. These two losses have the least sum of squares among all that do.
+            // lacking. The two losses below have the least sum of squares among all losses that do.
             let both = wide * wide + high * high;
             keep(place, [1.0 - lacking * wide / both, 1.0 - lacking * high / both]);
         }

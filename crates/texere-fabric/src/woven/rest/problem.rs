@@ -9,8 +9,8 @@ use crate::reach::Reach;
 use crate::{Drawdown, Thread, Woven};
 
 /// The part of a cloth that comes to rest: the ends and picks after which its threads and crossings
-/// repeat. A cloth that does not repeat is its own repeat. Its last threads lie beside its first
-/// ones, so that something holds its edges.
+/// repeat. A cloth that does not repeat is its own repeat. In the problem the last threads of the
+/// repeat lie beside the first ones, so that something holds its edges.
 pub(super) struct Problem {
     pub(super) repeat: [usize; 2],
     pub(super) crossings: Crossings,

@@ -29,8 +29,8 @@ pub struct Drawn {
     pub inwards_at: Option<YarnPlace>,
 }
 
-/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. The memory needed is as
-/// much as the yarns have.
+/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. This needs as much memory
+/// as the yarns take.
 ///
 /// **Errors**: [`ContactError::Settings`] for settings that no mesh of `yarns` is made with, and
 /// [`ContactError::OutOfMemory`].

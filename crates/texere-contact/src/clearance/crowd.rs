@@ -10,7 +10,7 @@ use crate::grid::Bounds;
 /// A place that is not measured because its yarns lie in one another many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crowd {
-    /// The place on the thickest yarn there, nearest to the middle.
+    /// The place on the thickest yarn there that is nearest to the middle of the crowd's box.
     pub place: YarnPlace,
     /// Thickness of that yarn, mm: its diameter, or the larger of width and height.
     pub thickness_mm: f64,

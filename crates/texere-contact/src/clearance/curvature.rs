@@ -199,8 +199,8 @@ impl Search<'_> {
         }
     }
 
-    /// How far the section reaches into the bend, mm. It is 0 or less if a polygon that does not
-    /// hold its axis lies on the outer side alone. Then no such bend folds the section.
+    /// How far the section reaches into the bend, mm. It is 0 or less if the section is a polygon
+    /// beside its axis, wholly on the outer side of the bend. The bend then can't fold the section.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {

@@ -235,9 +235,9 @@ pub(super) struct Chords {
 impl Chords {
     /// Calls `start` for each approach of the two polygons. An approach is a pair of chords nearer
     /// than `within` and nearer than all pairs beside it. `start` gets the parameters at which the
-    /// chords come nearest, and the parameters of the chords' middles. With `edges`, a pair at an
-    /// end of an interval also counts if it is nearer than the pairs beside it along that end,
-    /// because an approach may lie further in.
+    /// chords come nearest, and the parameters of the chords' middles. With `edges`, a pair that
+    /// has the first or last chord of an interval also counts if it is nearer than the two pairs
+    /// beside it with that chord. The curves may approach further inside the interval.
     pub(super) fn approaches(
         &self,
         other: &Self,

@@ -16,7 +16,7 @@ use crate::grid::Bounds;
 /// The most intervals ahead for which a yarn is tested to lead straight on.
 const LEAD: usize = 3;
 
-/// Number of control points from one entry of the stored ways to the next.
+/// Number of control points from one entry of [`ways`] to the next: a stride.
 const STRIDE: usize = 64;
 
 const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);
@@ -132,8 +132,8 @@ impl<'a> Line<'a> {
         let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.half_width());
         let heights = [before, start, end, after].map(|point| point.half_height());
         let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
-        // The Bézier polygon holds the curve, for half widths too. Its inner two corners may lie on
-        // either side.
+        // The Bézier polygon holds the curve and its half widths. The polygon's inner two corners
+        // may lie outside the box of its ends, on any side.
         let s = self.s as f32 / 3.0;
         let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);
         let (low, high) =

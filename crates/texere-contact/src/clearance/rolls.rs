@@ -200,8 +200,9 @@ impl IntervalRolls {
         let place = t * steps as f64;
         let before = (place.max(0.0) as usize).min(steps - 1);
         let (from, share) = (self.at_rings[before], place - before as f64);
-        // An upright frame may flip between two rings. A section in a rotation-minimising frame
-        // does not.
+        // Rolls are measured from the upright frame, which may flip between two rings. A section in
+        // a rotation-minimising frame does not flip, so its roll is computed at `t` instead of
+        // mixed from both rings.
         let carried = self.minimizing.and_then(|(twist, given_back)| {
             let [start, velocity, _] = cubic.path(before as f64 / steps as f64);
             let [end, end_velocity, _] = cubic.path(t);

@@ -135,8 +135,8 @@ pub trait Backend: fmt::Debug + Send + Sync {
 
     /// Opens an engine for a plan. The engine owns all the device memory that its work needs.
     ///
-    /// **Errors**: [`BackendError`] if memory is short, the device fails, or it or its schedule
-    /// can't do the work.
+    /// **Errors**: [`BackendError`] if memory is short, the device fails, or the device or its
+    /// schedule can't do the work.
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError>;
 
     /// Opens a settler for a plan. The settler owns all the device memory that its work needs.

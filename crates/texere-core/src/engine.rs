@@ -175,8 +175,9 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Works out the length of yarn before each block's start, for the yarns of
     /// [`ScanChunks::yarns`]. Chunks come as in [`Engine::scan`].
     ///
-    /// The provided method fails with [`BackendError::NoAttributes`]. It suits engines that make no
-    /// attributes, as do those of [`Engine::attributes`] and [`Engine::read_attributes`].
+    /// The provided method fails with [`BackendError::NoAttributes`], as do those of
+    /// [`Engine::attributes`] and [`Engine::read_attributes`]. They suit engines that make no
+    /// attributes.
     fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let _ = chunks;
         Err(BackendError::NoAttributes)
@@ -204,8 +205,8 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Makes the packed vertices of `chunk`, in memory of their own in `slot`. They need no mesh,
     /// and no indices are made.
     ///
-    /// The provided method fails with [`BackendError::NoPacking`]. It suits engines that pack no
-    /// vertices, as does that of [`Engine::read_packed`].
+    /// The provided method fails with [`BackendError::NoPacking`], as does that of
+    /// [`Engine::read_packed`]. They suit engines that pack no vertices.
     fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let _ = (slot, chunk);
         Err(BackendError::NoPacking)
@@ -297,7 +298,8 @@ impl<'a> ScanChunks<'a> {
         (self.watch)()
     }
 
-    /// The yarns whose rolls, or lengths, are asked for.
+    /// The yarns whose rolls ([`Engine::scan`]) or lengths ([`Engine::measure`]) the engine works
+    /// out.
     #[must_use]
     pub const fn yarns(&self) -> Range<usize> {
         self.yarns.start..self.yarns.end

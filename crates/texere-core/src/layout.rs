@@ -65,7 +65,7 @@ pub struct Yarn {
 }
 
 impl Yarn {
-    /// The least number of control points that such a yarn needs.
+    /// The least number of control points that the yarn needs.
     pub(crate) const fn points_least(&self) -> u64 {
         if self.closed { 3 } else { 2 }
     }
@@ -252,7 +252,7 @@ impl Layout {
         !self.leaning.is_empty()
     }
 
-    /// The up directions of the control points of `yarn`, unit vectors. They are
+    /// The up directions, or *ups*, of the control points of `yarn`, unit vectors. They are
     /// [given](crate::Yarns::with_ups), or worked out for a flattened yarn that is vertical at a
     /// control point, or whose upright frame would turn about the yarn by more than 15 degrees
     /// within a control interval. Ups that are worked out follow the upright frame where it turns

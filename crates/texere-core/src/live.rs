@@ -73,8 +73,8 @@ pub struct Change {
 impl LiveMesh {
     /// Makes room for the whole mesh of `plan` on `device`, in chunks cut to the device's limits.
     ///
-    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or it or its
-    /// schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
+    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or the device or
+    /// its schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
     }

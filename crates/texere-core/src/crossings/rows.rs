@@ -7,8 +7,7 @@ use crate::backend::room;
 const BESIDE_MAX: i32 = 16;
 
 /// The largest shift sideways: a quarter of a unit, or two fifths of the distance to the nearer
-/// neighbour if that is less. Without bounds, threads pass through one another, or the steps stop
-/// short.
+/// neighbour if that is less. Without bounds, threads pass through one another.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// A thread. Lengths are in the plan's unit.

@@ -36,12 +36,12 @@ const CLEAR: f32 = 0.995;
 /// The least radius of curvature at rest, as a share of [`BEND_RADIUS`].
 const BENT: f32 = 0.99;
 
-/// The largest difference at rest of an interval's length from the length asked for, as a share of
-/// the latter.
+/// The largest difference at rest between an interval's length and the length that it aims for, as
+/// a share of the length that it aims for.
 const LENGTH: f32 = 0.01;
 
-/// The number of passes in which the [lack](Run::lack) must fall to [`STALLED`] of what it was.
-/// Otherwise the weighted form has stalled.
+/// The number of passes in which the [lack](Run::lack) must fall to [`STALLED`] of what it was. If
+/// it falls less, the weighted form has stalled.
 const STALLS: u32 = 20;
 
 /// The share to which the lack must fall within [`STALLS`] passes.

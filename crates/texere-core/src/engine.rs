@@ -88,8 +88,8 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// A caller without a session has to keep these rules itself. An engine whose kernels check no
 /// bounds must check the two rules that memory safety depends on: the chunk belongs to its plan
-/// ([`Plan::owns`](crate::backend::Plan::owns)), and it is loaded in the slot. Otherwise it returns
-/// [`BackendError::NotLoaded`].
+/// ([`Plan::owns`](crate::backend::Plan::owns)), and it is loaded in the slot. If a caller breaks
+/// either rule, the engine returns [`BackendError::NotLoaded`].
 ///
 /// Calls may return before their work is done, except those that read.
 ///

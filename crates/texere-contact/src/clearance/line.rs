@@ -150,8 +150,8 @@ impl<'a> Line<'a> {
     /// a common knot at most.
     ///
     /// The test is whether the tangents lie within 45 degrees of one direction. Then no part of the
-    /// yarn leads back, and any two places that are π/2 times their reach apart along the yarn are
-    /// more than [`CLEARANCE_NEAR`] times their reach apart in space, whatever the section.
+    /// yarn leads back. Two places that lie π/2 times their reach apart along the yarn are more
+    /// than [`CLEARANCE_NEAR`] times their reach apart in space, whatever the section.
     pub(super) fn leads_on(&self, from: usize, to: usize) -> bool {
         if to - from > LEAD {
             return false;

@@ -86,8 +86,9 @@ pub struct Clearance {
 ///
 /// Surfaces are those of a mesh with `settings`, without its facets: sections stand on the spline
 /// with the roll and the flattening that they have on its rings. A ply that lies in another yarn's
-/// furrow touches where the surfaces do, not where their hulls would. Each pair of yarn parts
-/// within [`CLEARANCE_NEAR`] counts with its nearest approach.
+/// furrow touches where the surfaces do, not where their hulls would. A contact is a place where
+/// two yarns, or two parts of one, are nearer to one another than anywhere close by. Contacts up to
+/// the ratio [`CLEARANCE_NEAR`] count.
 ///
 /// Two places of one yarn count if they are at least π/2 times the sum of their radii apart along
 /// the chords between control points. Nearer places can only meet in a bend tighter than the yarn

@@ -179,9 +179,9 @@ impl IntervalRolls {
         self.at_rings.is_empty()
     }
 
-    /// Whether the frame is rotation-minimising. Rolls are then measured from the upright frame.
-    /// Otherwise they are measured from the frame along which the yarn is flattened, which may
-    /// lean.
+    /// Whether the frame is rotation-minimising. In such a frame rolls are measured from the
+    /// upright frame. In an upright frame they are measured from the frame along which the yarn is
+    /// flattened, which may lean.
     pub(super) fn is_carried(&self) -> bool {
         self.minimizing.is_some()
     }

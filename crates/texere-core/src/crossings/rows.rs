@@ -51,7 +51,7 @@ impl Site {
 }
 
 /// Number `at` moved on by `by` among `count` threads. If the threads repeat, the first follows the
-/// last. Otherwise there is none before the first or after the last.
+/// last. If they do not repeat, there is none before the first or after the last.
 pub(super) fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
     let to = at.wrapping_add_signed(by as isize);
     if to < count {

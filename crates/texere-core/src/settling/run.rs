@@ -26,8 +26,8 @@ const STEP_PASSES: u32 = 4;
 /// is 0.
 const EASES: [f32; 2] = [0.3, 0.6];
 
-/// The largest random move of a point along each axis at the start, in diameters. Symmetric yarns
-/// could otherwise balance at places that are not at rest.
+/// The largest random move of a point along each axis at the start, in diameters. Without these
+/// moves, symmetric yarns could balance at places that are not at rest.
 const JITTER: f32 = 0.01;
 
 /// The distance, divided by the sum of both reaches, from which on yarns count as clear.

@@ -10,7 +10,7 @@
 //! | the driver, and its order of calls | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
 //! | the work of one device | [`Engine`], [`ScanChunks`] |
 //! | a callback that says whether a scan goes on | [`ScanWatch`] |
-//! | callbacks and slices that results are written to | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
+//! | callbacks and slices that receive results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
 //! | a mesh that stays on the device | [`LiveMesh`], [`Edits`], [`Draw`] |
 //! | allocations that may fail | [`zeroed`], [`filled`], [`room`], [`room_for`] |
 //! | points with virtual ends | [`PaddedPoints`], [`renew_virtual_ends`] |

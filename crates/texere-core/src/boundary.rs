@@ -132,8 +132,8 @@ impl Boundary {
         &self.ends
     }
 
-    /// How far the copy at which a repeating yarn goes on is moved along x and y, mm. It is 0 for a
-    /// yarn that does not repeat.
+    /// A repeating yarn goes on at a copy of its first control point. This is how far that copy is
+    /// moved along x and y, mm. It is 0 for a yarn that does not repeat.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

@@ -73,9 +73,9 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// - Control points come within the plan's range. Results of control points that were replaced are
 ///   not read afterwards.
-/// - If the plan needs a scan, it comes after any number of uploads and before the next stage. A
-///   session scans all yarns at once. A live mesh scans each run of neighbouring yarns that have
-///   changed.
+/// - If the plan needs a scan, the scan comes after any number of uploads and before the next
+///   stage. A session scans all yarns at once. A live mesh scans each run of neighbouring yarns
+///   that have changed.
 /// - Every chunk is one of the plan's own, or a patch of one. A patch is the chunk with only some
 ///   rows of its block table. Its results have the places that they have in the whole chunk. A
 ///   chunk is loaded into a slot before a stage runs for it there. While a chunk's results are
@@ -109,8 +109,8 @@ pub trait Engine: Any + fmt::Debug + Send {
         take_over_host(self, settler)
     }
 
-    /// Whether the engine supports [`LiveMesh`](crate::backend::LiveMesh): it has as many slots as
-    /// are asked for, works on patches of chunks without touching the chunk's other results, and
+    /// Whether the engine supports [`LiveMesh`](crate::backend::LiveMesh): it has a slot for every
+    /// chunk of a mesh, works on patches of chunks without touching the chunk's other results, and
     /// takes edited plans. Its backend says the same in [`Capabilities::edit`].
     ///
     /// The provided method answers false.

@@ -79,8 +79,8 @@ pub const TWIST_LIMIT: f32 = 1e3;
 /// control points.
 pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
 
-/// All data of yarns that decide counts and offsets, their up directions, and the tension of their
-/// splines. Positions and materials are in [`Yarns`](crate::Yarns).
+/// The data of yarns on which counts and offsets depend, with the yarns' up directions and the
+/// tension of their splines. Positions and materials are in [`Yarns`](crate::Yarns).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     offsets: Vec<u64>,

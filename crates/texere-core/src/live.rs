@@ -10,8 +10,8 @@ use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
-/// The whole mesh of a fabric on a device. Yarns can be edited. Then only the changed yarns are
-/// sent and scanned again, and only the changed parts of the mesh are made again.
+/// The whole mesh of a fabric on a device. Yarns can be edited. After an edit only the changed
+/// yarns are sent and scanned again, and only the changed parts of the mesh are made again.
 ///
 /// A [`Session`](crate::backend::Session) works chunk by chunk in the memory of two chunks, while a
 /// live mesh keeps the meshes of all chunks. With [room](Plan::with_room) in the plan, a yarn may

@@ -65,7 +65,7 @@ impl Crowd {
         })
     }
 
-    /// Upper bound of the least ratio in the crowd, infinite if none is known.
+    /// Upper bound of the least ratio in the crowd, infinite if no bound is known.
     pub(super) fn ratio_max(&self) -> f64 {
         if self.fill > 1.0 { self.fill.sqrt().recip() } else { f64::INFINITY }
     }

@@ -74,8 +74,8 @@ impl Part {
         [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
 
-    /// The cross product of velocity and acceleration, of degree two. The lengths of its
-    /// coefficients are the coefficients of an upper bound of its length.
+    /// The cross product of velocity and acceleration, of degree two. The lengths of the product's
+    /// coefficients are the coefficients of an upper bound of the product's length.
     fn turn(&self) -> [DVec3; 3] {
         let [u, v, w] = self.velocity;
         [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn / self.length)

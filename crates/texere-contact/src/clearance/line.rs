@@ -38,9 +38,9 @@ pub(super) struct Line<'a> {
     ways: &'a [f64],
 }
 
-/// Way along the chords from the fabric's first control point to every 64th one, mm. The ways of
-/// consecutive yarns are added as if they were one yarn. The way between two points of a yarn is a
-/// difference of two entries and a few chords.
+/// Way along the chords from the fabric's first control point to every 64th control point, mm. The
+/// ways of consecutive yarns are added as if they were one yarn. The way between two points of a
+/// yarn is the difference of two entries, plus a few chords.
 pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
     let stride = |start: usize| -> f64 {
         let chords = points[start..points.len().min(start + STRIDE + 1)].windows(2);

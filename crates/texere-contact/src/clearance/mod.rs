@@ -58,7 +58,8 @@ pub struct Clearance {
     /// each pair of control intervals.
     pub contacts: u64,
     /// Number of contacts whose ratio is below 1 by more than [`CLEARANCE_ACCURACY`]. Threads that
-    /// touch by construction have many, since splines between their control points come to 0.99.
+    /// touch by construction have many such contacts, since splines between their control points
+    /// come to 0.99.
     pub below_one: u64,
     /// Number of contacts that pierce: their ratio is below [`CLEAR`].
     pub piercing: u64,

@@ -97,13 +97,13 @@ impl<'a> Pair<'a> {
                 ratio,
             });
         };
-        // Intervals of yarns that are so much thicker than their control points lie apart are
-        // discs. Only their hulls count.
+        // If a yarn is so much thicker than its control points lie apart, its intervals are discs.
+        // Only their hulls count.
         let discs = self.curves.into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && self.surfaces().iter().any(|surface| !surface.is_simple()) {
             self.touching(add);
             // A pair like this takes as long as thousands of other pairs, so a request to stop is
-            // noticed at once.
+            // looked for after each.
             return watch.advance(0);
         }
         let round = self.curves[0].round && self.curves[1].round;

@@ -1,5 +1,5 @@
-//! The places where two intervals come nearest to one another, with each replaced by the straight
-//! tube along its tangent.
+//! The places where two intervals come nearest to one another, with each interval replaced by the
+//! straight tube along its tangent.
 //!
 //! The result is close to that of the true surfaces if the sections neither turn nor have lobes,
 //! and a few steps suffice.

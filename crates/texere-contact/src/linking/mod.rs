@@ -38,7 +38,7 @@ const TASK: usize = 1024;
 /// both windows before is compared with the integral after. The yarns have passed if the integral
 /// has changed by more than [`LINKING_CHANGE`]. In cloth that is bent, stretched, sheared or rolled
 /// up, it changes by 0.13 at most. If an end changes sides, or a stitch is dropped or pulled, it
-/// changes by 0.86 to 1.03 (0.8 half a pitch from an edge).
+/// changes by 0.86 to 1.03, and half a pitch from the cloth's edge by 0.8.
 ///
 /// A window has eight control intervals, or reaches five diameters each way if that is more. It
 /// holds a crossing and the yarn on both sides of it, and is too short for passages to cancel out.

@@ -71,7 +71,7 @@ pub struct Rest {
 /// breaks off, the best places so far are left.
 ///
 /// Yarns grow from a quarter of their thickness, and bends are soft at first. Passes of the
-/// weighted form are made until the yarns are at rest, the form stalls, or there may be no more.
+/// weighted form are made until the yarns are at rest, the form stalls, or the plan allows no more.
 /// Passes of the block form follow, at most as many as there may be of the weighted form at full
 /// thickness.
 ///

@@ -4,7 +4,7 @@ use super::Length;
 use crate::{Boundary, ControlPoint, Layout, Yarns};
 
 /// Yarns that are to come to rest. At rest they nowhere pierce one another, nowhere fold, and have
-/// the lengths that [`Settling::length`] sets.
+/// the lengths that [`Settling::length()`] sets.
 ///
 /// ```
 /// use texere_core::settling::{Settling, SettlingPlan};

@@ -1,5 +1,5 @@
-//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every
-//! change, `cargo xtask mutate`, which it runs every week, measurements, and pictures.
+//! Tasks of the repository. CI runs `cargo xtask test` and `cargo xtask check` on every change, and
+//! `cargo xtask mutate` every week. Other tasks measure, draw pictures, and install.
 
 mod bench_tables;
 mod bundle;
@@ -126,8 +126,8 @@ fn consumer(steps: &mut Steps) {
     steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
-/// Installs Debian's `packages` if they are missing and can be installed. Without the software
-/// devices the suite ignores a backend, or fails if `TEXERE_REQUIRE` names it.
+/// Installs Debian's `packages` if they are missing and can be installed. If no device runs a
+/// backend, the suite leaves that backend out, or fails if `TEXERE_REQUIRE` names it.
 fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
     if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
@@ -144,8 +144,8 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
 /// included.
 const LINKED_MOST: usize = 36;
 
-/// Compiles and tests the facade without features and with each feature of a format or of pictures
-/// alone. Counts its packages with the default features.
+/// Compiles and tests the package `texere` without features, and then with one feature at a time.
+/// Counts the packages that it links with its default features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "pictures", "ply", "toml", "wif"] {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
@@ -183,7 +183,7 @@ fn check(steps: &mut Steps) {
     features(steps);
     let documented = ["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"];
     steps.cargo("docs", &documented, &[("RUSTDOCFLAGS", "-D warnings -A rustdoc::private_intra_doc_links")]);
-    // The docs of the facade with all features, and with the default ones.
+    // The docs of the package `texere` with all features, and with the default ones.
     for features in [&["--all-features"][..], &[]] {
         let facade = [&["doc", "--package", "texere", "--no-deps", "--locked"], features].concat();
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);

@@ -1,6 +1,6 @@
 //! Gives the shared library a soname with the number of the binary interface: a program then finds
-//! the library that it was built for, even if others are installed beside it. Sets the configuration
-//! `vulkan` if the library can lend objects of Vulkan.
+//! the library that it was built for, even if others are installed beside it. Sets the
+//! configuration `vulkan` if the library can lend objects of Vulkan.
 
 use std::error::Error;
 

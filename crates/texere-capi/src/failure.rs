@@ -5,14 +5,13 @@ use std::error::Error;
 use std::ffi::CString;
 use std::io;
 use std::iter::successors;
-use std::path::Path;
 
 use texere::backend::{OutOfMemory, SessionError};
 use texere::check::ContactError;
 use texere::mesh::{LiveError, PickError};
 #[cfg(feature = "render")]
 use texere::picture::RenderError;
-use texere::read::{FilePlace, Refusal};
+use texere::read::{FaultPlace, Refusal, fault_place};
 use texere::rest::{CrossingsError, FinishError, SettlingError};
 use texere::woven::WovenError;
 use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
@@ -59,7 +58,12 @@ impl<E: Error + 'static> From<E> for Failure {
         let causes = || successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
         let message = causes().map(ToString::to_string).collect::<Vec<_>>().join(": ");
         let status = causes().filter_map(status_of).last().unwrap_or(TEXERE_ARGUMENT);
-        Self { status, message, place: causes().filter_map(place_of).last() }
+        let place = fault_place(error).map(|FaultPlace { file, line, column }| Place {
+            file: lendable(file.to_string_lossy()),
+            line: line as u64,
+            column: column as u64,
+        });
+        Self { status, message, place }
     }
 }
 
@@ -171,51 +175,4 @@ fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
         };
     }
     None
-}
-
-/// The place in a design's file that an error names, if it names one.
-fn place_of(error: &(dyn Error + 'static)) -> Option<Place> {
-    let at = |file: &Path, line: usize, column: usize| {
-        let file = lendable(file.to_string_lossy());
-        Some(Place { file, line: line as u64, column: column as u64 })
-    };
-    if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
-        return place_of(&**error);
-    }
-    if let Some(Refusal::Key { place: FilePlace { file, line, .. }, .. }) = error.downcast_ref() {
-        return at(file, *line, 0);
-    }
-    match error.downcast_ref()? {
-        ReadError::Word { file, line, column, .. } => at(file, *line, *column),
-        ReadError::Syntax { file, line, .. } => at(file, *line, 0),
-        ReadError::BadValue { place, .. }
-        | ReadError::OutOfRange { place, .. }
-        | ReadError::UnknownKey { place, .. }
-        | ReadError::Value { place, .. }
-        | ReadError::Without { place, .. }
-        | ReadError::Weave { place, .. }
-        | ReadError::Chart { place, .. }
-        | ReadError::Chain { place, .. }
-        | ReadError::Named { place, .. }
-        | ReadError::Corner { place, .. }
-        | ReadError::Section { place, .. }
-        | ReadError::Cloth { place, .. } => at(&place.file, place.line, 0),
-        ReadError::Boundary { file, .. }
-        | ReadError::Bytes { file, .. }
-        | ReadError::ExactlyOne { file, .. }
-        | ReadError::Fabric { file, .. }
-        | ReadError::Feature { file, .. }
-        | ReadError::Image { file, .. }
-        | ReadError::ImageTooLarge { file, .. }
-        | ReadError::Io { file, .. }
-        | ReadError::MissingKey { file, .. }
-        | ReadError::MissingSection { file, .. }
-        | ReadError::NotAFile { file, .. }
-        | ReadError::Pixel { file, .. }
-        | ReadError::TooLarge { file, .. }
-        | ReadError::UnknownKind { file, .. }
-        | ReadError::WithoutDesign { file, .. }
-        | ReadError::Yarns { file, .. } => at(file, 0, 0),
-        _ => None,
-    }
 }

@@ -11,8 +11,8 @@ use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Scan
 use crate::plan::BLOCK_RINGS;
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
-/// The whole mesh of a fabric on a device. Yarns can be edited. Then only the changed yarns are
-/// sent and scanned again, and only the changed parts of the mesh are made again.
+/// The whole mesh of a fabric on a device. Yarns can be edited. After an edit only the changed
+/// yarns are sent and scanned again, and only the changed parts of the mesh are made again.
 ///
 /// A [`Session`](crate::backend::Session) works chunk by chunk in the memory of two chunks, while a
 /// live mesh keeps the meshes of all chunks. With [room](Plan::with_room) in the plan, a yarn may
@@ -78,8 +78,8 @@ pub struct Change {
 impl LiveMesh {
     /// Makes room for the whole mesh of `plan` on `device`, in chunks cut to the device's limits.
     ///
-    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or it or its
-    /// schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
+    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or the device or
+    /// its schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
     }

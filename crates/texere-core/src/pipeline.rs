@@ -49,10 +49,10 @@ impl std::fmt::Debug for Pipeline<'_> {
 }
 
 impl<'a> Pipeline<'a> {
-    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, upright, indexed, no caps.
-    /// If that undersamples twist, K is as large as [`Settings::following`] makes it. Tubes with a
-    /// polygon section have as many sides as the polygon has corners. [`Pipeline::subdivisions`]
-    /// and [`Pipeline::sides`] override both.
+    /// A pipeline for `yarns` with the paper's settings: one point between two control points (K =
+    /// 1), six sides (nc = 6), upright, indexed, no caps. If that undersamples twist, K is as large
+    /// as [`Settings::following`] makes it. Tubes with a polygon section have as many sides as the
+    /// polygon has corners. [`Pipeline::subdivisions`] and [`Pipeline::sides`] override both.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
@@ -218,9 +218,9 @@ impl<'a> Pipeline<'a> {
     /// The whole mesh, in host memory.
     ///
     /// **Errors**: the errors of [`Pipeline::plan`]; [`PipelineError::Plan`] if not even one block
-    /// fits the limits; [`PipelineError::Backend`] if memory is short, the device fails, or it or
-    /// its schedule can't do the work; [`PipelineError::Session`] for a settler of other yarns; and
-    /// [`PipelineError::Cancelled`] if the progress callback asks to stop.
+    /// fits the limits; [`PipelineError::Backend`] if memory is short, the device fails, or the
+    /// device or its schedule can't do the work; [`PipelineError::Session`] for a settler of other
+    /// yarns; and [`PipelineError::Cancelled`] if the progress callback asks to stop.
     pub fn mesh(self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
         let materials = self.yarns.materials().clone();
         let (plan, chunks, run) = self.start(device)?;

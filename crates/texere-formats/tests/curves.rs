@@ -1,5 +1,5 @@
-//! Files of curves: BCC, byte by byte and read again, and USD's text form, evaluated by its own
-//! bases.
+//! Files of curves. BCC is checked byte by byte and read again. USD's text form is evaluated with
+//! the matrices of the bases that USD defines.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 

@@ -1,4 +1,5 @@
-//! Writes an STL file, a format that texere does not have, piece by piece: `cargo run --example stl`.
+//! Writes an STL file, a format that texere does not have, piece by piece:
+//! `cargo run --example stl`.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};

@@ -1,8 +1,8 @@
 //! The items that a backend implements and uses, and those that drive a backend chunk by chunk.
 //!
 //! [docs/BACKENDS.md](https://github.com/texere/texere/blob/main/docs/BACKENDS.md) describes step by
-//! step how to write a backend. The rest of the names that a backend needs are in [`mesh`](crate::mesh)
-//! ([`Limits`](crate::mesh::Limits), [`MeshPiece`](crate::mesh::MeshPiece),
+//! step how to write a backend. The rest of the names that a backend needs are in
+//! [`mesh`](crate::mesh) ([`Limits`](crate::mesh::Limits), [`MeshPiece`](crate::mesh::MeshPiece),
 //! [`Attribute`](crate::mesh::Attribute), [`PackedVertex`](crate::mesh::PackedVertex)) and at the
 //! root ([`Backend`](crate::Backend), [`BackendError`](crate::BackendError),
 //! [`DeviceInfo`](crate::DeviceInfo)).

@@ -142,8 +142,8 @@
 //! Lengths are in mm, angles in radians, twist in rad/mm
 //! ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y
 //! along the warp or wale, z out of the technical face; right-handed. Triangles are
-//! counter-clockwise as seen from outside. Yarns, control points, ends and picks are counted from 0 in
-//! calls, and from 1 in texts for weavers.
+//! counter-clockwise as seen from outside. Yarns, control points, ends and picks are counted from 0
+//! in calls, and from 1 in texts for weavers.
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height.
 //!   *Interval* j of the spline runs from point j to the next.

@@ -8,12 +8,13 @@
 //! | make a picture in memory | [`Scene::picture`], which gives a [`Picture`] |
 //! | choose the quality, and the background | [`Quality`], [`Background`] |
 //! | know which yarn a pixel shows | [`Scene::seen_at`], which gives a [`Seen`] |
+//! | have depths, normals and yarns of all pixels | [`Scene::layers`], which gives [`Layers`] |
 //!
 //! [`open_renderer`] has an example.
 
 pub use texere_render::{
-    Background, Camera, Cut, DevicePicture, Extent, Picture, PictureTimings, Pose, Quality, RenderError,
-    Renderer, Scene, Seen, picture_sides,
+    Background, Camera, Cut, DevicePicture, Extent, Layers, Picture, PictureTimings, Pose, Quality,
+    RenderError, Renderer, Scene, Seen, picture_sides,
 };
 
 pub use crate::device::{open_renderer, picture_device};

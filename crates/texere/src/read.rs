@@ -13,10 +13,12 @@
 //! |---|---|
 //! | read yarns that were saved, without settling them again | [`yarns`], [`yarns_from`], which give [`SavedYarns`] |
 //! | read curves that another program wrote, as round yarns | [`curves`], [`curves_from`], with a [`CurveScale`] |
-//! | know file, line and field of an error | [`FilePlace`] |
+//! | know file, line and field of an error | [`FilePlace`]; of an error of any type [`fault_place`], which gives a [`FaultPlace`] |
 //! | know why a whole design is refused | [`Refusal`] |
 //! | know which steps a knitting machine could not do | [`MachineFault`] |
 //! | say in words where a yarn was picked | [`Design::named`](crate::Design::named), which gives a [`NamedPlace`] |
 
-pub use texere_formats::read::{CurveScale, SavedYarns, curves, curves_from, yarns, yarns_from};
+pub use texere_formats::read::{
+    CurveScale, FaultPlace, SavedYarns, curves, curves_from, fault_place, yarns, yarns_from,
+};
 pub use texere_formats::{FilePlace, MachineFault, NamedPlace, ProgramPlace, Refusal};

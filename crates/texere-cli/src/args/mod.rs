@@ -84,9 +84,9 @@ pub(crate) struct InspectArgs {
 pub(crate) struct CheckArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
-    /// How much nearer than touching two yarns may come before they count as piercing, as a share.
-    /// Yarns whose control points are placed to touch come as near as 0.99 of touching between the
-    /// points
+    /// How much nearer than touching two yarns may come before they count as piercing, as a share
+    /// of the distance at which they touch. Between control points that are placed to touch, yarns
+    /// come as near as 0.99 of that distance
     #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
     pub(crate) accuracy: f64,
     #[command(flatten)]

@@ -16,7 +16,7 @@ pub(crate) fn is_curves(path: &Path) -> bool {
     CurveFormat::from_path(path).is_ok()
 }
 
-/// The parser of a path that must have the ending of a mesh file, of curves or of saved yarns.
+/// The parser of a path whose ending must be that of a mesh, of curves or of saved yarns.
 pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match Format::from_path(&path) {
         Err(error) if !is_yarns(&path) && !is_curves(&path) => {

@@ -28,7 +28,8 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
     }
 }
 
-/// The curves of a cloth have its control points, and go where no mesh would.
+/// Files of curves hold the control points of the cloth at rest. Writing them from saved yarns
+/// needs no device.
 #[test]
 fn curves_are_those_of_the_cloth_at_rest() {
     let folder = tempfile::tempdir().unwrap();

@@ -33,8 +33,8 @@ use super::tubes;
 use crate::ContactError;
 use crate::watch::Watch;
 
-/// The reach of a section, in lengths of its interval, from which the section counts by its hull
-/// alone, untwisted.
+/// A section that reaches more than this many lengths of its interval counts by its hull alone,
+/// untwisted.
 const DISC: f64 = 64.0;
 
 /// The greatest difference of two places that count as one, in intervals along either curve.
@@ -99,13 +99,13 @@ impl<'a> Pair<'a> {
                 ratio,
             });
         };
-        // Intervals of yarns that are so much thicker than their control points lie apart are
-        // discs. Only their hulls count.
+        // If a yarn is so much thicker than its control points lie apart, its intervals are discs.
+        // Only their hulls count.
         let discs = self.curves.into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && self.surfaces().iter().any(|surface| !surface.is_simple()) {
             self.touching(add);
             // A pair like this takes as long as thousands of other pairs, so a request to stop is
-            // noticed at once.
+            // looked for after each.
             return watch.advance(0);
         }
         let round = self.curves[0].round && self.curves[1].round;
@@ -142,7 +142,7 @@ impl<'a> Pair<'a> {
         extent(0).is_clear_of(extent(1), self.near)
     }
 
-    /// Whether two places count as a contact. Places of one yarn do only if they are far enough
+    /// Whether two places count as a contact. Places of one yarn count only if they are far enough
     /// from one another along the yarn. Nearer places meet in a fold.
     fn is_apart(&self, place: DVec2) -> bool {
         let ([a, b], [one, other]) = (self.curves, self.parts);
@@ -220,7 +220,7 @@ impl<'a> Pair<'a> {
                 keep(approach);
             }
         });
-        // The chords may have only one approach for two in one valley.
+        // Where the curves approach twice in one valley, the chords may have only one approach.
         while !discs && valley.get() {
             let known = least.get();
             let nearer = nearer(&a.cubic, &b.cubic, known.min(self.near) - CLEARANCE_ACCURACY);

@@ -33,7 +33,7 @@ pub(super) enum Points<'a> {
 }
 
 /// A plan that is run on a device, chunk by chunk, with its results in the caller's memory. A
-/// program that has a plan and its chunks already uses a run in place of a
+/// program that already has a plan and its chunks can use a run instead of a
 /// [`Pipeline`](crate::Pipeline), which plans and cuts each time.
 ///
 /// ```

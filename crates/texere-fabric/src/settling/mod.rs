@@ -27,10 +27,10 @@ use self::look::tell;
 use self::settled::unchanged;
 use crate::{FabricError, thickness_mm};
 
-/// The share of the progress at which the passes end.
+/// The share of the progress at which all passes have been made.
 const PASSED: f64 = 0.9;
-/// The share of the progress at which the comparison ends that tells whether yarns have passed
-/// through one another.
+/// The share of the progress at which the start and the end have been compared, to find yarns that
+/// have passed through one another.
 const COMPARED: f64 = 0.95;
 
 /// Lets the yarns of `piece` settle on `backend`. They move until they nowhere pierce one another,
@@ -84,8 +84,8 @@ pub fn settle(
     let mut settler = backend.settler(Arc::clone(&plan))?;
     tell(&mut progress, 0.0)?;
     let (mut course, mut stopped) = (Vec::new(), false);
-    // The progress counts with at most `finish.passes` passes of each form. Settling may make 41
-    // more: one that measures the start, and forty in which yarns grow.
+    // The progress assumes at most `finish.passes` passes of each of the two forms of settling.
+    // Settling may make 41 more passes: one that measures the start, and forty in which yarns grow.
     let (mut made, most) = (0.0, 2.0 * f64::from(finish.passes));
     let rest = settling::settle(&plan, settler.as_mut(), |pass, seen| {
         if finish.record {
@@ -148,8 +148,8 @@ pub(crate) fn settle_repeat(
     Ok(Settled { yarns, ..settled })
 }
 
-/// `place`, on a yarn of the repeat, as the same place on the first yarn of `placed` with the same
-/// origin.
+/// `place` lies on a yarn of the repeat. The result is the same place on the first yarn of `placed`
+/// that has the same origin.
 fn placed_at(place: &YarnPlace, repeat: &Layout, placed: &Layout) -> YarnPlace {
     let origin = repeat.yarns()[place.yarn].origin;
     let yarn = placed.yarns().iter().position(|yarn| yarn.origin == origin);

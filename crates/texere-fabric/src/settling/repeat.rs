@@ -9,8 +9,9 @@ use super::Piece;
 use super::look::Look;
 use crate::FabricError;
 
-/// The fewest wales and courses of a piece that settles, if the cloth has as many. With so many, a
-/// stitch's neighbour over the seam is another stitch.
+/// The fewest wales, and the fewest courses, of a piece that settles, unless the cloth itself has
+/// fewer. In a piece of this size, the neighbour of a stitch across the seam between two repeats is
+/// another stitch, and not a copy of the stitch itself.
 const SETTLED: u32 = 4;
 
 /// The control points that are copied between two looks whether to go on, some 5 ms of a slow core.
@@ -178,8 +179,9 @@ pub(crate) fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
     [0, 1].map(|axis| tiles(size[axis], copies[axis]))
 }
 
-/// The fewest repeats along one axis that divide `copies` and together have [`SETTLED`] wales or
-/// courses, if each has `size`. If no number up to 16 does, it is all `copies`.
+/// The smallest number of repeats along one axis that divides `copies`, and that has at least
+/// [`SETTLED`] wales or courses in all. One repeat has `size` of them. If no number up to 16 fits,
+/// the result is `copies`.
 fn tiles(size: u32, copies: u32) -> u32 {
     let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
     (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)

@@ -13,8 +13,8 @@ use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 
 /// A warp-knitted cloth: guide bars, the distances between loops, and yarns.
 ///
-/// All guides of a bar move alike, except those of a Jacquard bar. The laps repeat after some wales
-/// and courses. Only one repeat settles, and is then copied.
+/// All guides of a bar move alike, except the guides of a Jacquard bar. The laps of all bars repeat
+/// after some wales and courses. One such repeat settles, and is then copied.
 ///
 /// ```
 /// use texere_core::{Material, Section};

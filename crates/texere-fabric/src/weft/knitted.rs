@@ -143,8 +143,8 @@ impl Knitted {
 
     /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. A yarn
     /// that goes on from repeat to repeat is cut three control points beyond the cloth at both
-    /// ends, unless the cloth has [`Cells::Even`]. A leg runs straight at this point. The cut end
-    /// therefore bends as it does in the repeat, and touches nothing.
+    /// ends, unless the cloth has [`Cells::Even`]. The third point lies in a leg, which runs
+    /// straight there. The cut end therefore bends as it does in the repeat, and touches nothing.
     pub(crate) fn placed(
         &self,
         repeat: &Repeat,
@@ -174,8 +174,9 @@ impl Knitted {
     /// The piece of cloth that settles, and the number of its copies in the whole cloth.
     ///
     /// A cloth that repeats settles as one repeat that goes on at all its edges. Several small
-    /// repeats form one piece. A cloth that does not repeat settles as a whole. The ends of its
-    /// yarns, the arcs between loops of its first course and the heads on needles are pinned.
+    /// repeats form one piece. A cloth that does not repeat settles as a whole. Some of its points
+    /// are pinned: the ends of its yarns, the arcs between loops of its first course, and the heads
+    /// of loops that hang on needles when the program ends.
     ///
     /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {

@@ -7,6 +7,7 @@ mod design;
 #[cfg(feature = "toml")]
 mod design_file;
 mod error;
+mod fault_place;
 mod file;
 #[cfg(feature = "toml")]
 mod image_file;
@@ -33,6 +34,7 @@ use std::path::Path;
 pub use curves::{CurveScale, curves, curves_from};
 pub use design::Design;
 pub use error::{FilePlace, ReadError};
+pub use fault_place::{FaultPlace, fault_place};
 use file::Files;
 pub use machine_fault::MachineFault;
 pub use named_place::NamedPlace;
